@@ -1,0 +1,251 @@
+#include "core/moment_form.hpp"
+
+#include "core/contact.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tvbeam {
+
+namespace {
+
+bool uses(const Field& field, Eigen::Index profile) {
+    return std::any_of(field.terms.begin(), field.terms.end(),
+                       [&](const Field::Term& term) { return term.profile == profile; });
+}
+
+} // namespace
+
+MomentForm::MomentForm(const Beam& beam, const ProblemData& data, const Mesh& mesh, ThermalMass mass,
+                       double dt, const Needs& needs)
+    : beam_(beam), data_(data), mesh_(mesh), heat_(needs.temperature || beam.alpha != 0.0),
+      bending_(needs.deflection || beam.alpha != 0.0), coupled_(beam.alpha != 0.0),
+      stops_(bending_ && beam.stops.exist()), leading_(1.0 / dt),
+      kappa_(1.0 / (1.0 + beam.zeta * leading_)) {
+    if (heat_) {
+        Tridiagonal matrix =
+            thermal_mass_matrix(mesh_, mass) * leading_ + stiffness_matrix(mesh_);
+        if (coupled_)
+            matrix = matrix + thermal_mass_matrix(mesh_, ThermalMass::consistent) *
+                                  (beam_.alpha * beam_.alpha * leading_ * kappa_);
+        factor_ = TridiagonalFactor(matrix);
+        inverse_lengths_ = mesh_.lengths.inverse();
+        increment_ = Eigen::VectorXd::Zero(mesh_.elements() - 1);
+    }
+    load_initial_state(needs);
+    load_profiles();
+    if (stops_)
+        find_contact_response();
+    if (needs.curvature && bending_)
+        for (const auto& profile : data_.profiles)
+            projections_.push_back(project(mesh_, profile));
+    counters_.doubles_allocated = static_cast<std::int64_t>(projections_.size()) * 2 * mesh_.elements() + 2 * factor_.order() + inverse_lengths_.size() + loads_.size() +
+                                  lever_load_.size() + response_.size() + theta_.size() +
+                                  w_.nodal.size() + w_.rest.size() + increment_.size() +
+                                  balance_.size();
+}
+
+void MomentForm::load_initial_state(const Needs& needs) {
+    const Eigen::Index s = mesh_.elements();
+    const auto profiles = static_cast<Eigen::Index>(data_.profiles.size());
+    Eigen::VectorXd amplitudes;
+    if (data_.amplitude_count > 0)
+        amplitudes = data_.amplitudes(Eigen::ArrayXd::Zero(1)).col(0).matrix();
+    if (heat_) {
+        Eigen::ArrayXd values = Eigen::ArrayXd::Zero(s + 1);
+        for (const auto& term : data_.theta_initial.terms)
+            values += amplitudes(term.amplitude) *
+                      data_.profiles[static_cast<std::size_t>(term.profile)](mesh_.nodes);
+        if (data_.theta_initial.rest)
+            values += data_.theta_initial.rest(mesh_.nodes, 0.0);
+        theta_ = (values - beam_.theta_A * (1.0 - mesh_.nodes)).matrix();
+        theta_(0) = 0.0;
+        theta_(s) = 0.0;
+    }
+    if (bending_) {
+        w_.weights = Eigen::VectorXd::Zero(profiles + 1);
+        weight_changes_ = w_.weights;
+        for (const auto& term : data_.curvature_initial.terms)
+            w_.weights(term.profile) += amplitudes(term.amplitude);
+        const auto& rest = data_.curvature_initial.rest;
+        if (rest)
+            w_.rest = project(mesh_, [&](const Eigen::ArrayXd& x) { return rest(x, 0.0); });
+        else if (data_.moment_load.rest)
+            w_.rest = DiscontinuousLinear::Zero(2, s);
+    }
+    if (coupled_) {
+        w_.nodal = Eigen::VectorXd::Zero(s + 1);
+        balance_ = Eigen::VectorXd::Zero(s + 1);
+    }
+    if (!needs.temperature && !coupled_)
+        theta_.resize(0);
+}
+
+void MomentForm::load_profiles() {
+    const Eigen::Index inner = mesh_.elements() - 1;
+    const auto lever = static_cast<Eigen::Index>(data_.profiles.size());
+    const auto lever_function = [](const Eigen::ArrayXd& x) -> Eigen::ArrayXd { return 1.0 - x; };
+    const bool lever_used = stops_ || (coupled_ && beam_.theta_A != 0.0);
+
+    tip_moments_ = Eigen::VectorXd::Zero(lever + 1);
+    std::vector<Eigen::VectorXd> loads;
+    for (Eigen::Index r = 0; r <= lever; ++r) {
+        const bool bends = r == lever ? lever_used
+                                      : bending_ && (uses(data_.moment_load, r) ||
+                                                     uses(data_.curvature_initial, r));
+        const bool heats = r < lever && heat_ && uses(data_.heat_source, r);
+        if (!bends && !heats)
+            continue;
+        LoadProfile profile = load_profile(
+            mesh_, r == lever ? lever_function : data_.profiles[static_cast<std::size_t>(r)]);
+        tip_moments_(r) = profile.tip_moment;
+        if (r == lever && stops_)
+            lever_load_ = profile.hat_load;
+        if (heats || (bends && coupled_)) {
+            columns_.push_back(r);
+            loads.emplace_back(profile.hat_load.segment(1, inner));
+        }
+    }
+    load_weights_ = tip_moments_;
+    loads_.resize(inner, static_cast<Eigen::Index>(loads.size()));
+    for (std::size_t k = 0; k < loads.size(); ++k)
+        loads_.col(static_cast<Eigen::Index>(k)) = loads[k];
+}
+
+void MomentForm::find_contact_response() {
+    compliance_ = kappa_ / 3.0; // ∫ (1 − x)² dx = 1/3
+    if (!coupled_)
+        return;
+    const Eigen::Index inner = mesh_.elements() - 1;
+    response_ = Eigen::VectorXd::Zero(mesh_.elements() + 1);
+    response_.segment(1, inner) =
+        beam_.alpha * leading_ * kappa_ * lever_load_.segment(1, inner);
+    factor_.solve_in_place(response_.segment(1, inner));
+    compliance_ -= kappa_ * beam_.alpha * response_.dot(lever_load_);
+}
+
+std::string MomentForm::step(double t, const Eigen::Ref<const Eigen::VectorXd>& amplitudes) {
+    ++counters_.steps;
+    DiscontinuousLinear rest_change;
+    if (bending_) {
+        // −κ (w* + Πμ), part by part; the nodal part follows with the temperature.
+        weight_changes_ = w_.weights;
+        for (const auto& term : data_.moment_load.terms)
+            weight_changes_(term.profile) += amplitudes(term.amplitude);
+        if (coupled_)
+            weight_changes_.tail<1>()(0) += beam_.alpha * beam_.theta_A;
+        weight_changes_ *= -kappa_;
+        if (w_.rest.size() > 0) {
+            rest_change = w_.rest;
+            if (const auto& rest = data_.moment_load.rest) {
+                rest_change +=
+                    project(mesh_, [&](const Eigen::ArrayXd& x) { return rest(x, t); });
+                ++counters_.source_evaluations;
+            }
+            rest_change *= -kappa_;
+        }
+        ++counters_.beam_solves;
+    }
+    if (heat_)
+        solve_heat(t, amplitudes, rest_change);
+    if (bending_) {
+        w_.weights += weight_changes_;
+        if (w_.rest.size() > 0)
+            w_.rest += rest_change;
+    }
+    if (stops_)
+        make_contact();
+    if (!data_.heat_source.is_zero() || !data_.moment_load.is_zero())
+        ++counters_.load_updates;
+
+    if (heat_ && !std::isfinite(increment_.sum()))
+        return "the temperature is not finite";
+    if (bending_ && !(w_.weights.allFinite() && std::isfinite(stress_) && std::isfinite(w_.rest.sum())))
+        return "the curvature is not finite";
+    return {};
+}
+
+void MomentForm::solve_heat(double t, const Eigen::Ref<const Eigen::VectorXd>& amplitudes,
+                            const DiscontinuousLinear& rest_change) {
+    const Eigen::Index s = mesh_.elements();
+    const Eigen::Index inner = s - 1;
+    const auto theta = theta_.array();
+    auto rhs = increment_.array();
+    // −KΘ* as differences of fluxes: the differences of neighbours are exact in floating point.
+    rhs = (theta.tail(inner) - theta.segment(1, inner)) * inverse_lengths_.tail(inner) -
+          (theta.segment(1, inner) - theta.head(inner)) * inverse_lengths_.head(inner);
+    const double exchange = beam_.alpha * leading_; // α c
+    if (coupled_) {
+        balance_ = w_.nodal + beam_.alpha * theta_;
+        const auto v = balance_.array();
+        const auto& h = mesh_.lengths;
+        rhs -= exchange * kappa_ / 6.0 *
+               (h.head(inner) * (v.head(inner) + 2.0 * v.segment(1, inner)) +
+                h.tail(inner) * (2.0 * v.segment(1, inner) + v.tail(inner)));
+        if (rest_change.size() > 0)
+            rhs += exchange * hat_loads(mesh_, rest_change).segment(1, inner).array();
+        ++counters_.coupling_updates;
+    }
+    if (loads_.cols() > 0) {
+        load_weights_.setZero();
+        for (const auto& term : data_.heat_source.terms)
+            load_weights_(term.profile) += amplitudes(term.amplitude);
+        if (coupled_)
+            load_weights_ += exchange * weight_changes_;
+        for (std::size_t k = 0; k < columns_.size(); ++k)
+            increment_ += load_weights_(columns_[k]) * loads_.col(static_cast<Eigen::Index>(k));
+    }
+    if (const auto& rest = data_.heat_source.rest) {
+        increment_ += hat_loads(mesh_, [&](const Eigen::ArrayXd& x) { return rest(x, t); })
+                          .segment(1, inner);
+        ++counters_.source_evaluations;
+    }
+    factor_.solve_in_place(increment_);
+    ++counters_.heat_solves;
+    theta_.segment(1, inner) += increment_;
+    if (coupled_)
+        w_.nodal.segment(1, inner) -=
+            kappa_ * (balance_.segment(1, inner) + beam_.alpha * increment_);
+}
+
+void MomentForm::make_contact() {
+    stress_ = tvbeam::contact_stress(beam_.stops, tip_displacement(), compliance_);
+    ++counters_.tip_evaluations;
+    if (stress_ == 0.0)
+        return;
+    ++counters_.contact_steps;
+    w_.weights.tail<1>()(0) += kappa_ * stress_;
+    if (coupled_) {
+        theta_ += stress_ * response_;
+        w_.nodal -= (kappa_ * beam_.alpha * stress_) * response_;
+    }
+}
+
+double MomentForm::tip_displacement() const {
+    double tip = w_.weights.dot(tip_moments_);
+    if (coupled_)
+        tip += lever_load_.size() > 0
+                   ? w_.nodal.dot(lever_load_)
+                   : w_.nodal.dot(hat_loads(mesh_, [](const Eigen::ArrayXd& x) -> Eigen::ArrayXd {
+                         return 1.0 - x;
+                     }));
+    if (w_.rest.size() > 0)
+        tip += tip_moment(mesh_, w_.rest);
+    return tip;
+}
+
+DiscontinuousLinear MomentForm::curvature() const {
+    const Eigen::Index s = mesh_.elements();
+    DiscontinuousLinear w = w_.rest.size() > 0 ? w_.rest : DiscontinuousLinear::Zero(2, s).eval();
+    for (std::size_t r = 0; r < data_.profiles.size(); ++r)
+        if (const double weight = w_.weights(static_cast<Eigen::Index>(r)); weight != 0.0)
+            w += weight * (projections_.empty() ? project(mesh_, data_.profiles[r]) : projections_[r]);
+    const Eigen::VectorXd continuous =
+        (coupled_ ? w_.nodal : Eigen::VectorXd::Zero(s + 1).eval()) +
+        w_.weights.tail<1>()(0) * (1.0 - mesh_.nodes).matrix();
+    w.row(0) += continuous.head(s).transpose().array();
+    w.row(1) += continuous.tail(s).transpose().array();
+    return w;
+}
+
+} // namespace tvbeam

@@ -1,0 +1,42 @@
+#include "core/quadrature.hpp"
+
+#include <gsl/gsl_integration.h>
+
+#include <memory>
+#include <new>
+
+namespace tvbeam {
+
+GaussRule GaussRule::of(Eigen::Index points) {
+    using Table = std::unique_ptr<gsl_integration_glfixed_table,
+                                  decltype(&gsl_integration_glfixed_table_free)>;
+    const Table table(gsl_integration_glfixed_table_alloc(static_cast<std::size_t>(points)),
+                      &gsl_integration_glfixed_table_free);
+    if (!table)
+        throw std::bad_alloc();
+    GaussRule rule{Eigen::ArrayXd(points), Eigen::ArrayXd(points)};
+    for (Eigen::Index q = 0; q < points; ++q)
+        gsl_integration_glfixed_point(0.0, 1.0, static_cast<std::size_t>(q), &rule.points(q),
+                                      &rule.weights(q), table.get());
+    return rule;
+}
+
+const GaussRule& element_rule() {
+    static const GaussRule rule = GaussRule::of(6);
+    return rule;
+}
+
+Eigen::ArrayXXd element_points(const Mesh& mesh, Eigen::Index first, Eigen::Index count) {
+    const GaussRule& rule = element_rule();
+    return (rule.points.matrix() * mesh.lengths.segment(first, count).matrix().transpose())
+               .array()
+               .rowwise() +
+           mesh.nodes.segment(first, count).transpose();
+}
+
+Eigen::ArrayXXd at_points(const SpaceFunction& phi, const Eigen::ArrayXXd& points) {
+    const Eigen::ArrayXd values = phi(points.reshaped());
+    return values.reshaped(points.rows(), points.cols());
+}
+
+} // namespace tvbeam

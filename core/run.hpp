@@ -1,0 +1,46 @@
+#pragma once
+
+#include "core/mesh.hpp"
+#include "core/norms.hpp"
+#include "core/problem.hpp"
+#include "core/scheme.hpp"
+#include "core/solver.hpp"
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace tvbeam {
+
+/// How a run ended.
+enum class RunStatus {
+    ok,
+    failed ///< diverged, overflowed, or could not start; RunResult::reason says why and where
+};
+
+/// One march of one scheme over one mesh, from 0 to final_time in `steps` equal steps.
+struct RunRequest {
+    Beam beam;
+    Mesh mesh;
+    Scheme scheme;
+    double final_time = 0.0;
+    std::int64_t steps = 0;
+    std::vector<Norm> norms; ///< need data.exact
+};
+
+struct RunResult {
+    RunStatus status = RunStatus::ok;
+    std::string reason;         ///< empty when ok
+    std::vector<double> errors; ///< in the order of RunRequest::norms; empty when failed
+    Counters counters;
+};
+
+/// The solver for a scheme, at t = 0. Throws std::domain_error when it cannot start.
+std::unique_ptr<Solver> make_solver(const Beam& beam, const ProblemData& data, const Mesh& mesh,
+                                    const Scheme& scheme, double dt, const Needs& needs);
+
+/// Runs to the end or to the first step that fails. Does not throw for a failing run.
+RunResult run(const RunRequest& request, const ProblemData& data);
+
+} // namespace tvbeam

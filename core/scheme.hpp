@@ -1,0 +1,20 @@
+#pragma once
+
+#include "core/linear_elements.hpp"
+
+namespace tvbeam {
+
+/// How one step of (24)–(25) is solved.
+enum class Algorithm {
+    direct,     ///< the moment form: one elimination, contact by one exact scalar step
+    fixed_point ///< the paper's: Hermite nodal basis, iteration between temperature and deflection
+};
+
+/// The discretisation that a run uses, besides mesh and step.
+struct Scheme {
+    Algorithm algorithm = Algorithm::direct;
+    ThermalMass thermal_mass = ThermalMass::consistent;
+    double tolerance = 1e-7; ///< fixed point only: largest change of a nodal value of θ and u in the last iteration
+};
+
+} // namespace tvbeam

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <Eigen/Core>
+
+namespace tvbeam {
+
+/// A symmetric tridiagonal matrix of order n.
+struct Tridiagonal {
+    Eigen::VectorXd diagonal; ///< shape: n
+    Eigen::VectorXd coupling; ///< entry (i, i+1) = (i+1, i); shape: n − 1
+
+    Tridiagonal operator+(const Tridiagonal& other) const;
+    Tridiagonal operator*(double factor) const;
+    Eigen::VectorXd operator*(const Eigen::VectorXd& x) const;
+};
+
+/// A = L D Lᵀ of a symmetric positive definite tridiagonal matrix, by elimination without pivoting.
+class TridiagonalFactor {
+public:
+    TridiagonalFactor() = default;
+
+    /// Throws std::domain_error when a pivot is not positive and finite.
+    explicit TridiagonalFactor(const Tridiagonal& matrix);
+
+    /// x ← A⁻¹ x.
+    void solve_in_place(Eigen::Ref<Eigen::VectorXd> x) const;
+
+    [[nodiscard]] Eigen::Index order() const { return inverse_pivots_.size(); }
+
+private:
+    Eigen::VectorXd multipliers_;    // l_i = A(i, i−1) / d_{i−1}; l_0 is not used
+    Eigen::VectorXd inverse_pivots_; // 1 / d_i
+};
+
+} // namespace tvbeam
