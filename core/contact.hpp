@@ -4,12 +4,12 @@
 
 namespace tvbeam {
 
-/// Contact of the tip with rigid stops (6)–(8), for a step whose tip answers linearly to the contact stress:
-/// u(1) = free_tip + λ·compliance with compliance > 0.
+/// Contact of the tip with rigid stops (6)–(8), for a step whose tip answers linearly to the
+/// contact stress: u(1) = free_tip + λ·compliance with compliance > 0.
 ///
-/// Returns the λ of the variational inequality (25): 0 when the free tip is admissible; otherwise the one that
-/// puts the tip on the stop it passed, λ > 0 at g1 and λ < 0 at g2. No iteration: in one unknown the projection
-/// is the exact solution. NaN in, NaN out.
+/// Returns the λ of the variational inequality (25): 0 when the free tip is admissible; otherwise
+/// the one that puts the tip on the stop it passed, λ > 0 at g1 and λ < 0 at g2. No iteration: in
+/// one unknown the projection is the exact solution. NaN in, NaN out.
 double contact_stress(const Stops& stops, double free_tip, double compliance);
 
 } // namespace tvbeam

@@ -9,8 +9,7 @@ Deflection deflection(const Mesh& mesh, const DiscontinuousLinear& curvature) {
         const double h = mesh.lengths(j);
         const double left = curvature(0, j);
         const double right = curvature(1, j);
-        nodal.value(j + 1) =
-            nodal.value(j) + h * (nodal.slope(j) + h * (2.0 * left + right) / 6.0);
+        nodal.value(j + 1) = nodal.value(j) + h * (nodal.slope(j) + h * (2.0 * left + right) / 6.0);
         nodal.slope(j + 1) = nodal.slope(j) + h * (left + right) / 2.0;
     }
     return nodal;
@@ -18,8 +17,7 @@ Deflection deflection(const Mesh& mesh, const DiscontinuousLinear& curvature) {
 
 DiscontinuousLinear curvature(const Mesh& mesh, const Deflection& nodal) {
     const Eigen::Index s = mesh.elements();
-    const Eigen::ArrayXd chord =
-        (nodal.value.tail(s) - nodal.value.head(s)).array() / mesh.lengths;
+    const Eigen::ArrayXd chord = (nodal.value.tail(s) - nodal.value.head(s)).array() / mesh.lengths;
     const auto left = nodal.slope.head(s).array();
     const auto right = nodal.slope.tail(s).array();
     DiscontinuousLinear w(2, s);

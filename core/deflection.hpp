@@ -12,11 +12,12 @@ struct Deflection {
     Eigen::VectorXd slope; ///< U_x(x_i)
 };
 
-/// U from its curvature w = U_xx: U_x = ∫_0^x w, U = ∫_0^x (x − y) w dy, clamped at x = 0 (5); exact.
+/// U from its curvature w = U_xx: U_x = ∫_0^x w, U = ∫_0^x (x − y) w dy, clamped at x = 0 (5);
+/// exact.
 Deflection deflection(const Mesh& mesh, const DiscontinuousLinear& curvature);
 
-/// The curvature of the cubic with nodal values U and slopes U_x; the inverse of deflection(). Its round-off
-/// grows like h⁻² times that of U.
+/// The curvature of the cubic with nodal values U and slopes U_x; the inverse of deflection(). Its
+/// round-off grows like h⁻² times that of U.
 DiscontinuousLinear curvature(const Mesh& mesh, const Deflection& nodal);
 
 } // namespace tvbeam

@@ -12,7 +12,9 @@ namespace tvbeam {
 
 namespace {
 
-constexpr std::size_t index(Quantity quantity) { return static_cast<std::size_t>(quantity); }
+constexpr std::size_t index(Quantity quantity) {
+    return static_cast<std::size_t>(quantity);
+}
 
 QuantitySet all_quantities(const std::vector<Norm>& norms) {
     QuantitySet set{};
@@ -58,7 +60,9 @@ double split_square(const Mesh& mesh, const ErrorProfiles& profiles, const Eigen
 }
 
 /// A square that round-off made negative is zero; NaN stays NaN.
-double non_negative(double square) { return square < 0.0 ? 0.0 : square; }
+double non_negative(double square) {
+    return square < 0.0 ? 0.0 : square;
+}
 
 } // namespace
 
@@ -97,8 +101,8 @@ private:
     Eigen::VectorXd error_;
 };
 
-/// ‖w − u_xx‖² for w = a + Σ c_r Πφ_r + c_lever(1 − x) and u_xx = Σ τ_r φ_r: with γ = c − τ the error is
-/// (a + c_lever(1 − x) + Σ γ_r I_hφ_r) + Σ γ_r (Πφ_r − I_hφ_r) − Σ τ_r (φ_r − Πφ_r).
+/// ‖w − u_xx‖² for w = a + Σ c_r Πφ_r + c_lever(1 − x) and u_xx = Σ τ_r φ_r: with γ = c − τ the
+/// error is (a + c_lever(1 − x) + Σ γ_r I_hφ_r) + Σ γ_r (Πφ_r − I_hφ_r) − Σ τ_r (φ_r − Πφ_r).
 class ErrorNorms::SplitCurvatureError {
 public:
     SplitCurvatureError(const ProblemData& data, const Mesh& mesh)
@@ -128,7 +132,8 @@ public:
     }
 
     [[nodiscard]] std::int64_t size() const {
-        return profiles_.nodal.size() + profiles_.defect_load.size() + lever_.size() + error_.size();
+        return profiles_.nodal.size() + profiles_.defect_load.size() + lever_.size() +
+               error_.size();
     }
 
 private:
@@ -136,18 +141,20 @@ private:
     const Field& field_;
     ProfileSelection selection_;
     ErrorProfiles profiles_;
-    Eigen::MatrixXd between_; // (Πφ_r − I_hφ_r, Πφ_s − I_hφ_s) = Q − P, as φ − Πφ is orthogonal to P1disc
+    Eigen::MatrixXd
+        between_; // (Πφ_r − I_hφ_r, Πφ_s − I_hφ_s) = Q − P, as φ − Πφ is orthogonal to P1disc
     Eigen::VectorXd lever_;
     Eigen::VectorXd tau_;
     Eigen::VectorXd gamma_;
     Eigen::VectorXd error_;
 };
 
-/// Squares of errors by quadrature of the pointwise error; exact functions are read through their profiles at all
-/// quadrature points where they separate.
+/// Squares of errors by quadrature of the pointwise error; exact functions are read through their
+/// profiles at all quadrature points where they separate.
 class ErrorNorms::Pointwise {
 public:
-    Pointwise(const Beam& beam, const ProblemData& data, const Mesh& mesh, const QuantitySet& needed)
+    Pointwise(const Beam& beam, const ProblemData& data, const Mesh& mesh,
+              const QuantitySet& needed)
         : beam_(beam), data_(data), mesh_(mesh), needed_(needed),
           points_(element_points(mesh, 0, mesh.elements())),
           weights_((element_rule().weights.matrix() * mesh.lengths.matrix().transpose()).array()) {
@@ -162,8 +169,8 @@ public:
                 }
     }
 
-    std::array<double, quantity_count> squares(double t, const Solver& solver,
-                                               const Eigen::Ref<const Eigen::VectorXd>& amplitudes) {
+    std::array<double, quantity_count>
+    squares(double t, const Solver& solver, const Eigen::Ref<const Eigen::VectorXd>& amplitudes) {
         const auto exact = fields();
         const auto& xi = element_rule().points;
         const Eigen::Index s = mesh_.elements();
@@ -172,7 +179,8 @@ public:
             const std::size_t q = index(quantity);
             Eigen::ArrayXXd error = discrete;
             for (const auto& term : exact[q]->terms)
-                error -= amplitudes(term.amplitude) * tables_[static_cast<std::size_t>(term.profile)];
+                error -=
+                    amplitudes(term.amplitude) * tables_[static_cast<std::size_t>(term.profile)];
             if (const auto& rest = exact[q]->rest)
                 error -= rest(points_.reshaped(), t).reshaped(points_.rows(), points_.cols());
             result[q] = (error.square() * weights_).sum();
@@ -230,10 +238,10 @@ private:
                                          .array());
         if (needs(Quantity::u)) {
             const Eigen::RowVectorXd h2 = h.cwiseProduct(h);
-            integrate(Quantity::u, (one * value + at * h.cwiseProduct(slope) +
-                                    half_square * h2.cwiseProduct(left) +
-                                    sixth_cube * h2.cwiseProduct(change))
-                                       .array());
+            integrate(Quantity::u,
+                      (one * value + at * h.cwiseProduct(slope) +
+                       half_square * h2.cwiseProduct(left) + sixth_cube * h2.cwiseProduct(change))
+                          .array());
         }
     }
 

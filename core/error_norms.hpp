@@ -14,15 +14,18 @@ namespace tvbeam {
 
 class MomentForm;
 
-/// Accumulates error norms against an exact solution along a run. Only the quantities that a requested norm needs are
-/// integrated. Two ways of integrating one quantity, the same to round-off:
+/// Accumulates error norms against an exact solution along a run. Only the quantities that a
+/// requested norm needs are integrated. Two ways of integrating one quantity, the same to
+/// round-off:
 ///
-/// - split: where the exact function is a sum of products, ‖Θ − θ‖ and ‖U_xx − u_xx‖ of the moment form come from nodal
+/// - split: where the exact function is a sum of products, ‖Θ − θ‖ and ‖U_xx − u_xx‖ of the moment
+/// form come from nodal
 ///   errors and constants (ErrorProfiles), a few operations a node;
 /// - pointwise: anything else is evaluated at the quadrature points of every element.
 class ErrorNorms {
 public:
-    /// data.exact must be set; data must outlive the object. moment_form: the solver when it is one, else null.
+    /// data.exact must be set; data must outlive the object. moment_form: the solver when it is
+    /// one, else null.
     ErrorNorms(const Beam& beam, const ProblemData& data, const Mesh& mesh,
                const std::vector<Norm>& norms, const MomentForm* moment_form);
     ~ErrorNorms();
@@ -38,7 +41,8 @@ public:
     void add(double t, double dt, const Solver& solver,
              const Eigen::Ref<const Eigen::VectorXd>& amplitudes);
 
-    /// The norms so far, in the order in which they were asked for; NaN or infinite when the error is.
+    /// The norms so far, in the order in which they were asked for; NaN or infinite when the error
+    /// is.
     [[nodiscard]] std::vector<double> values() const;
 
     /// Spatial norms integrated so far.

@@ -21,8 +21,8 @@ std::array<double, 4> cubics(double xi, double h, int derivative) {
         return {1.0 + xi * xi * (2.0 * xi - 3.0), h * xi * (1.0 - xi) * (1.0 - xi),
                 xi * xi * (3.0 - 2.0 * xi), h * xi * xi * (xi - 1.0)};
     case 1:
-        return {6.0 * xi * (xi - 1.0) / h, (1.0 - xi) * (1.0 - 3.0 * xi),
-                6.0 * xi * (1.0 - xi) / h, xi * (3.0 * xi - 2.0)};
+        return {6.0 * xi * (xi - 1.0) / h, (1.0 - xi) * (1.0 - 3.0 * xi), 6.0 * xi * (1.0 - xi) / h,
+                xi * (3.0 * xi - 2.0)};
     default:
         return {(12.0 * xi - 6.0) / (h * h), (6.0 * xi - 4.0) / h, (6.0 - 12.0 * xi) / (h * h),
                 (6.0 * xi - 2.0) / h};
@@ -30,7 +30,9 @@ std::array<double, 4> cubics(double xi, double h, int derivative) {
 }
 
 /// Row of d that belongs to local cubic k of element j; negative at the clamped end (5).
-Eigen::Index unknown(Eigen::Index element, int k) { return 2 * element - 2 + k; }
+Eigen::Index unknown(Eigen::Index element, int k) {
+    return 2 * element - 2 + k;
+}
 
 /// (g, η_j^{(derivative)}); shape: 2s
 Eigen::VectorXd cubic_loads(const Mesh& mesh, const SpaceFunction& g, int derivative) {
@@ -44,8 +46,8 @@ Eigen::VectorXd cubic_loads(const Mesh& mesh, const SpaceFunction& g, int deriva
                 const auto eta = cubics(rule.points(q), h, derivative);
                 for (int k = 0; k < 4; ++k)
                     if (const Eigen::Index row = unknown(first + e, k); row >= 0)
-                        loads(row) += h * rule.weights(q) * values(q, e) *
-                                      eta[static_cast<std::size_t>(k)];
+                        loads(row) +=
+                            h * rule.weights(q) * values(q, e) * eta[static_cast<std::size_t>(k)];
             }
     });
     return loads;
@@ -85,8 +87,8 @@ void HermiteForm::assemble(ThermalMass mass) {
     mass_ = thermal_mass_matrix(mesh_, mass);
     heat_ = TridiagonalFactor(mass_ + stiffness_matrix(mesh_) * dt_);
 
-    // Entries in closed form, not by quadrature: the rows of B then annihilate rigid motions as well as floating point
-    // allows, and the round-off of the method is no larger than it must be.
+    // Entries in closed form, not by quadrature: the rows of B then annihilate rigid motions as
+    // well as floating point allows, and the round-off of the method is no larger than it must be.
     std::vector<Eigen::Triplet<double>> b;
     std::vector<Eigen::Triplet<double>> c;
     for (Eigen::Index j = 0; j < s; ++j) {
@@ -116,8 +118,9 @@ void HermiteForm::assemble(ThermalMass mass) {
     coupling_.setFromTriplets(c.begin(), c.end());
     bending_factor_.compute(bending_);
     if (bending_factor_.info() != Eigen::Success)
-        throw std::domain_error("the matrix B of the Hermite cubics is not positive definite in "
-                                "floating point: its condition grows like h^-4; use the direct algorithm");
+        throw std::domain_error(
+            "the matrix B of the Hermite cubics is not positive definite in "
+            "floating point: its condition grows like h^-4; use the direct algorithm");
 
     Eigen::VectorXd tip = Eigen::VectorXd::Zero(2 * s);
     tip(2 * s - 2) = dt_ / (dt_ + beam_.zeta);
@@ -140,26 +143,29 @@ void HermiteForm::project_initial_state() {
             return values;
         };
     };
-    theta_ = (initial(data_.theta_initial)(mesh_.nodes) - beam_.theta_A * (1.0 - mesh_.nodes)).matrix();
+    theta_ =
+        (initial(data_.theta_initial)(mesh_.nodes) - beam_.theta_A * (1.0 - mesh_.nodes)).matrix();
     theta_(0) = 0.0;
     theta_(s) = 0.0;
-    deflection_ =
-        bending_factor_.solve(cubic_loads(mesh_, initial(data_.curvature_initial), 2));
+    deflection_ = bending_factor_.solve(cubic_loads(mesh_, initial(data_.curvature_initial), 2));
 }
 
-Eigen::VectorXd HermiteForm::heat_load(double t, const Eigen::Ref<const Eigen::VectorXd>& amplitudes) {
+Eigen::VectorXd HermiteForm::heat_load(double t,
+                                       const Eigen::Ref<const Eigen::VectorXd>& amplitudes) {
     const Eigen::Index inner = mesh_.elements() - 1;
     Eigen::VectorXd load = Eigen::VectorXd::Zero(inner);
     for (const auto& term : data_.heat_source.terms)
         load += amplitudes(term.amplitude) * loads_[static_cast<std::size_t>(term.profile)].hat;
     if (const auto& rest = data_.heat_source.rest) {
-        load += hat_loads(mesh_, [&](const Eigen::ArrayXd& x) { return rest(x, t); }).segment(1, inner);
+        load +=
+            hat_loads(mesh_, [&](const Eigen::ArrayXd& x) { return rest(x, t); }).segment(1, inner);
         ++counters_.source_evaluations;
     }
     return load;
 }
 
-Eigen::VectorXd HermiteForm::beam_load(double t, const Eigen::Ref<const Eigen::VectorXd>& amplitudes) {
+Eigen::VectorXd HermiteForm::beam_load(double t,
+                                       const Eigen::Ref<const Eigen::VectorXd>& amplitudes) {
     const Eigen::Index s = mesh_.elements();
     Eigen::VectorXd load = Eigen::VectorXd::Zero(2 * s);
     for (const auto& term : data_.couple_load.terms)
@@ -167,11 +173,13 @@ Eigen::VectorXd HermiteForm::beam_load(double t, const Eigen::Ref<const Eigen::V
     for (const auto& term : data_.body_force.terms)
         load -= amplitudes(term.amplitude) * loads_[static_cast<std::size_t>(term.profile)].value;
     if (const auto& rest = data_.couple_load.rest) {
-        load -= cubic_loads(mesh_, [&](const Eigen::ArrayXd& x) { return rest(x, t); }, 1);
+        load -= cubic_loads(
+            mesh_, [&](const Eigen::ArrayXd& x) { return rest(x, t); }, 1);
         ++counters_.source_evaluations;
     }
     if (const auto& rest = data_.body_force.rest) {
-        load -= cubic_loads(mesh_, [&](const Eigen::ArrayXd& x) { return rest(x, t); }, 0);
+        load -= cubic_loads(
+            mesh_, [&](const Eigen::ArrayXd& x) { return rest(x, t); }, 0);
         ++counters_.source_evaluations;
     }
     if (data_.end_moment)
@@ -240,7 +248,9 @@ std::string HermiteForm::step(double t, const Eigen::Ref<const Eigen::VectorXd>&
     return reason.str();
 }
 
-double HermiteForm::tip_displacement() const { return deflection_(deflection_.size() - 2); }
+double HermiteForm::tip_displacement() const {
+    return deflection_(deflection_.size() - 2);
+}
 
 Deflection HermiteForm::nodal_deflection() const {
     const Eigen::Index s = mesh_.elements();

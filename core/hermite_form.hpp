@@ -14,21 +14,22 @@
 
 namespace tvbeam {
 
-/// The algorithm of the paper's Section 3, literally: nodal values c of Θ and values and slopes d of U in the basis
-/// of Hermite cubics η_j, and in every step an iteration between the two fields,
+/// The algorithm of the paper's Section 3, literally: nodal values c of Θ and values and slopes d
+/// of U in the basis of Hermite cubics η_j, and in every step an iteration between the two fields,
 ///
 ///     (M + ΔtK) c^l = M c^{n−1} + αC (d^{n−1} − d^{l−1}) + Δt (f, χ)
 ///     (Δt + ζ) B d^l = ζB d^{n−1} + αΔt Cᵀ c^l + Δt [−(G, η') − (q, η) + m η'(1) + λ η(1)]
 ///     C_ij = (χ_i', η_j'),  B_ij = (η_i'', η_j''),  U^{n,0} = U^{n−1}
 ///
-/// until no nodal value changes by more than the tolerance (absolute; the paper does not say what it measures).
-/// The variational inequality concerns the tip value alone and is solved exactly in each iteration.
-/// The iteration contracts by about α²Δt / ((Δt + ζ)(1 + π²Δt)); the round-off of B grows like h⁻⁴.
-/// With an end temperature, θ̃_x = θ_x − θ_A adds −αθ_A (1, η') to the loads.
+/// until no nodal value changes by more than the tolerance (absolute; the paper does not say what
+/// it measures). The variational inequality concerns the tip value alone and is solved exactly in
+/// each iteration. The iteration contracts by about α²Δt / ((Δt + ζ)(1 + π²Δt)); the round-off of B
+/// grows like h⁻⁴. With an end temperature, θ̃_x = θ_x − θ_A adds −αθ_A (1, η') to the loads.
 class HermiteForm final : public Solver {
 public:
     /// data must outlive the solver. Throws std::domain_error when a matrix cannot be factored.
-    HermiteForm(const Beam& beam, const ProblemData& data, const Mesh& mesh, const Scheme& scheme, double dt);
+    HermiteForm(const Beam& beam, const ProblemData& data, const Mesh& mesh, const Scheme& scheme,
+                double dt);
 
     std::string step(double t, const Eigen::Ref<const Eigen::VectorXd>& amplitudes) override;
     [[nodiscard]] const Eigen::VectorXd& temperature() const override { return theta_; }
@@ -46,8 +47,10 @@ public:
 private:
     void assemble(ThermalMass mass);
     void project_initial_state();
-    [[nodiscard]] Eigen::VectorXd heat_load(double t, const Eigen::Ref<const Eigen::VectorXd>& amplitudes);
-    [[nodiscard]] Eigen::VectorXd beam_load(double t, const Eigen::Ref<const Eigen::VectorXd>& amplitudes);
+    [[nodiscard]] Eigen::VectorXd heat_load(double t,
+                                            const Eigen::Ref<const Eigen::VectorXd>& amplitudes);
+    [[nodiscard]] Eigen::VectorXd beam_load(double t,
+                                            const Eigen::Ref<const Eigen::VectorXd>& amplitudes);
 
     Beam beam_;
     const ProblemData& data_;
@@ -55,11 +58,12 @@ private:
     double dt_;
     double tolerance_;
 
-    Tridiagonal mass_;                    // M
-    TridiagonalFactor heat_;              // M + ΔtK
-    Eigen::SparseMatrix<double> bending_; // B
+    Tridiagonal mass_;                     // M
+    TridiagonalFactor heat_;               // M + ΔtK
+    Eigen::SparseMatrix<double> bending_;  // B
     Eigen::SparseMatrix<double> coupling_; // C
-    Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower, Eigen::NaturalOrdering<int>> bending_factor_;
+    Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower, Eigen::NaturalOrdering<int>>
+        bending_factor_;
     Eigen::VectorXd tip_response_; // B⁻¹ η(1), times Δt/(Δt + ζ): d that answers λ = 1
 
     struct ProfileLoads {

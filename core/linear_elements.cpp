@@ -15,9 +15,8 @@ Eigen::Array2Xd end_moments(const Mesh& mesh, const SpaceFunction& g) {
     Eigen::Array2Xd moments(2, mesh.elements());
     for_each_block(mesh, [&](Eigen::Index first, Eigen::Index count) {
         const Eigen::ArrayXXd values = at_points(g, element_points(mesh, first, count));
-        moments.middleCols(first, count) =
-            (test * values.matrix()).array().rowwise() *
-            mesh.lengths.segment(first, count).transpose();
+        moments.middleCols(first, count) = (test * values.matrix()).array().rowwise() *
+                                           mesh.lengths.segment(first, count).transpose();
     });
     return moments;
 }
@@ -38,8 +37,8 @@ Tridiagonal thermal_mass_matrix(const Mesh& mesh, ThermalMass kind) {
     const Eigen::ArrayXd support = h.head(inner) + h.tail(inner);
     if (kind == ThermalMass::lumped)
         return {support / 2.0, Eigen::VectorXd::Zero(std::max<Eigen::Index>(inner - 1, 0))};
-    return {support / 3.0, inner > 1 ? Eigen::VectorXd(h.segment(1, inner - 1) / 6.0)
-                                     : Eigen::VectorXd(0)};
+    return {support / 3.0,
+            inner > 1 ? Eigen::VectorXd(h.segment(1, inner - 1) / 6.0) : Eigen::VectorXd(0)};
 }
 
 Tridiagonal stiffness_matrix(const Mesh& mesh) {
@@ -65,7 +64,8 @@ double tip_moment(const Mesh& mesh, const DiscontinuousLinear& p) {
     const Eigen::ArrayXd arm = 1.0 - mesh.nodes;
     const auto left = p.row(0).transpose();
     const auto right = p.row(1).transpose();
-    return (mesh.lengths * (arm.head(s) * (2.0 * left + right) + arm.tail(s) * (left + 2.0 * right)))
+    return (mesh.lengths *
+            (arm.head(s) * (2.0 * left + right) + arm.tail(s) * (left + 2.0 * right)))
                .sum() /
            6.0;
 }

@@ -32,7 +32,8 @@ double tip_moment(const Mesh& mesh, const DiscontinuousLinear& p);
 /// The L² projection of g on P1disc: the projection of (25)'s space for curvatures.
 DiscontinuousLinear project(const Mesh& mesh, const SpaceFunction& g);
 
-/// ‖v‖² of the continuous piecewise linear function with nodal values v (s + 1), through the consistent mass matrix.
+/// ‖v‖² of the continuous piecewise linear function with nodal values v (s + 1), through the
+/// consistent mass matrix.
 double squared_norm(const Mesh& mesh, const Eigen::VectorXd& v);
 
 } // namespace tvbeam

@@ -16,15 +16,14 @@ bool uses(const Field& field, Eigen::Index profile) {
 
 } // namespace
 
-MomentForm::MomentForm(const Beam& beam, const ProblemData& data, const Mesh& mesh, ThermalMass mass,
-                       double dt, const Needs& needs)
+MomentForm::MomentForm(const Beam& beam, const ProblemData& data, const Mesh& mesh,
+                       ThermalMass mass, double dt, const Needs& needs)
     : beam_(beam), data_(data), mesh_(mesh), heat_(needs.temperature || beam.alpha != 0.0),
       bending_(needs.deflection || beam.alpha != 0.0), coupled_(beam.alpha != 0.0),
       stops_(bending_ && beam.stops.exist()), leading_(1.0 / dt),
       kappa_(1.0 / (1.0 + beam.zeta * leading_)) {
     if (heat_) {
-        Tridiagonal matrix =
-            thermal_mass_matrix(mesh_, mass) * leading_ + stiffness_matrix(mesh_);
+        Tridiagonal matrix = thermal_mass_matrix(mesh_, mass) * leading_ + stiffness_matrix(mesh_);
         if (coupled_)
             matrix = matrix + thermal_mass_matrix(mesh_, ThermalMass::consistent) *
                                   (beam_.alpha * beam_.alpha * leading_ * kappa_);
@@ -39,10 +38,11 @@ MomentForm::MomentForm(const Beam& beam, const ProblemData& data, const Mesh& me
     if (needs.curvature && bending_)
         for (const auto& profile : data_.profiles)
             projections_.push_back(project(mesh_, profile));
-    counters_.doubles_allocated = static_cast<std::int64_t>(projections_.size()) * 2 * mesh_.elements() + 2 * factor_.order() + inverse_lengths_.size() + loads_.size() +
-                                  lever_load_.size() + response_.size() + theta_.size() +
-                                  w_.nodal.size() + w_.rest.size() + increment_.size() +
-                                  balance_.size();
+    counters_.doubles_allocated =
+        static_cast<std::int64_t>(projections_.size()) * 2 * mesh_.elements() +
+        2 * factor_.order() + inverse_lengths_.size() + loads_.size() + lever_load_.size() +
+        response_.size() + theta_.size() + w_.nodal.size() + w_.rest.size() + increment_.size() +
+        balance_.size();
 }
 
 void MomentForm::load_initial_state(const Needs& needs) {
@@ -118,8 +118,7 @@ void MomentForm::find_contact_response() {
         return;
     const Eigen::Index inner = mesh_.elements() - 1;
     response_ = Eigen::VectorXd::Zero(mesh_.elements() + 1);
-    response_.segment(1, inner) =
-        beam_.alpha * leading_ * kappa_ * lever_load_.segment(1, inner);
+    response_.segment(1, inner) = beam_.alpha * leading_ * kappa_ * lever_load_.segment(1, inner);
     factor_.solve_in_place(response_.segment(1, inner));
     compliance_ -= kappa_ * beam_.alpha * response_.dot(lever_load_);
 }
@@ -138,8 +137,7 @@ std::string MomentForm::step(double t, const Eigen::Ref<const Eigen::VectorXd>& 
         if (w_.rest.size() > 0) {
             rest_change = w_.rest;
             if (const auto& rest = data_.moment_load.rest) {
-                rest_change +=
-                    project(mesh_, [&](const Eigen::ArrayXd& x) { return rest(x, t); });
+                rest_change += project(mesh_, [&](const Eigen::ArrayXd& x) { return rest(x, t); });
                 ++counters_.source_evaluations;
             }
             rest_change *= -kappa_;
@@ -160,7 +158,8 @@ std::string MomentForm::step(double t, const Eigen::Ref<const Eigen::VectorXd>& 
 
     if (heat_ && !std::isfinite(increment_.sum()))
         return "the temperature is not finite";
-    if (bending_ && !(w_.weights.allFinite() && std::isfinite(stress_) && std::isfinite(w_.rest.sum())))
+    if (bending_ &&
+        !(w_.weights.allFinite() && std::isfinite(stress_) && std::isfinite(w_.rest.sum())))
         return "the curvature is not finite";
     return {};
 }
@@ -196,8 +195,8 @@ void MomentForm::solve_heat(double t, const Eigen::Ref<const Eigen::VectorXd>& a
             increment_ += load_weights_(columns_[k]) * loads_.col(static_cast<Eigen::Index>(k));
     }
     if (const auto& rest = data_.heat_source.rest) {
-        increment_ += hat_loads(mesh_, [&](const Eigen::ArrayXd& x) { return rest(x, t); })
-                          .segment(1, inner);
+        increment_ +=
+            hat_loads(mesh_, [&](const Eigen::ArrayXd& x) { return rest(x, t); }).segment(1, inner);
         ++counters_.source_evaluations;
     }
     factor_.solve_in_place(increment_);
@@ -226,9 +225,8 @@ double MomentForm::tip_displacement() const {
     if (coupled_)
         tip += lever_load_.size() > 0
                    ? w_.nodal.dot(lever_load_)
-                   : w_.nodal.dot(hat_loads(mesh_, [](const Eigen::ArrayXd& x) -> Eigen::ArrayXd {
-                         return 1.0 - x;
-                     }));
+                   : w_.nodal.dot(hat_loads(
+                         mesh_, [](const Eigen::ArrayXd& x) -> Eigen::ArrayXd { return 1.0 - x; }));
     if (w_.rest.size() > 0)
         tip += tip_moment(mesh_, w_.rest);
     return tip;
@@ -239,10 +237,10 @@ DiscontinuousLinear MomentForm::curvature() const {
     DiscontinuousLinear w = w_.rest.size() > 0 ? w_.rest : DiscontinuousLinear::Zero(2, s).eval();
     for (std::size_t r = 0; r < data_.profiles.size(); ++r)
         if (const double weight = w_.weights(static_cast<Eigen::Index>(r)); weight != 0.0)
-            w += weight * (projections_.empty() ? project(mesh_, data_.profiles[r]) : projections_[r]);
-    const Eigen::VectorXd continuous =
-        (coupled_ ? w_.nodal : Eigen::VectorXd::Zero(s + 1).eval()) +
-        w_.weights.tail<1>()(0) * (1.0 - mesh_.nodes).matrix();
+            w += weight *
+                 (projections_.empty() ? project(mesh_, data_.profiles[r]) : projections_[r]);
+    const Eigen::VectorXd continuous = (coupled_ ? w_.nodal : Eigen::VectorXd::Zero(s + 1).eval()) +
+                                       w_.weights.tail<1>()(0) * (1.0 - mesh_.nodes).matrix();
     w.row(0) += continuous.head(s).transpose().array();
     w.row(1) += continuous.tail(s).transpose().array();
     return w;

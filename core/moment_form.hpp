@@ -15,31 +15,34 @@ namespace tvbeam {
 ///
 ///     w = a + Σ_r c_r Πφ_r + c_lever (1 − x) + p
 ///
-/// a is continuous and piecewise linear with a(0) = a(1) = 0, Π the L² projection on P1disc, p in P1disc.
+/// a is continuous and piecewise linear with a(0) = a(1) = 0, Π the L² projection on P1disc, p in
+/// P1disc.
 struct SplitCurvature {
     Eigen::VectorXd nodal;    ///< a at the nodes; shape: s + 1, or empty: zero (alpha = 0)
     Eigen::VectorXd weights;  ///< c_r for every profile of ProblemData, then c_lever; shape: R + 1
     DiscontinuousLinear rest; ///< p; shape: 2 × s, or empty: zero (every moment load separates)
 };
 
-/// (24)–(25) written for the curvature w = U_xx, which turns the matrix B of the cubics into an L² mass matrix:
+/// (24)–(25) written for the curvature w = U_xx, which turns the matrix B of the cubics into an L²
+/// mass matrix:
 ///
 ///     w + ζ w_t + α Θ̃ + Πμ − λ (1 − x) = 0 in P1disc,     μ = Ĝ + q̂ − m
 ///     M Θ_t + K Θ − α (w_t, χ) = (f, χ),                   u(1,t) = ∫ (1 − x) w dx
 ///
-/// With the time derivative c (y − y*) and κ = 1/(1 + ζc), w is eliminated, and the increment D = Θ − Θ* solves one
-/// symmetric positive definite tridiagonal system, constant in time:
+/// With the time derivative c (y − y*) and κ = 1/(1 + ζc), w is eliminated, and the increment D = Θ
+/// − Θ* solves one symmetric positive definite tridiagonal system, constant in time:
 ///
 ///     (cM + K + α²cκ M_c) D = F − KΘ* + αcκ (−w* − αΘ̃* − μ + λ(1 − x), χ)
 ///
-/// The step is made with λ = 0; where the tip passes a stop, λ times the response to λ = 1 is added. This solves the
-/// variational inequality of the coupled step exactly.
+/// The step is made with λ = 0; where the tip passes a stop, λ times the response to λ = 1 is
+/// added. This solves the variational inequality of the coupled step exactly.
 class MomentForm final : public Solver {
 public:
-    /// dt: the step of implicit Euler (c = 1/dt, y* the previous state). data must outlive the solver.
-    /// Throws std::domain_error when the matrix of the step is not positive definite in floating point.
-    MomentForm(const Beam& beam, const ProblemData& data, const Mesh& mesh, ThermalMass mass, double dt,
-               const Needs& needs);
+    /// dt: the step of implicit Euler (c = 1/dt, y* the previous state). data must outlive the
+    /// solver. Throws std::domain_error when the matrix of the step is not positive definite in
+    /// floating point.
+    MomentForm(const Beam& beam, const ProblemData& data, const Mesh& mesh, ThermalMass mass,
+               double dt, const Needs& needs);
 
     std::string step(double t, const Eigen::Ref<const Eigen::VectorXd>& amplitudes) override;
     [[nodiscard]] const Eigen::VectorXd& temperature() const override { return theta_; }
@@ -62,21 +65,22 @@ private:
     Beam beam_;
     const ProblemData& data_;
     Mesh mesh_;
-    bool heat_;    // the temperature is solved for
-    bool bending_; // the curvature is solved for
-    bool coupled_; // alpha ≠ 0: each acts on the other
-    bool stops_;   // the tip is tested against the stops
+    bool heat_;      // the temperature is solved for
+    bool bending_;   // the curvature is solved for
+    bool coupled_;   // alpha ≠ 0: each acts on the other
+    bool stops_;     // the tip is tested against the stops
     double leading_; // c
     double kappa_;   // κ
 
     TridiagonalFactor factor_;
     Eigen::ArrayXd inverse_lengths_;
-    std::vector<Eigen::Index> columns_; // profiles with a hat load, in the order of the columns of loads_
-    Eigen::MatrixXd loads_;             // (φ_r, χ_i) at inner nodes
-    Eigen::VectorXd tip_moments_;       // (φ_r, 1 − x) of every profile and of the lever
-    Eigen::VectorXd lever_load_;        // (1 − x, χ_i), all nodes
-    Eigen::VectorXd response_;          // Θ that answers λ = 1
-    double compliance_ = 0.0;           // u(1) that answers λ = 1
+    std::vector<Eigen::Index>
+        columns_;                 // profiles with a hat load, in the order of the columns of loads_
+    Eigen::MatrixXd loads_;       // (φ_r, χ_i) at inner nodes
+    Eigen::VectorXd tip_moments_; // (φ_r, 1 − x) of every profile and of the lever
+    Eigen::VectorXd lever_load_;  // (1 − x, χ_i), all nodes
+    Eigen::VectorXd response_;    // Θ that answers λ = 1
+    double compliance_ = 0.0;     // u(1) that answers λ = 1
 
     Eigen::VectorXd theta_;
     SplitCurvature w_;
@@ -86,7 +90,8 @@ private:
     Eigen::VectorXd balance_;        // a + αΘ
     Eigen::VectorXd weight_changes_; // −κ (c_r + μ_r)
     Eigen::VectorXd load_weights_;   // what each profile adds to the heat equation
-    std::vector<DiscontinuousLinear> projections_; // Πφ_r, where the curvature is read in every step
+    std::vector<DiscontinuousLinear>
+        projections_; // Πφ_r, where the curvature is read in every step
     Counters counters_;
 };
 

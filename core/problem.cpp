@@ -4,6 +4,8 @@
 
 namespace tvbeam {
 
-bool Stops::exist() const { return std::isfinite(lower) || std::isfinite(upper); }
+bool Stops::exist() const {
+    return std::isfinite(lower) || std::isfinite(upper);
+}
 
 } // namespace tvbeam

@@ -9,7 +9,8 @@
 
 namespace tvbeam {
 
-/// The two rigid stops of the tip: g1 ≤ u(1,t) ≤ g2 (6). An infinite value: no stop on that side. Unit: length.
+/// The two rigid stops of the tip: g1 ≤ u(1,t) ≤ g2 (6). An infinite value: no stop on that side.
+/// Unit: length.
 struct Stops {
     double lower = -std::numeric_limits<double>::infinity(); ///< g1 < 0
     double upper = std::numeric_limits<double>::infinity();  ///< g2 > 0
@@ -22,7 +23,7 @@ struct Beam {
     double alpha = 0.0;   ///< coefficient of thermal expansion; ≥ 0
     double zeta = 0.0;    ///< viscosity coefficient; ≥ 0
     double theta_A = 0.0; ///< end temperature θ̃(0,t) (10)
-    Stops stops;
+    Stops stops = {};
 };
 
 /// x ↦ φ(x), on an array of points in [0, 1].
@@ -36,8 +37,8 @@ using SpaceTimeFunction = std::function<Eigen::ArrayXd(const Eigen::ArrayXd& x, 
 using Amplitudes = std::function<Eigen::ArrayXXd(const Eigen::ArrayXd& t)>;
 
 /// A function of space and time, g(x,t) = Σ A_{amplitude}(t) φ_{profile}(x) + rest(x,t).
-/// Indices refer to ProblemData::amplitudes and ProblemData::profiles; an amplitude already contains the
-/// numerical factor and the sign of its term. A profile may appear in several terms.
+/// Indices refer to ProblemData::amplitudes and ProblemData::profiles; an amplitude already
+/// contains the numerical factor and the sign of its term. A profile may appear in several terms.
 struct Field {
     struct Term {
         Eigen::Index amplitude;
@@ -50,22 +51,25 @@ struct Field {
     [[nodiscard]] bool is_zero() const { return terms.empty() && !rest; }
 };
 
-/// The exact solution that a run is measured against. θ̃ is the temperature of (1)–(10), not the transformed one.
+/// The exact solution that a run is measured against. θ̃ is the temperature of (1)–(10), not the
+/// transformed one.
 struct ExactSolution {
-    Field theta;    ///< θ̃
-    Field theta_x;  ///< θ̃_x
-    Field u;        ///< deflection
-    Field u_x;      ///< slope
-    Field u_xx;     ///< curvature
-    std::optional<Eigen::Index> stress; ///< amplitude of the contact stress σ̃(t); none: zero at all times
+    Field theta;   ///< θ̃
+    Field theta_x; ///< θ̃_x
+    Field u;       ///< deflection
+    Field u_x;     ///< slope
+    Field u_xx;    ///< curvature
+    std::optional<Eigen::Index>
+        stress; ///< amplitude of the contact stress σ̃(t); none: zero at all times
 };
 
 /// The data of the problem (1)–(10), as functions of x and t on [0,1] × [0,T].
 ///
-///     θ̃_t − θ̃_xx = α u_xxt + f,   σ̃_x = q,   σ̃ = −u_xxx − ζ u_xxxt − α θ̃_x + G,   m = u_xx(1,t) + ζ u_xxt(1,t)
+///     θ̃_t − θ̃_xx = α u_xxt + f,   σ̃_x = q,   σ̃ = −u_xxx − ζ u_xxxt − α θ̃_x + G,   m = u_xx(1,t) +
+///     ζ u_xxt(1,t)
 ///
-/// The moment form reads the loads through moment_load, the Hermite form through couple_load, body_force and
-/// end_moment; the two descriptions must agree.
+/// The moment form reads the loads through moment_load, the Hermite form through couple_load,
+/// body_force and end_moment; the two descriptions must agree.
 struct ProblemData {
     std::vector<SpaceFunction> profiles; ///< φ_0, φ_1, …; each distinct, none is identically zero
     Amplitudes amplitudes;               ///< A_0, A_1, …; may be empty when no field has terms

@@ -8,7 +8,8 @@ namespace tvbeam {
 LoadProfile load_profile(const Mesh& mesh, const SpaceFunction& phi) {
     LoadProfile profile;
     profile.hat_load = hat_loads(mesh, phi);
-    // 1 − x is the piecewise linear function with nodal values 1 − x_i, so its moment is a sum of hat loads.
+    // 1 − x is the piecewise linear function with nodal values 1 − x_i, so its moment is a sum of
+    // hat loads.
     profile.tip_moment = profile.hat_load.dot((1.0 - mesh.nodes).matrix());
     return profile;
 }
@@ -44,13 +45,14 @@ ErrorProfiles error_profiles(const Mesh& mesh, const std::vector<SpaceFunction>&
             const Eigen::VectorXd to_right = weighted.matrix().transpose() * right;
             result.defect_load.col(r).segment(first, n) += to_left;
             result.defect_load.col(r).segment(first + 1, n) += to_right;
-            // φ − Πφ = (φ − I_hφ) − Π(φ − I_hφ), with the inverse element mass matrix 2/h [2 −1; −1 2].
+            // φ − Πφ = (φ − I_hφ) − Π(φ − I_hφ), with the inverse element mass matrix 2/h [2 −1; −1
+            // 2].
             const Eigen::ArrayXd h = mesh.lengths.segment(first, n);
             const Eigen::ArrayXd at_left = 2.0 * (2.0 * to_left.array() - to_right.array()) / h;
             const Eigen::ArrayXd at_right = 2.0 * (2.0 * to_right.array() - to_left.array()) / h;
-            const Eigen::ArrayXXd orthogonal =
-                defect - (left * at_left.matrix().transpose() + right * at_right.matrix().transpose())
-                             .array();
+            const Eigen::ArrayXXd orthogonal = defect - (left * at_left.matrix().transpose() +
+                                                         right * at_right.matrix().transpose())
+                                                            .array();
             interpolation.col(r) = defect.reshaped().matrix();
             projection.col(r) = orthogonal.reshaped().matrix();
         }

@@ -26,7 +26,8 @@ Eigen::ArrayXXd element_points(const Mesh& mesh, Eigen::Index first, Eigen::Inde
 Eigen::ArrayXXd at_points(const SpaceFunction& phi, const Eigen::ArrayXXd& points);
 
 /// Elements of the mesh in runs that keep temporary arrays in cache: visit(first, count).
-template <typename Visit> void for_each_block(const Mesh& mesh, Visit visit) {
+template <typename Visit>
+void for_each_block(const Mesh& mesh, Visit visit) {
     constexpr Eigen::Index block = 1024;
     for (Eigen::Index first = 0; first < mesh.elements(); first += block)
         visit(first, std::min(block, mesh.elements() - first));

@@ -107,8 +107,8 @@ RunResult run(const RunRequest& request, const ProblemData& data) {
     } catch (const std::domain_error& error) {
         return failure(result, error.what());
     } catch (const std::bad_alloc&) {
-        return failure(result, "not enough memory for " +
-                                   std::to_string(request.mesh.elements()) + " elements");
+        return failure(result, "not enough memory for " + std::to_string(request.mesh.elements()) +
+                                   " elements");
     }
     return result;
 }

@@ -14,7 +14,8 @@ enum class Algorithm {
 struct Scheme {
     Algorithm algorithm = Algorithm::direct;
     ThermalMass thermal_mass = ThermalMass::consistent;
-    double tolerance = 1e-7; ///< fixed point only: largest change of a nodal value of θ and u in the last iteration
+    double tolerance = 1e-7; ///< fixed point only: largest change of a nodal value of θ and u in
+                             ///< the last iteration
 };
 
 } // namespace tvbeam

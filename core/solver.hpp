@@ -12,11 +12,12 @@ namespace tvbeam {
 /// What a run did; a part that the problem lacks leaves its counter at zero.
 struct Counters {
     std::int64_t steps = 0;
-    std::int64_t heat_solves = 0;            ///< tridiagonal solves of the heat equation
-    std::int64_t beam_solves = 0;            ///< updates of the curvature, or solves with the paper's B
-    std::int64_t coupling_updates = 0;       ///< exchanges between heat and beam; alpha = 0: none
-    std::int64_t load_updates = 0;           ///< steps in which a heat source or a moment load was added
-    std::int64_t source_evaluations = 0;     ///< sources evaluated on arrays of points: those that do not separate
+    std::int64_t heat_solves = 0;      ///< tridiagonal solves of the heat equation
+    std::int64_t beam_solves = 0;      ///< updates of the curvature, or solves with the paper's B
+    std::int64_t coupling_updates = 0; ///< exchanges between heat and beam; alpha = 0: none
+    std::int64_t load_updates = 0;     ///< steps in which a heat source or a moment load was added
+    std::int64_t source_evaluations =
+        0; ///< sources evaluated on arrays of points: those that do not separate
     std::int64_t tip_evaluations = 0;        ///< tests of the tip against the stops; no stops: none
     std::int64_t contact_steps = 0;          ///< steps that end on a stop
     std::int64_t fixed_point_iterations = 0; ///< the paper's algorithm only
@@ -24,7 +25,8 @@ struct Counters {
     std::int64_t doubles_allocated = 0;      ///< vectors held through the run, in doubles
 };
 
-/// What a caller will read of the solution; a field that nobody reads and nothing depends on is not solved for.
+/// What a caller will read of the solution; a field that nobody reads and nothing depends on is not
+/// solved for.
 struct Needs {
     bool temperature = true;
     bool deflection = true;
@@ -41,8 +43,8 @@ public:
     Solver& operator=(Solver&&) = delete;
     virtual ~Solver() = default;
 
-    /// One step to t; amplitudes: those of ProblemData at t. Returns an empty text, or why the step failed
-    /// (not finite, fixed point without convergence); the state is then meaningless.
+    /// One step to t; amplitudes: those of ProblemData at t. Returns an empty text, or why the step
+    /// failed (not finite, fixed point without convergence); the state is then meaningless.
     virtual std::string step(double t, const Eigen::Ref<const Eigen::VectorXd>& amplitudes) = 0;
 
     /// Θ^n = Θ̃^n − θ_A (1 − x) at the nodes; shape: s + 1, zero at both ends. Empty when left out.

@@ -1,0 +1,26 @@
+#pragma once
+
+#include "core/problem.hpp"
+#include "mms/solution.hpp"
+
+namespace tvbeam {
+
+/// Checks that a solution obeys, on [0, final_time], what (5)–(10) ask of it whatever the sources
+/// f, G and the end moment m are:
+///
+///     (5)       u(0,t) = u_x(0,t) = 0
+///     (6)       g1 ≤ u(1,t) ≤ g2
+///     (7)(8)    σ̃ = 0 where g1 < u(1,t) < g2 (everywhere, without stops); σ̃ ≥ 0 at g1, ≤ 0 at g2
+///     (2)       σ̃ depends on t only
+///     (10)      θ̃(0,t) = θ_A, θ̃(1,t) = 0
+///
+/// further that θ̃, u and u_xx do not jump between phases, and that θ̃, u, σ̃ and what is derived from
+/// them are finite on a grid of [0,1] × [0, final_time]. An equality holds if it does symbolically,
+/// or else at every sampled time to 1e-12 of the largest value of θ̃ (or u, or σ̃) on the grid;
+/// inequalities are sampled, with the same tolerance.
+///
+/// Throws InputError at the expression at fault; it names the equation, the time, the value and a
+/// repair.
+void require_admissible(const Solution& solution, const Beam& beam, double final_time);
+
+} // namespace tvbeam

@@ -1,0 +1,75 @@
+#include "mms/derivation.hpp"
+
+#include "mms/algebra.hpp"
+#include "mms/symbols.hpp"
+
+#include <string>
+
+namespace tvbeam {
+
+using GiNaC::ex;
+
+namespace {
+
+template <typename Operation>
+ex located(const SourceText& source, const std::string& what, const Operation& operation) {
+    try {
+        return operation();
+    } catch (const AlgebraError& error) {
+        throw InputError(source.begin(), what + ": " + error.what());
+    }
+}
+
+} // namespace
+
+DerivedPhase derive(const PhaseExpressions& phase, const SolutionPhase& source, const ex& alpha,
+                    const ex& zeta) {
+    const GiNaC::realsymbol& x = model_symbols().x;
+    const GiNaC::realsymbol& t = model_symbols().t;
+    const auto of_theta = [&](const ex& expression, const GiNaC::symbol& s) {
+        return located(source.theta, "theta", [&] { return derivative(expression, s); });
+    };
+    const auto of_u = [&](const ex& expression, const GiNaC::symbol& s) {
+        return located(source.u, "u", [&] { return derivative(expression, s); });
+    };
+    const auto at_tip = [&](const ex& expression, const SourceText& text, const std::string& what) {
+        return located(text, what + " at x = 1", [&] { return substituted(expression, {{x, 1}}); });
+    };
+
+    DerivedPhase result;
+    result.theta = phase.theta;
+    result.theta_x = of_theta(phase.theta, x);
+    result.u = phase.u;
+    result.u_x = of_u(phase.u, x);
+    result.u_xx = of_u(result.u_x, x);
+    result.sigma = phase.sigma;
+
+    const ex u_xxx = of_u(result.u_xx, x);
+    const ex u_xxt = of_u(result.u_xx, t);
+    const ex u_xxxt = zeta.is_zero() ? ex(0) : of_u(u_xxt, x);
+    result.theta_terms = {of_theta(phase.theta, t), of_theta(result.theta_x, x)};
+    result.u_terms = {u_xxx, u_xxxt};
+    if (!alpha.is_zero() || !zeta.is_zero())
+        result.u_terms.push_back(u_xxt);
+
+    result.heat_source = result.theta_terms[0] - result.theta_terms[1] - alpha * u_xxt;
+    result.couple_load = phase.sigma + u_xxx + zeta * u_xxxt + alpha * result.theta_x;
+    const ex viscoelastic = result.u_xx + zeta * u_xxt;
+    result.end_moment = at_tip(viscoelastic, source.u, "u_xx + zeta*u_xxt");
+    const ex theta_at_tip = at_tip(phase.theta, source.theta, "theta");
+    result.moment_load = phase.sigma * (1 - x) - viscoelastic - alpha * phase.theta;
+    if (!is_identically_zero(theta_at_tip))
+        result.moment_load += alpha * theta_at_tip;
+    return result;
+}
+
+DerivedSolution derive_on(const Solution& solution, const Beam& beam) {
+    DerivedSolution result;
+    result.phases = expressions_on(solution, beam).phases;
+    for (std::size_t i = 0; i < result.phases.size(); ++i)
+        result.derived.push_back(derive(result.phases[i], solution.phases[i],
+                                        exact_rational(beam.alpha), exact_rational(beam.zeta)));
+    return result;
+}
+
+} // namespace tvbeam

@@ -1,0 +1,85 @@
+#include "mms/derived_formulas.hpp"
+
+#include "mms/algebra.hpp"
+#include "mms/derivation.hpp"
+#include "mms/printing.hpp"
+#include "mms/symbols.hpp"
+
+#include <map>
+#include <string_view>
+
+namespace tvbeam {
+
+using GiNaC::ex;
+using GiNaC::is_a;
+
+namespace {
+
+/// A sum with the terms put together that have the same factors in x and t:
+/// e^t sin πx + π² e^t sin πx becomes (1 + π²) e^t sin πx.
+ex collected(const ex& expression) {
+    if (!is_a<GiNaC::add>(expression))
+        return expression;
+    std::map<ex, ex, GiNaC::ex_is_less> coefficients;
+    for (const ex& term : expression) {
+        ex coefficient = 1;
+        ex variable = 1;
+        const GiNaC::exvector factors = is_a<GiNaC::mul>(term)
+                                            ? GiNaC::exvector(term.begin(), term.end())
+                                            : GiNaC::exvector{term};
+        for (const ex& factor : factors) {
+            const bool varies =
+                depends_on(factor, model_symbols().x) || depends_on(factor, model_symbols().t);
+            (varies ? variable : coefficient) *= factor;
+        }
+        coefficients[variable] += coefficient;
+    }
+    ex result = 0;
+    for (const auto& [variable, coefficient] : coefficients)
+        result += coefficient * variable;
+    return result;
+}
+
+std::string interval_text(const PhaseExpressions& phase, bool first, bool last) {
+    const std::string end = last ? std::string() : formula_text(phase.end);
+    if (first)
+        return last ? "t >= 0" : "0 <= t <= " + end;
+    const std::string begin = formula_text(phase.begin);
+    return last ? "t > " + begin : begin + " < t <= " + end;
+}
+
+ex at_start(const ex& expression, const SourceText& source) {
+    try {
+        return substituted(expression, {{model_symbols().t, 0}});
+    } catch (const AlgebraError& error) {
+        throw InputError(source.begin(), std::string("at t = 0: ") + error.what());
+    }
+}
+
+} // namespace
+
+std::vector<DerivedFormula> derived_formulas(const Solution& solution) {
+    const SolutionExpressions expressions = expressions_of(solution);
+    std::vector<DerivedFormula> formulas;
+    const auto add = [&formulas](const std::string& symbol, const std::string& interval,
+                                 const ex& formula) {
+        const ex readable = collected(formula);
+        formulas.push_back({symbol, interval, formula_text(readable), formula_latex(readable)});
+    };
+    const ModelSymbols& s = model_symbols();
+    for (std::size_t i = 0; i < expressions.phases.size(); ++i) {
+        const PhaseExpressions& phase = expressions.phases[i];
+        const std::string interval =
+            interval_text(phase, i == 0, i + 1 == expressions.phases.size());
+        const DerivedPhase derived = derive(phase, solution.phases[i], s.alpha, s.zeta);
+        add("f", interval, derived.heat_source);
+        add("G", interval, derived.couple_load);
+        add("m", interval, derived.end_moment);
+    }
+    add("theta0", "t = 0",
+        at_start(expressions.phases.front().theta, solution.phases.front().theta));
+    add("u0", "t = 0", at_start(expressions.phases.front().u, solution.phases.front().u));
+    return formulas;
+}
+
+} // namespace tvbeam

@@ -1,0 +1,199 @@
+#include "mms/given_problem.hpp"
+
+#include "mms/admissibility_check.hpp"
+#include "mms/algebra.hpp"
+#include "mms/expression_parser.hpp"
+#include "mms/problem_builder.hpp"
+#include "mms/separation.hpp"
+#include "mms/symbols.hpp"
+#include "mms/tape_compiler.hpp"
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <sstream>
+#include <string>
+
+namespace tvbeam {
+
+using Eigen::ArrayXd;
+using Eigen::Index;
+using GiNaC::ex;
+
+namespace {
+
+constexpr Index grid_points = 33;
+
+std::string number(double value) {
+    std::ostringstream stream;
+    stream << value;
+    return std::isnan(value) ? "nan" : stream.str();
+}
+
+template <typename Operation>
+auto located(const SourceText& source, const std::string& what, const Operation& operation) {
+    try {
+        return operation();
+    } catch (const AlgebraError& error) {
+        throw InputError(source.begin(), what + ": " + error.what());
+    }
+}
+
+ArrayXd values(const ex& formula, const ArrayXd& x, double t) {
+    return compile_tape({formula}).evaluate(x, ArrayXd::Constant(1, t)).row(0);
+}
+
+/// One of the given expressions with the beam's values in it, or zero if it is left out.
+ex given(const std::optional<SourceText>& source, const Beam& beam, bool at_start,
+         const std::string& what) {
+    if (!source)
+        return 0;
+    SymbolTable symbols = model_symbol_table();
+    if (at_start)
+        symbols.erase("t");
+    const ex expression = parse_expression(*source, symbols);
+    require_stops_in_use(*source, beam);
+    return located(*source, what, [&] { return substituted(expression, beam_values(beam)); });
+}
+
+void require_finite(const ex& formula, const SourceText& source, double final_time,
+                    const std::string& what) {
+    const ArrayXd x = ArrayXd::LinSpaced(grid_points, 0.0, 1.0);
+    const Tape tape = located(source, what, [&] { return compile_tape({formula}); });
+    for (const double t : ArrayXd::LinSpaced(grid_points, 0.0, final_time)) {
+        const ArrayXd sampled = tape.evaluate(x, ArrayXd::Constant(1, t)).row(0);
+        for (Index k = 0; k < x.size(); ++k)
+            if (!std::isfinite(sampled(k)))
+                throw InputError(source.begin(), what + " is not finite at x = " + number(x(k)) +
+                                                     ", t = " + number(t));
+    }
+}
+
+/// u(0) = u'(0) = 0 (5), g1 ≤ u(1) ≤ g2 (6).
+void require_admissible_start(const ex& u, const ex& u_x, const SourceText& source,
+                              const Beam& beam) {
+    const ArrayXd points = ArrayXd::LinSpaced(grid_points, 0.0, 1.0);
+    const ArrayXd deflection = values(u, points, 0.0);
+    const ArrayXd slope = values(u_x, points, 0.0);
+    const double tolerance = 1e-12 * deflection.abs().maxCoeff();
+    const double tip = deflection(points.size() - 1);
+    if (std::abs(deflection(0)) > tolerance)
+        throw InputError(source.begin(), "(5): u0(0) is " + number(deflection(0)) +
+                                             "; it must be 0; a factor x^2 makes it so");
+    if (std::abs(slope(0)) > 1e-12 * slope.abs().maxCoeff())
+        throw InputError(source.begin(), "(5): the slope of u0 at x = 0 is " + number(slope(0)) +
+                                             "; it must be 0; a factor x^2 makes it so");
+    if (tip < beam.stops.lower - tolerance || tip > beam.stops.upper + tolerance)
+        throw InputError(source.begin(),
+                         "(6): u0(1) is " + number(tip) + "; it must be between the stops " +
+                             number(beam.stops.lower) + " and " + number(beam.stops.upper));
+}
+
+/// ∫_y^1 (x − y) q dx for q = x^n, by parts twice: the antiderivative's antiderivative is
+/// x^{n+2}/((n+1)(n+2)), so it is (y^{n+2} − 1)/((n+1)(n+2)) + (1 − y)/(n+1).
+ex moment_of_power(int n) {
+    const GiNaC::realsymbol& y = model_symbols().x;
+    const GiNaC::numeric first(n + 1);
+    return (pow(y, n + 2) - 1) / (first * (n + 2)) + (1 - y) / first;
+}
+
+/// The same for a polynomial in x with coefficients in t.
+ex moment_of_polynomial(const ex& q) {
+    const ex expanded = q.expand();
+    ex moment = 0;
+    for (int n = 0; n <= expanded.degree(model_symbols().x); ++n)
+        moment += expanded.coeff(model_symbols().x, n) * moment_of_power(n);
+    return moment;
+}
+
+/// Nodes and weights of the Gauss–Legendre rule with ten points on [-1, 1], the positive half.
+/// Abramowitz and Stegun (1964), Table 25.4.
+constexpr std::array<std::array<double, 2>, 5> gauss = {{
+    {0.148874338981631211, 0.295524224714752870},
+    {0.433395394129247191, 0.269266719309996355},
+    {0.679409568299024406, 0.219086362515982044},
+    {0.865063366688984511, 0.149451349150580593},
+    {0.973906528517171720, 0.066671344308688138},
+}};
+
+/// y ↦ ∫_y^1 (x − y) q(x) dx by the rule of ten points on each of 16 parts of [y, 1].
+ArrayXd integrated_moment(const Tape& q, const ArrayXd& y, double t) {
+    constexpr int parts = 16;
+    ArrayXd moment = ArrayXd::Zero(y.size());
+    const ArrayXd half = (1.0 - y) / (2.0 * parts);
+    for (int part = 0; part < parts; ++part) {
+        const ArrayXd middle = y + half * (2.0 * part + 1.0);
+        for (const auto& [node, weight] : gauss) {
+            for (const double sign : {-1.0, 1.0}) {
+                const ArrayXd x = middle + sign * node * half;
+                const ArrayXd load = q.evaluate(x, ArrayXd::Constant(1, t)).row(0);
+                moment += weight * half * (x - y) * load;
+            }
+        }
+    }
+    return moment;
+}
+
+/// The moment of the body force: closed where q is polynomial in x, integrated where not.
+Field moment_of(const ex& q, ProblemBuilder& builder) {
+    const GiNaC::realsymbol& x = model_symbols().x;
+    const Separation parts = separated(q);
+    ex closed = 0;
+    std::vector<Field::Term> integrated;
+    for (const SeparatedProduct& product : parts.products) {
+        if (product.profile.is_polynomial(x) && product.profile.degree(x) <= 16) {
+            closed += product.amplitude * moment_of_polynomial(product.profile);
+            continue;
+        }
+        integrated.push_back(builder.term(
+            product.amplitude, [tape = compile_tape({product.profile})](const ArrayXd& y) {
+                return integrated_moment(tape, y, 0.0);
+            }));
+    }
+    Field result = builder.field({closed});
+    result.terms.insert(result.terms.end(), integrated.begin(), integrated.end());
+    if (!parts.rest.is_zero())
+        result.rest = [tape = compile_tape({parts.rest})](const ArrayXd& y, double t) {
+            return integrated_moment(tape, y, t);
+        };
+    return result;
+}
+
+} // namespace
+
+ProblemData given_problem(const GivenData& data, const Beam& beam, double final_time) {
+    require_final_time(final_time);
+    const ex theta = given(data.theta0, beam, true, "theta0");
+    const ex u = given(data.u0, beam, true, "u0");
+    const ex heat_source = given(data.heat_source, beam, false, "heat_source");
+    const ex body_force = given(data.body_force, beam, false, "body_force");
+
+    const GiNaC::realsymbol& x = model_symbols().x;
+    ex curvature = 0;
+    if (data.theta0)
+        require_finite(theta, *data.theta0, final_time, "theta0");
+    if (data.u0) {
+        const ex u_x = located(*data.u0, "u0", [&] { return derivative(u, x); });
+        curvature = located(*data.u0, "u0", [&] { return derivative(u_x, x); });
+        require_finite(u, *data.u0, final_time, "u0");
+        require_finite(u_x, *data.u0, final_time, "u0'");
+        require_finite(curvature, *data.u0, final_time, "u0''");
+        require_admissible_start(u, u_x, *data.u0, beam);
+    }
+    if (data.heat_source)
+        require_finite(heat_source, *data.heat_source, final_time, "heat_source");
+    if (data.body_force)
+        require_finite(body_force, *data.body_force, final_time, "body_force");
+
+    ProblemBuilder builder({{0.0, std::numeric_limits<double>::infinity()}}, final_time);
+    ProblemData problem;
+    problem.theta_initial = builder.field({theta});
+    problem.curvature_initial = builder.field({curvature});
+    problem.heat_source = builder.field({heat_source});
+    problem.body_force = builder.field({body_force});
+    problem.moment_load = moment_of(body_force, builder);
+    builder.finish(problem);
+    return problem;
+}
+
+} // namespace tvbeam

@@ -1,0 +1,69 @@
+#include "mms/manufactured_problem.hpp"
+
+#include "mms/admissibility_check.hpp"
+#include "mms/algebra.hpp"
+#include "mms/derivation.hpp"
+#include "mms/problem_builder.hpp"
+
+#include <string>
+
+namespace tvbeam {
+
+using GiNaC::ex;
+
+namespace {
+
+std::vector<ex> formulas(const DerivedSolution& solution, ex DerivedPhase::*member) {
+    std::vector<ex> result;
+    for (const DerivedPhase& phase : solution.derived)
+        result.push_back(phase.*member);
+    return result;
+}
+
+ProblemData built(const DerivedSolution& solution, double final_time) {
+    std::vector<TimePhase> phases;
+    for (const PhaseExpressions& phase : solution.phases)
+        phases.push_back({phase.begin_value, phase.end_value});
+    ProblemBuilder builder(phases, final_time);
+    const auto field = [&](ex DerivedPhase::*member) {
+        return builder.field(formulas(solution, member));
+    };
+    const auto amplitude = [&](ex DerivedPhase::*member) {
+        return builder.amplitude(formulas(solution, member));
+    };
+
+    ProblemData problem;
+    problem.heat_source = field(&DerivedPhase::heat_source);
+    problem.moment_load = field(&DerivedPhase::moment_load);
+    problem.couple_load = field(&DerivedPhase::couple_load);
+    problem.end_moment = amplitude(&DerivedPhase::end_moment);
+
+    ExactSolution exact;
+    exact.theta = field(&DerivedPhase::theta);
+    exact.theta_x = field(&DerivedPhase::theta_x);
+    exact.u = field(&DerivedPhase::u);
+    exact.u_x = field(&DerivedPhase::u_x);
+    exact.u_xx = field(&DerivedPhase::u_xx);
+    exact.stress = amplitude(&DerivedPhase::sigma);
+    problem.theta_initial = exact.theta;
+    problem.curvature_initial = exact.u_xx;
+    problem.exact = std::move(exact);
+    builder.finish(problem);
+    return problem;
+}
+
+} // namespace
+
+ProblemData manufactured_problem(const Solution& solution, const Beam& beam, double final_time) {
+    require_final_time(final_time);
+    const DerivedSolution derived = derive_on(solution, beam);
+    check_admissible(solution, derived, beam, final_time);
+    try {
+        return built(derived, final_time);
+    } catch (const AlgebraError& error) {
+        throw InputError(solution.phases.front().theta.begin(),
+                         std::string("the solution cannot be evaluated: ") + error.what());
+    }
+}
+
+} // namespace tvbeam

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <ginac/ginac.h>
+
+#include <string>
+
+namespace tvbeam {
+
+/// The expression as text that the parser reads back as the same function; the same text in every
+/// run.
+std::string formula_text(const GiNaC::ex& expression);
+
+/// The expression in LaTeX's mathematical mode.
+std::string formula_latex(const GiNaC::ex& expression);
+
+} // namespace tvbeam

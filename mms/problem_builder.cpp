@@ -1,0 +1,181 @@
+#include "mms/problem_builder.hpp"
+
+#include "mms/separation.hpp"
+#include "mms/tape_compiler.hpp"
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+namespace tvbeam {
+
+using GiNaC::ex;
+
+namespace {
+
+/// Sampled to find products that overflow by themselves.
+constexpr Eigen::Index sample_count = 33;
+
+/// Finds the phase of a time.
+class PhaseTimes {
+public:
+    explicit PhaseTimes(const std::vector<TimePhase>& phases) {
+        for (const TimePhase& phase : phases)
+            ends_.push_back(phase.end);
+    }
+
+    [[nodiscard]] std::size_t phase_at(double t) const {
+        std::size_t phase = 0;
+        while (phase + 1 < ends_.size() && t > ends_[phase])
+            ++phase;
+        return phase;
+    }
+
+private:
+    std::vector<double> ends_;
+};
+
+SpaceFunction compiled_profile(const ex& formula) {
+    return [tape = compile_tape({formula})](const Eigen::ArrayXd& x) -> Eigen::ArrayXd {
+        return tape.evaluate(x, Eigen::ArrayXd::Zero(1)).row(0).transpose();
+    };
+}
+
+SpaceTimeFunction compiled_rest(const std::vector<ex>& formulas,
+                                const std::vector<TimePhase>& phases) {
+    std::vector<Tape> tapes;
+    for (const ex& formula : formulas)
+        tapes.push_back(compile_tape({formula}));
+    return [tapes = std::move(tapes), times = PhaseTimes(phases)](const Eigen::ArrayXd& x,
+                                                                  double t) -> Eigen::ArrayXd {
+        const Tape& tape = tapes[times.phase_at(t)];
+        return tape.evaluate(x, Eigen::ArrayXd::Constant(1, t)).row(0).transpose();
+    };
+}
+
+Amplitudes compiled_amplitudes(std::vector<Tape> tapes, const std::vector<TimePhase>& phases) {
+    return [tapes = std::move(tapes), times = PhaseTimes(phases)](const Eigen::ArrayXd& t) {
+        const Eigen::ArrayXd nowhere = Eigen::ArrayXd::Zero(1);
+        if (tapes.size() == 1)
+            return tapes.front().evaluate(nowhere, t);
+        Eigen::ArrayXXd values(tapes.front().output_count(), t.size());
+        // Times mostly come in order: a phase is one piece, or a few.
+        for (Eigen::Index begin = 0, end = 0; begin < t.size(); begin = end) {
+            const std::size_t phase = times.phase_at(t(begin));
+            while (end < t.size() && times.phase_at(t(end)) == phase)
+                ++end;
+            values.middleCols(begin, end - begin) =
+                tapes[phase].evaluate(nowhere, t.segment(begin, end - begin));
+        }
+        return values;
+    };
+}
+
+bool all_zero(const std::vector<ex>& formulas) {
+    return std::all_of(formulas.begin(), formulas.end(),
+                       [](const ex& formula) { return formula.is_zero(); });
+}
+
+bool all_equal(const std::vector<ex>& a, const std::vector<ex>& b) {
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                      [](const ex& left, const ex& right) { return left.is_equal(right); });
+}
+
+} // namespace
+
+ProblemBuilder::ProblemBuilder(std::vector<TimePhase> phases, double final_time)
+    : phases_(std::move(phases)), final_time_(final_time) {}
+
+bool ProblemBuilder::is_finite(const ex& amplitude, const TimePhase& phase) const {
+    const double end = std::min(phase.end, final_time_);
+    if (phase.begin >= end)
+        return true;
+    const Eigen::ArrayXd times = Eigen::ArrayXd::LinSpaced(sample_count, phase.begin, end);
+    return compile_tape({amplitude}).evaluate(Eigen::ArrayXd::Zero(1), times).isFinite().all();
+}
+
+Field ProblemBuilder::field(const std::vector<ex>& formulas) {
+    const Eigen::ArrayXd points = Eigen::ArrayXd::LinSpaced(sample_count, 0.0, 1.0);
+    std::vector<ex> rests(phases_.size(), 0);
+    std::vector<Eigen::Index> order;
+    std::map<Eigen::Index, std::vector<ex>> amplitudes;
+    for (std::size_t phase = 0; phase < phases_.size(); ++phase) {
+        const Separation parts = separated(formulas[phase]);
+        rests[phase] = parts.rest;
+        for (const SeparatedProduct& product : parts.products) {
+            const bool usable = compiled_profile(product.profile)(points).isFinite().all() &&
+                                is_finite(product.amplitude, phases_[phase]);
+            if (!usable) {
+                rests[phase] = formulas[phase];
+                break;
+            }
+        }
+        if (!parts.products.empty() && rests[phase].is_equal(formulas[phase]))
+            continue;
+        for (const SeparatedProduct& product : parts.products) {
+            const Eigen::Index profile = profile_index(product.profile);
+            const auto [entry, is_new] =
+                amplitudes.try_emplace(profile, std::vector<ex>(phases_.size(), 0));
+            if (is_new)
+                order.push_back(profile);
+            entry->second[phase] = product.amplitude;
+        }
+    }
+    Field result;
+    for (const Eigen::Index profile : order)
+        result.terms.push_back({amplitude_index(amplitudes.at(profile)), profile});
+    if (!all_zero(rests))
+        result.rest = compiled_rest(rests, phases_);
+    return result;
+}
+
+std::optional<Eigen::Index> ProblemBuilder::amplitude(const std::vector<ex>& formulas) {
+    if (all_zero(formulas))
+        return std::nullopt;
+    return amplitude_index(formulas);
+}
+
+Field::Term ProblemBuilder::term(const ex& amplitude, SpaceFunction profile) {
+    // No expression equals this one, so that the profile is shared with none.
+    profiles_.push_back({GiNaC::symbol(), std::move(profile)});
+    return {amplitude_index(std::vector<ex>(phases_.size(), amplitude)),
+            static_cast<Eigen::Index>(profiles_.size()) - 1};
+}
+
+Eigen::Index ProblemBuilder::profile_index(const ex& formula) {
+    const auto same = std::find_if(profiles_.begin(), profiles_.end(), [&](const Profile& profile) {
+        return profile.formula.is_equal(formula);
+    });
+    const Eigen::Index index = same - profiles_.begin();
+    if (same == profiles_.end())
+        profiles_.push_back({formula, compiled_profile(formula)});
+    return index;
+}
+
+Eigen::Index ProblemBuilder::amplitude_index(const std::vector<ex>& formulas) {
+    const auto same =
+        std::find_if(amplitudes_.begin(), amplitudes_.end(),
+                     [&](const std::vector<ex>& known) { return all_equal(known, formulas); });
+    const Eigen::Index index = same - amplitudes_.begin();
+    if (same == amplitudes_.end())
+        amplitudes_.push_back(formulas);
+    return index;
+}
+
+void ProblemBuilder::finish(ProblemData& problem) const {
+    for (const Profile& profile : profiles_)
+        problem.profiles.push_back(profile.function);
+    problem.amplitude_count = static_cast<Eigen::Index>(amplitudes_.size());
+    if (amplitudes_.empty())
+        return;
+    std::vector<Tape> tapes;
+    for (std::size_t phase = 0; phase < phases_.size(); ++phase) {
+        std::vector<ex> formulas;
+        for (const std::vector<ex>& amplitude : amplitudes_)
+            formulas.push_back(amplitude[phase]);
+        tapes.push_back(compile_tape(formulas));
+    }
+    problem.amplitudes = compiled_amplitudes(std::move(tapes), phases_);
+}
+
+} // namespace tvbeam

@@ -1,0 +1,117 @@
+#include "mms/solution_expressions.hpp"
+
+#include "mms/algebra.hpp"
+#include "mms/expression_parser.hpp"
+#include "mms/numeric_value.hpp"
+#include "mms/symbols.hpp"
+
+#include <limits>
+#include <sstream>
+#include <string>
+
+namespace tvbeam {
+
+using GiNaC::ex;
+
+namespace {
+
+/// The value of a constant expression, or InputError.
+double constant_value(const ex& expression, const SourceText& source, const std::string& what) {
+    try {
+        return numeric_value(expression);
+    } catch (const AlgebraError& error) {
+        throw InputError(source.begin(), what + ": " + error.what());
+    }
+}
+
+double checked_end(const PhaseExpressions& phase, const SourceText& until) {
+    const double end = constant_value(phase.end, until, "until");
+    if (!(end > phase.begin_value)) {
+        std::ostringstream message;
+        message.precision(17);
+        message << "until is " << end << "; it must be greater than "
+                << (phase.begin_value > 0.0 ? "the end of the phase before, " : "")
+                << phase.begin_value;
+        throw InputError(until.begin(), message.str());
+    }
+    return end;
+}
+
+void require_time_only(const SourceText& sigma, const ex& expression) {
+    if (!depends_on(expression, model_symbols().x))
+        return;
+    throw InputError(first_use(sigma, "x").value_or(sigma.begin()),
+                     "(2): sigma must depend on t only, as the body force is zero; "
+                     "write it without x");
+}
+
+ex on_beam(const ex& expression, const GiNaC::exmap& values, const SourceText& source,
+           const std::string& what) {
+    try {
+        return substituted(expression, values);
+    } catch (const AlgebraError& error) {
+        throw InputError(source.begin(),
+                         what + " has no value with this beam's numbers: " + error.what());
+    }
+}
+
+} // namespace
+
+SolutionExpressions expressions_of(const Solution& solution) {
+    SolutionExpressions result;
+    SymbolTable in_formulas = model_symbol_table();
+    SymbolTable in_times;
+    for (const SolutionParameter& parameter : solution.parameters) {
+        const ex value = parse_expression(parameter.value, {});
+        constant_value(value, parameter.value, "parameter " + parameter.name);
+        const GiNaC::realsymbol symbol(parameter.name);
+        result.parameters[symbol] = value;
+        in_formulas[parameter.name] = symbol;
+        in_times[parameter.name] = symbol;
+    }
+
+    double begin_value = 0.0;
+    ex begin = 0;
+    for (const SolutionPhase& source : solution.phases) {
+        PhaseExpressions phase;
+        phase.begin = begin;
+        phase.begin_value = begin_value;
+        phase.end_value = std::numeric_limits<double>::infinity();
+        if (source.until) {
+            const ex end = parse_expression(*source.until, in_times);
+            phase.end = on_beam(end, result.parameters, *source.until, "until");
+            phase.end_value = checked_end(phase, *source.until);
+        }
+        phase.theta = parse_expression(source.theta, in_formulas);
+        phase.u = parse_expression(source.u, in_formulas);
+        if (source.sigma) {
+            phase.sigma = parse_expression(*source.sigma, in_formulas);
+            require_time_only(*source.sigma, phase.sigma);
+        }
+        begin = phase.end;
+        begin_value = phase.end_value;
+        result.phases.push_back(phase);
+    }
+    return result;
+}
+
+SolutionExpressions expressions_on(const Solution& solution, const Beam& beam) {
+    SolutionExpressions result = expressions_of(solution);
+    GiNaC::exmap values = beam_values(beam);
+    values.insert(result.parameters.begin(), result.parameters.end());
+    for (std::size_t i = 0; i < result.phases.size(); ++i) {
+        const SolutionPhase& source = solution.phases[i];
+        PhaseExpressions& phase = result.phases[i];
+        require_stops_in_use(source.theta, beam);
+        require_stops_in_use(source.u, beam);
+        phase.theta = on_beam(phase.theta, values, source.theta, "theta");
+        phase.u = on_beam(phase.u, values, source.u, "u");
+        if (source.sigma) {
+            require_stops_in_use(*source.sigma, beam);
+            phase.sigma = on_beam(phase.sigma, values, *source.sigma, "sigma");
+        }
+    }
+    return result;
+}
+
+} // namespace tvbeam

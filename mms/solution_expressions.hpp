@@ -1,0 +1,38 @@
+#pragma once
+
+#include "core/problem.hpp"
+#include "mms/solution.hpp"
+
+#include <ginac/ginac.h>
+
+#include <vector>
+
+namespace tvbeam {
+
+/// A phase of a solution as symbolic expressions in model_symbols() and the solution's parameters.
+struct PhaseExpressions {
+    GiNaC::ex begin;          ///< the time the phase begins at: 0, or the end of the one before
+    GiNaC::ex end;            ///< meaningless in the last phase
+    double begin_value = 0.0; ///< the same times as numbers
+    double end_value = 0.0;   ///< infinite in the last phase
+    GiNaC::ex theta;
+    GiNaC::ex u;
+    GiNaC::ex sigma;
+};
+
+/// A solution as symbolic expressions.
+struct SolutionExpressions {
+    GiNaC::exmap parameters; ///< symbol → value
+    std::vector<PhaseExpressions> phases;
+};
+
+/// Throws InputError at the character at fault: whatever the parser refuses, a parameter or an
+/// `until` that is no finite number, times that do not increase, a sigma that depends on x.
+SolutionExpressions expressions_of(const Solution& solution);
+
+/// The same with the parameters' and the beam's values in the place of their symbols; only x and t
+/// are left. Throws InputError further where a stop is named that the beam does not have, and where
+/// an expression has no value.
+SolutionExpressions expressions_on(const Solution& solution, const Beam& beam);
+
+} // namespace tvbeam

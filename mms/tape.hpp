@@ -1,0 +1,78 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include <cstdint>
+#include <vector>
+
+namespace tvbeam {
+
+/// Several expressions in x and t, compiled to one list of instructions in which common
+/// subexpressions stand once. Made by compile_tape (tape_compiler.hpp). Evaluation changes nothing
+/// and may run in several threads at once.
+class Tape {
+public:
+    /// The values of the expressions at the points (x_i, t_i); shape: one row an expression, one
+    /// column a point. x and t have the same size, or one of them has size 1 and stands for every
+    /// point. A value depends on its point only, not on where in the array the point stands.
+    [[nodiscard]] Eigen::ArrayXXd evaluate(const Eigen::ArrayXd& x, const Eigen::ArrayXd& t) const;
+
+    [[nodiscard]] Eigen::Index output_count() const {
+        return static_cast<Eigen::Index>(outputs_.size());
+    }
+    [[nodiscard]] std::size_t instruction_count() const { return instructions_.size(); }
+    [[nodiscard]] int register_count() const { return register_count_; }
+
+private:
+    friend class TapeCompiler;
+
+    enum class Operation : std::uint8_t {
+        Add,
+        Subtract,
+        Multiply,
+        Divide,
+        Power, // of two registers
+        Negate,
+        Reciprocal,
+        Square,
+        SquareRoot, // of one
+        Sin,
+        Cos,
+        Tan,
+        Asin,
+        Acos,
+        Atan,
+        Sinh,
+        Cosh,
+        Tanh,
+        Exp,
+        Log,
+    };
+
+    struct Instruction {
+        Operation operation;
+        int target;
+        int left;
+        int right; ///< −1 for operations of one register
+    };
+
+    struct Constant {
+        int target;
+        double value;
+    };
+
+    static double apply(Operation operation, double left, double right);
+    static void run(const Instruction& instruction, Eigen::ArrayXXd& registers, Eigen::Index size);
+
+    // Registers 0 and 1 hold x and t. The instructions that do not need x come first: for many x at
+    // one time they run once. Registers in `persistent` are read by the rest and never written by
+    // it.
+    std::vector<Constant> constants_;
+    std::vector<Instruction> instructions_;
+    std::size_t time_only_count_ = 0;
+    std::vector<int> persistent_;
+    std::vector<int> outputs_; ///< the register of each expression's value
+    int register_count_ = 2;
+};
+
+} // namespace tvbeam

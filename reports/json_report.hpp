@@ -1,0 +1,13 @@
+#pragma once
+
+#include "studies/study.hpp"
+
+#include <string>
+
+namespace tvbeam {
+
+/// The whole result as JSON, schema tvbeam-result/1: numbers read back to the same doubles, what is
+/// undefined is null.
+std::string json_report(const StudyResult& result);
+
+} // namespace tvbeam

@@ -1,0 +1,66 @@
+#include "reports/output_file.hpp"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstdlib>
+#include <system_error>
+
+namespace tvbeam {
+
+namespace {
+
+std::string reason() {
+    return std::generic_category().message(errno);
+}
+
+} // namespace
+
+OutputFile::OutputFile(std::filesystem::path path) : path_(std::move(path)) {
+    if (std::error_code error; std::filesystem::is_directory(path_, error))
+        throw OutputError("cannot write '" + path_.string() +
+                          "': it is a directory; name a file in it");
+    temporary_ = path_.string() + ".XXXXXX";
+    descriptor_ = mkstemp(temporary_.data());
+    if (descriptor_ < 0)
+        throw OutputError("cannot write '" + path_.string() + "': " + reason());
+}
+
+OutputFile::~OutputFile() {
+    if (descriptor_ >= 0) {
+        close(descriptor_);
+        unlink(temporary_.c_str());
+    }
+}
+
+void OutputFile::commit(const std::string& text) {
+    const auto fail = [&] {
+        throw OutputError("cannot write '" + path_.string() + "': " + reason());
+    };
+    for (std::size_t written = 0; written < text.size();) {
+        const ssize_t count = write(descriptor_, text.data() + written, text.size() - written);
+        if (count < 0 && errno != EINTR)
+            fail();
+        if (count > 0)
+            written += static_cast<std::size_t>(count);
+    }
+    // mkstemp makes files for their owner alone; a result is readable as any new file is.
+    const mode_t mask = umask(0);
+    umask(mask);
+    if (fchmod(descriptor_, 0666 & ~mask) != 0 || fsync(descriptor_) != 0)
+        fail();
+    if (rename(temporary_.c_str(), path_.c_str()) != 0)
+        fail();
+    close(descriptor_);
+    descriptor_ = -1;
+}
+
+void write_standard_output(const std::string& text) {
+    if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0)
+        throw OutputError("cannot write to standard output: " + reason());
+}
+
+} // namespace tvbeam

@@ -1,0 +1,134 @@
+#include "reports/terminal_report.hpp"
+
+#include "reports/number_text.hpp"
+#include "reports/text_table.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <functional>
+
+namespace tvbeam {
+
+namespace {
+
+std::string stop_text(double value) {
+    return std::isfinite(value) ? shortest(value) : "none";
+}
+
+std::string problem_line(const Scene& scene) {
+    const auto* solution = std::get_if<Solution>(&scene.problem);
+    std::string line =
+        (solution != nullptr ? "solution " + solution->name : std::string("given data")) +
+        "; alpha = " + shortest(scene.beam.alpha) + ", zeta = " + shortest(scene.beam.zeta);
+    if (scene.beam.theta_A != 0.0)
+        line += ", theta_A = " + shortest(scene.beam.theta_A);
+    if (scene.beam.stops.exist())
+        line += ", stops " + stop_text(scene.beam.stops.lower) + " and " +
+                stop_text(scene.beam.stops.upper);
+    return line;
+}
+
+std::string scheme_line(const Scheme& scheme) {
+    std::string line = scheme.algorithm == Algorithm::direct
+                           ? "direct algorithm"
+                           : "fixed-point algorithm, tolerance " + shortest(scheme.tolerance);
+    return line + ", implicit Euler, " +
+           (scheme.thermal_mass == ThermalMass::lumped ? "lumped" : "consistent") +
+           " heat mass matrix";
+}
+
+TextTable::Column column(const LadderResult& ladder, const std::string& heading,
+                         const std::function<std::string(std::size_t)>& cell) {
+    TextTable::Column result{heading, {}};
+    for (std::size_t i = 0; i < ladder.rungs.size(); ++i)
+        result.cells.push_back(cell(i));
+    return result;
+}
+
+TextTable::Group norm_group(const LadderResult& ladder, const LadderBlock& block, std::size_t k) {
+    const auto error = [&ladder, k](std::size_t i) {
+        const auto& errors = ladder.rungs[i].errors;
+        return errors.empty() ? std::optional<double>() : errors[k];
+    };
+    TextTable::Group group{ladder.norms[k], {}};
+    group.columns.push_back(column(ladder, "error", [&](std::size_t i) {
+        return error(i) ? scientific(error(i), 4) : std::string("failed");
+    }));
+    if (block.printed) {
+        if (const auto found = block.printed->figures.find(ladder.norms[k]);
+            found != block.printed->figures.end()) {
+            const auto& figures = found->second;
+            group.columns.push_back(column(
+                ladder, "printed", [&](std::size_t i) { return scientific(figures[i], 3); }));
+            group.columns.push_back(column(ladder, "ratio", [&](std::size_t i) {
+                const auto value = error(i);
+                return value && figures[i] != 0.0 ? fixed(*value / figures[i], 4) : std::string();
+            }));
+        }
+    }
+    group.columns.push_back(
+        column(ladder, "ord.", [&](std::size_t i) { return fixed(ladder.rungs[i].orders[k], 2); }));
+    return group;
+}
+
+/// Two significant digits in at most four characters, up to a few hours.
+std::string seconds_text(double seconds) {
+    if (seconds < 0.0095)
+        return scientific(seconds, 0);
+    if (seconds < 0.995)
+        return fixed(seconds, 2);
+    return fixed(seconds, seconds < 99.95 ? 1 : 0);
+}
+
+std::string ladder_report(const LadderResult& ladder, const LadderBlock& block,
+                          Algorithm algorithm) {
+    TextTable::Group key{"", {}};
+    key.columns.push_back(column(
+        ladder, "s", [&](std::size_t i) { return std::to_string(ladder.rungs[i].rung.elements); }));
+    key.columns.push_back(
+        column(ladder, "dt", [&](std::size_t i) { return shortest(ladder.rungs[i].rung.dt); }));
+    std::vector<TextTable::Group> groups;
+    for (std::size_t k = 0; k < ladder.norms.size(); ++k)
+        groups.push_back(norm_group(ladder, block, k));
+    TextTable::Group cost{"", {}};
+    if (algorithm == Algorithm::fixed_point)
+        cost.columns.push_back(column(ladder, "iter.", [&](std::size_t i) {
+            return std::to_string(ladder.rungs[i].counters.fixed_point_iterations);
+        }));
+    cost.columns.push_back(column(
+        ladder, "sec", [&](std::size_t i) { return seconds_text(ladder.rungs[i].seconds); }));
+    groups.push_back(cost);
+    std::string text = TextTable(key, groups).text();
+    if (block.printed && !block.printed->figures.empty())
+        text += "\nprinted: " + block.printed->source +
+                "; ratio: error / printed; ord.: observed order\n";
+    for (const auto& rung : ladder.rungs)
+        if (rung.status != RunStatus::ok)
+            text += "\n" + wrapped(fmt::format("s = {}, dt = {} failed: {}", rung.rung.elements,
+                                               shortest(rung.rung.dt), rung.reason));
+    if (!ladder.remarks.empty())
+        text += "\n";
+    for (const auto& remark : ladder.remarks)
+        text += wrapped(remark);
+    return text;
+}
+
+} // namespace
+
+std::string terminal_report(const StudyResult& result) {
+    const Scene& scene = result.scene;
+    std::string text =
+        wrapped(scene.title) + wrapped(problem_line(scene)) + wrapped(scheme_line(scene.scheme));
+    if (result.ladder)
+        text += wrapped("errors up to T = " + shortest(scene.ladder->final_time)) + "\n" +
+                ladder_report(*result.ladder, *scene.ladder, scene.scheme.algorithm);
+    if (!result.left_out.empty()) {
+        text += "\nLeft out, as the scene does not need it:\n";
+        for (const auto& part : result.left_out)
+            text += wrapped("  " + part, 4);
+    }
+    return text;
+}
+
+} // namespace tvbeam

@@ -1,0 +1,98 @@
+#include "reports/text_table.hpp"
+
+#include <algorithm>
+#include <sstream>
+
+namespace tvbeam {
+
+namespace {
+
+/// Characters that a terminal shows: code points, which is enough for the letters used here.
+std::size_t shown(const std::string& text) {
+    return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) {
+        return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U;
+    }));
+}
+
+std::string padded(const std::string& text, std::size_t width) {
+    const std::size_t length = shown(text);
+    return std::string(width > length ? width - length : 0, ' ') + text;
+}
+
+std::size_t width_of(const TextTable::Column& column) {
+    std::size_t width = shown(column.heading);
+    for (const auto& cell : column.cells)
+        width = std::max(width, shown(cell));
+    return width;
+}
+
+std::size_t width_of(const TextTable::Group& group) {
+    std::size_t width = 0;
+    for (const auto& column : group.columns)
+        width += width_of(column) + 1;
+    return std::max(width, shown(group.heading) + 1) - 1;
+}
+
+std::string line_of(const std::vector<const TextTable::Group*>& groups, std::size_t row,
+                    bool heading) {
+    std::string line;
+    for (const auto* group : groups) {
+        std::string part;
+        for (const auto& column : group->columns)
+            part += (part.empty() ? "" : " ") +
+                    padded(heading ? column.heading : column.cells[row], width_of(column));
+        line += (line.empty() ? "" : " ") + padded(part, width_of(*group));
+    }
+    line.erase(line.find_last_not_of(' ') + 1);
+    return line + "\n";
+}
+
+} // namespace
+
+TextTable::TextTable(Group key, std::vector<Group> groups)
+    : key_(std::move(key)), groups_(std::move(groups)) {}
+
+std::string TextTable::text(std::size_t width) const {
+    const std::size_t rows = key_.columns.empty() ? 0 : key_.columns.front().cells.size();
+    std::string result;
+    std::size_t next = 0;
+    do {
+        std::vector<const Group*> side_by_side{&key_};
+        std::size_t used = width_of(key_);
+        const std::size_t first = next;
+        while (next < groups_.size() &&
+               (next == first || used + 1 + width_of(groups_[next]) <= width)) {
+            used += 1 + width_of(groups_[next]);
+            side_by_side.push_back(&groups_[next++]);
+        }
+        if (!result.empty())
+            result += "\n";
+        std::string headings;
+        for (const auto* group : side_by_side)
+            headings += (headings.empty() ? "" : " ") + padded(group->heading, width_of(*group));
+        headings.erase(headings.find_last_not_of(' ') + 1);
+        if (!headings.empty())
+            result += headings + "\n";
+        result += line_of(side_by_side, 0, true);
+        for (std::size_t row = 0; row < rows; ++row)
+            result += line_of(side_by_side, row, false);
+    } while (next < groups_.size());
+    return result;
+}
+
+std::string wrapped(const std::string& text, std::size_t indent, std::size_t width) {
+    std::istringstream words(text);
+    std::string result;
+    std::string line;
+    for (std::string word; words >> word;) {
+        if (!line.empty() && shown(line) + 1 + shown(word) > width) {
+            result += line + "\n";
+            line = std::string(indent, ' ') + word;
+        } else {
+            line += (line.empty() ? "" : " ") + word;
+        }
+    }
+    return line.empty() ? result : result + line + "\n";
+}
+
+} // namespace tvbeam

@@ -1,0 +1,186 @@
+// The command line. Exit: 0 done, 1 an expectation failed, 2 bad input or usage, 3 a run failed.
+
+#include "mms/derived_formulas.hpp"
+#include "mms/input_error.hpp"
+#include "reports/csv_report.hpp"
+#include "reports/formula_report.hpp"
+#include "reports/json_report.hpp"
+#include "reports/output_file.hpp"
+#include "reports/terminal_report.hpp"
+#include "reports/text_table.hpp"
+#include "studies/shipped.hpp"
+#include "studies/study.hpp"
+#include "studies/toml_reader.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <csignal>
+#include <cstdio>
+#include <exception>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace {
+
+using namespace tvbeam;
+
+enum Exit { done = 0, bad_input = 2, run_failed = 3 };
+
+struct RunOptions {
+    std::string scene;
+    std::vector<std::string> overrides;
+    std::string json;
+    std::string csv;
+};
+
+void report_error(const std::string& message) {
+    std::fprintf(stderr, "tvbeam: %s\n", message.c_str());
+}
+
+/// Where one report goes: nowhere, standard output (-), or a file.
+class Destination {
+public:
+    explicit Destination(const std::string& name) : standard_output_(name == "-") {
+        if (!name.empty() && !standard_output_)
+            file_.emplace(name);
+    }
+    [[nodiscard]] bool wanted() const { return standard_output_ || file_; }
+    [[nodiscard]] bool standard_output() const { return standard_output_; }
+    void write(const std::string& text) {
+        if (file_)
+            file_->commit(text);
+        else
+            write_standard_output(text);
+    }
+
+private:
+    bool standard_output_;
+    std::optional<OutputFile> file_;
+};
+
+int run_command(const RunOptions& options) {
+    const Scene scene = read_scene(options.scene, options.overrides);
+    Destination json(options.json);
+    Destination csv(options.csv);
+    const StudyResult result = run_study(scene);
+    if (!json.standard_output() && !csv.standard_output())
+        write_standard_output(terminal_report(result));
+    if (json.wanted())
+        json.write(json_report(result));
+    if (csv.wanted())
+        csv.write(csv_report(result));
+    if (result.failed()) {
+        report_error("a run failed; the result says which and why");
+        return run_failed;
+    }
+    return done;
+}
+
+/// The solution that a name or file means: a scene's own, or a solution itself.
+Solution solution_named(const std::string& name) {
+    const auto is_scene = [](const std::string& file) {
+        return read_toml(file).table.contains("beam");
+    };
+    const bool is_file = name.find('/') != std::string::npos || name.ends_with(".toml");
+    const auto scenes = shipped_files(Shipped::scene);
+    const bool is_shipped_scene = std::any_of(
+        scenes.begin(), scenes.end(), [&](const ShippedFile& file) { return file.name == name; });
+    if (!is_shipped_scene && !(is_file && is_scene(find_file(Shipped::scene, name).string())))
+        return read_solution(find_file(Shipped::solution, name));
+    const Scene scene = read_scene(name);
+    if (!scene.has_exact_solution())
+        throw InputError({scene.file},
+                         "the scene has a [data] block and no exact solution to derive from");
+    return std::get<Solution>(scene.problem);
+}
+
+int derive_command(const std::string& name, bool latex) {
+    const Solution solution = solution_named(name);
+    write_standard_output(formula_report(solution, derived_formulas(solution), latex));
+    return done;
+}
+
+int list_command() {
+    std::string text = "Scenes (tvbeam run NAME):\n";
+    for (const auto& file : shipped_files(Shipped::scene))
+        text += wrapped("  " + file.name + ": " + read_scene(file.path.string()).title, 4);
+    text += "\nSolutions (solution = \"NAME\" in a scene, tvbeam derive NAME):\n";
+    for (const auto& file : shipped_files(Shipped::solution)) {
+        const Solution solution = read_solution(file.path);
+        text += wrapped("  " + file.name + ": " +
+                            (solution.purpose.empty() ? solution.source : solution.purpose),
+                        4);
+    }
+    write_standard_output(text);
+    return done;
+}
+
+int command_line(int argc, char** argv) {
+    CLI::App app(
+        "Verification and convergence studies for a thermoviscoelastic beam between two stops.\n"
+        "Exit: 0 done, 1 an expectation failed, 2 bad input or usage, 3 a run failed.");
+    app.name("tvbeam");
+    app.set_version_flag("--version", "tvbeam " TVBEAM_VERSION);
+    app.require_subcommand(1);
+
+    RunOptions options;
+    auto* run =
+        app.add_subcommand("run", "Run the studies of a scene and print its table.\n"
+                                  "Example: tvbeam run table1 --set beam.alpha=0 --csv table1.csv");
+    run->add_option("scene", options.scene, "a shipped scene, or a file")->required();
+    run->add_option("--set", options.overrides,
+                    "override a key: --set beam.alpha=1e3 (again and again)")
+        ->type_name("KEY=VALUE")
+        ->expected(1)
+        ->take_all();
+    run->add_option("--json", options.json,
+                    "write the result as JSON; -: to standard output, in place of the table")
+        ->type_name("FILE|-");
+    run->add_option("--csv", options.csv,
+                    "write the ladder as CSV; -: to standard output, in place of the table")
+        ->type_name("FILE|-");
+
+    std::string name;
+    bool latex = false;
+    auto* derive =
+        app.add_subcommand("derive", "Print the f, G, m, theta0 and u0 that a solution demands.\n"
+                                     "Example: tvbeam derive copetti-fernandez-2011 --latex");
+    derive->add_option("name", name, "a shipped scene or solution, or a file")->required();
+    derive->add_flag("--latex", latex, "as LaTeX");
+
+    auto* list =
+        app.add_subcommand("list", "List the shipped scenes and solutions.\nExample: tvbeam list");
+
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        return app.exit(error) == 0 ? done : bad_input;
+    }
+    if (*run) {
+        if (options.json == "-" && options.csv == "-")
+            throw InputError({"--json - --csv -"},
+                             "only one report fits on standard output; give the other a file");
+        return run_command(options);
+    }
+    if (*derive)
+        return derive_command(name, latex);
+    return *list ? list_command() : bad_input;
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+    // A closed pipe then fails the write, which is reported like any other.
+    std::signal(SIGPIPE, SIG_IGN);
+    try {
+        return command_line(argc, argv);
+    } catch (const InputError& error) {
+        report_error(error.what());
+        return bad_input;
+    } catch (const std::exception& error) {
+        report_error(error.what());
+        return run_failed;
+    }
+}

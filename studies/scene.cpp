@@ -1,0 +1,323 @@
+#include "studies/scene.hpp"
+
+#include "core/error_norms.hpp"
+#include "mms/manufactured_problem.hpp"
+#include "mms/nearest_name.hpp"
+#include "mms/number_expression.hpp"
+#include "studies/shipped.hpp"
+#include "studies/toml_reader.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <sstream>
+
+namespace tvbeam {
+
+namespace {
+
+constexpr std::int64_t most_elements = 10'000'000;
+constexpr double most_steps = 1e12;
+
+std::string text_of(double value) {
+    std::ostringstream text;
+    text.precision(12);
+    text << value;
+    return text.str();
+}
+
+/// A number that must not be below the limit; the rule is put in words by the caller.
+double at_least_zero(TableReader& table, std::string_view key) {
+    const auto value = table.number(key);
+    if (!value)
+        throw InputError(table.place(key),
+                         table.full(key) + " is missing; it must be given and be >= 0");
+    if (*value < 0.0)
+        throw InputError(table.place(key),
+                         table.full(key) + " is " + text_of(*value) + "; it must be >= 0");
+    return *value;
+}
+
+Beam read_beam(TableReader table, bool& stops_given) {
+    Beam beam;
+    beam.alpha = at_least_zero(table, "alpha");
+    beam.zeta = at_least_zero(table, "zeta");
+    beam.theta_A = table.number("theta_A").value_or(0.0);
+    if (const auto stops = table.numbers("stops", TableReader::Infinity::allowed)) {
+        stops_given = true;
+        if (stops->size() != 2)
+            throw InputError(table.place("stops"), table.full("stops") + " has " +
+                                                       std::to_string(stops->size()) +
+                                                       " values; it must be [g1, g2]");
+        beam.stops = {(*stops)[0], (*stops)[1]};
+        if (beam.stops.lower >= beam.stops.upper)
+            throw InputError(table.place("stops"), table.full("stops") + " is [" +
+                                                       text_of(beam.stops.lower) + ", " +
+                                                       text_of(beam.stops.upper) +
+                                                       "]; g1 must be below g2: are they swapped?");
+        if (!(beam.stops.lower < 0.0))
+            throw InputError(table.place("stops", 0), "g1, the first of " + table.full("stops") +
+                                                          ", is " + text_of(beam.stops.lower) +
+                                                          "; it must be < 0 (-inf: no stop below)");
+        if (!(beam.stops.upper > 0.0))
+            throw InputError(table.place("stops", 1), "g2, the second of " + table.full("stops") +
+                                                          ", is " + text_of(beam.stops.upper) +
+                                                          "; it must be > 0 (inf: no stop above)");
+    }
+    table.finish();
+    return beam;
+}
+
+Scheme read_scheme(TableReader table) {
+    Scheme scheme;
+    if (const auto algorithm = table.choice("algorithm", {"direct", "fixed-point"}))
+        scheme.algorithm = *algorithm == 0 ? Algorithm::direct : Algorithm::fixed_point;
+    table.choice("time", {"euler"});
+    if (const auto mass = table.choice("thermal_mass", {"consistent", "lumped"}))
+        scheme.thermal_mass = *mass == 0 ? ThermalMass::consistent : ThermalMass::lumped;
+    if (const auto tolerance = table.number("tolerance")) {
+        if (scheme.algorithm != Algorithm::fixed_point)
+            throw InputError(table.place("tolerance"),
+                             table.full("tolerance") +
+                                 " belongs to algorithm = \"fixed-point\"; "
+                                 "the direct algorithm does not iterate: remove it");
+        if (!(*tolerance > 0.0))
+            throw InputError(table.place("tolerance"), table.full("tolerance") + " is " +
+                                                           text_of(*tolerance) +
+                                                           "; it must be > 0");
+        scheme.tolerance = *tolerance;
+    }
+    table.finish();
+    return scheme;
+}
+
+std::vector<std::int64_t> read_elements(TableReader& table) {
+    const auto elements = table.integers("elements");
+    if (!elements)
+        throw InputError(table.place("elements"),
+                         table.full("elements") +
+                             " is missing; give the numbers of elements, e.g. [10, 20, 40]");
+    if (elements->empty())
+        throw InputError(table.place("elements"),
+                         table.full("elements") + " is empty; a ladder has at least one rung");
+    for (std::size_t i = 0; i < elements->size(); ++i)
+        if ((*elements)[i] < 1 || (*elements)[i] > most_elements)
+            throw InputError(table.place("elements", i),
+                             table.full("elements") + " holds " + std::to_string((*elements)[i]) +
+                                 "; a mesh has 1 to " + std::to_string(most_elements) +
+                                 " elements");
+    return *elements;
+}
+
+/// dt as a list of one number a rung, or one expression in s.
+std::vector<double> read_dt(TableReader& table, const std::vector<std::int64_t>& elements) {
+    std::vector<double> dt;
+    if (table.is_string("dt")) {
+        const SourceText formula = *table.expression("dt");
+        for (const std::int64_t s : elements)
+            dt.push_back(number_from_expression(formula, {{"s", static_cast<double>(s)}}));
+    } else if (const auto list = table.numbers("dt")) {
+        if (list->size() != elements.size())
+            throw InputError(table.place("dt"),
+                             table.full("dt") + " has " + std::to_string(list->size()) +
+                                 " values, " + table.full("elements") + " has " +
+                                 std::to_string(elements.size()) +
+                                 "; give one dt a rung, or one expression in s, e.g. \"0.01/s\"");
+        dt = *list;
+    } else {
+        throw InputError(table.place("dt"), table.full("dt") +
+                                                " is missing; give one dt a rung, or one "
+                                                "expression in s, e.g. \"0.01/s\"");
+    }
+    return dt;
+}
+
+/// The number of steps of length dt in final_time; they must fill it to 1e-9 of a step.
+std::int64_t steps_of(const TableReader& table, std::size_t rung, double final_time, double dt) {
+    const Place place = table.place("dt", rung);
+    if (!(dt > 0.0))
+        throw InputError(place, table.full("dt") + " is " + text_of(dt) + "; it must be > 0");
+    const double ratio = final_time / dt;
+    const double steps = std::max(1.0, std::round(ratio));
+    if (!(steps <= most_steps))
+        throw InputError(place, table.full("dt") + " is " + text_of(dt) + ", which makes " +
+                                    text_of(ratio) + " steps; at most 1e12 are possible");
+    if (std::abs(ratio - steps) > 1e-9 * steps)
+        throw InputError(place, table.full("dt") + " is " + text_of(dt) + "; it must divide " +
+                                    table.full("final_time") + " = " + text_of(final_time) +
+                                    " into a whole number of steps, not " + text_of(ratio) +
+                                    "; the nearest is " + text_of(final_time / steps));
+    return static_cast<std::int64_t>(steps);
+}
+
+std::vector<Norm> read_norms(TableReader& table) {
+    std::vector<Norm> norms;
+    const auto names = table.texts("norms").value_or(std::vector<std::string>{});
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        const auto norm = Norm::named(names[i]);
+        if (!norm) {
+            std::vector<std::string> known = Norm::names();
+            std::string list;
+            for (const auto& name : known)
+                list += (list.empty() ? "" : ", ") + name;
+            throw InputError(table.place("norms", i),
+                             "unknown norm '" + names[i] + "'" + did_you_mean(names[i], known) +
+                                 "; known: " + list +
+                                 ", and their squares with _sq behind the name");
+        }
+        if (std::any_of(norms.begin(), norms.end(),
+                        [&](const Norm& other) { return other.name == norm->name; }))
+            throw InputError(table.place("norms", i),
+                             table.full("norms") + " names '" + names[i] + "' twice; remove one");
+        norms.push_back(*norm);
+    }
+    return norms;
+}
+
+PrintedFigures read_printed(TableReader table, const LadderBlock& ladder) {
+    PrintedFigures printed;
+    printed.source = table.text("source").value_or("printed");
+    for (const auto& norm : ladder.norms)
+        if (const auto figures = table.numbers(norm.name)) {
+            if (figures->size() != ladder.rungs.size())
+                throw InputError(table.place(norm.name),
+                                 table.full(norm.name) + " has " + std::to_string(figures->size()) +
+                                     " figures for " + std::to_string(ladder.rungs.size()) +
+                                     " rungs; give one a rung");
+            printed.figures[norm.name] = *figures;
+        }
+    table.finish();
+    return printed;
+}
+
+LadderBlock read_ladder(TableReader table) {
+    LadderBlock ladder;
+    const auto final_time = table.number("final_time");
+    if (!final_time)
+        throw InputError(table.place("final_time"),
+                         table.full("final_time") +
+                             " is missing; give the time at which the run ends");
+    if (!(*final_time > 0.0))
+        throw InputError(table.place("final_time"), table.full("final_time") + " is " +
+                                                        text_of(*final_time) + "; it must be > 0");
+    ladder.final_time = *final_time;
+    const auto elements = read_elements(table);
+    const auto dt = read_dt(table, elements);
+    for (std::size_t i = 0; i < elements.size(); ++i)
+        ladder.rungs.push_back({elements[i], steps_of(table, i, *final_time, dt[i]), dt[i]});
+    ladder.norms = read_norms(table);
+    if (auto printed = table.table("printed"))
+        ladder.printed = read_printed(*std::move(printed), ladder);
+    table.finish();
+    return ladder;
+}
+
+GivenData read_data(TableReader table) {
+    GivenData data;
+    data.theta0 = table.expression("theta0");
+    data.u0 = table.expression("u0");
+    data.heat_source = table.expression("heat_source");
+    data.body_force = table.expression("body_force");
+    table.finish();
+    return data;
+}
+
+Solution read_scene_solution(TableReader& root, const std::filesystem::path& beside) {
+    const std::string name = *root.text("solution");
+    try {
+        return read_solution(find_file(Shipped::solution, name, beside));
+    } catch (const InputError& error) {
+        // An error inside the solution file has its own place; one about its name stands in the
+        // scene.
+        const std::string what = error.what();
+        if (what.starts_with("there is no "))
+            throw InputError(root.place("solution"), what);
+        throw;
+    }
+}
+
+std::string json_of(const toml::table& table) {
+    std::ostringstream text;
+    text << toml::json_formatter{table, toml::format_flags::quote_infinities_and_nans};
+    return text.str();
+}
+
+} // namespace
+
+Scene read_scene(const std::string& name_or_file, const std::vector<std::string>& overrides) {
+    const std::filesystem::path path = find_file(Shipped::scene, name_or_file);
+    TomlDocument document = read_toml(path.string());
+    for (const auto& assignment : overrides)
+        override_key(document, assignment);
+
+    Scene scene;
+    scene.file = path.string();
+    scene.name = path.stem().string();
+    scene.json = json_of(document.table);
+    TableReader root(document, document.table, "");
+    scene.title = root.text("title").value_or(scene.name);
+
+    auto beam = root.table("beam");
+    if (!beam)
+        throw InputError({scene.file},
+                         "the block [beam] is missing; it holds alpha, zeta and the stops");
+    scene.beam = read_beam(*std::move(beam), scene.stops_given);
+    if (auto scheme = root.table("scheme"))
+        scene.scheme = read_scheme(*std::move(scheme));
+
+    auto data = root.table("data");
+    if (root.has("solution") == data.has_value())
+        throw InputError(
+            root.place(data ? "data" : "solution"),
+            data ? "the scene has both a solution and a [data] block; remove one"
+                 : "the scene has neither a solution nor a [data] block; give one of them");
+    if (data)
+        scene.problem = read_data(*std::move(data));
+    else
+        scene.problem = read_scene_solution(root, path.parent_path());
+
+    if (auto ladder = root.table("ladder")) {
+        scene.ladder = read_ladder(*std::move(ladder));
+        if (!scene.ladder->norms.empty() && !scene.has_exact_solution())
+            throw InputError(root.place("ladder"),
+                             "ladder.norms asks for errors, but the scene has no exact solution; "
+                             "remove the norms or give a solution");
+    }
+    root.finish();
+    if (!scene.ladder)
+        throw InputError({scene.file}, "the scene has no study; add a block [ladder]");
+    return scene;
+}
+
+ProblemData problem_of(const Scene& scene, double final_time) {
+    if (const auto* solution = std::get_if<Solution>(&scene.problem))
+        return manufactured_problem(*solution, scene.beam, final_time);
+    return given_problem(std::get<GivenData>(scene.problem), scene.beam, final_time);
+}
+
+std::vector<std::string> left_out(const Scene& scene, const ProblemData& data) {
+    std::vector<std::string> parts;
+    const Needs needs =
+        scene.ladder && data.exact ? ErrorNorms::needs(data, scene.ladder->norms) : Needs{};
+    const bool coupled = scene.beam.alpha != 0.0;
+    const bool direct = scene.scheme.algorithm == Algorithm::direct;
+    if (!coupled)
+        parts.emplace_back("coupling: alpha = 0, heat and bending are two separate problems");
+    if (direct && !coupled && !needs.temperature)
+        parts.emplace_back("temperature: no norm asks for it");
+    if (direct && !coupled && !needs.deflection)
+        parts.emplace_back("deflection: no norm asks for it");
+    if (!scene.beam.stops.exist())
+        parts.emplace_back("contact: the scene has no stops");
+    if (scene.beam.zeta == 0.0)
+        parts.emplace_back("viscosity: zeta = 0");
+    if (data.heat_source.is_zero())
+        parts.emplace_back("heat source: zero");
+    if (data.moment_load.is_zero())
+        parts.emplace_back("moment load: zero");
+    if (scene.ladder && scene.ladder->norms.empty())
+        parts.emplace_back("error norms: none asked for");
+    return parts;
+}
+
+} // namespace tvbeam

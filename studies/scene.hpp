@@ -1,0 +1,67 @@
+#pragma once
+
+#include "core/norms.hpp"
+#include "core/problem.hpp"
+#include "core/scheme.hpp"
+#include "mms/given_problem.hpp"
+#include "mms/solution.hpp"
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace tvbeam {
+
+/// One run of a ladder: s elements of length 1/s and N steps of length dt.
+struct Rung {
+    std::int64_t elements = 0;
+    std::int64_t steps = 0;
+    double dt = 0.0; ///< as the scene gives it; steps · dt = final_time to rounding
+};
+
+/// Figures to compare with, a list of one figure a rung for each norm.
+struct PrintedFigures {
+    std::string source; ///< where they were printed
+    std::map<std::string, std::vector<double>> figures;
+};
+
+/// The block [ladder]: the same problem on a sequence of meshes and steps.
+struct LadderBlock {
+    double final_time = 0.0;
+    std::vector<Rung> rungs;
+    std::vector<Norm> norms;
+    std::optional<PrintedFigures> printed;
+};
+
+/// What to run. A study runs if its block is there.
+struct Scene {
+    std::string file;
+    std::string name;  ///< the file's name without .toml
+    std::string title; ///< the name where the scene has none
+    Beam beam;
+    bool stops_given = false;
+    std::variant<Solution, GivenData> problem;
+    Scheme scheme;
+    std::optional<LadderBlock> ladder;
+    std::string json; ///< the scene with its overrides, as JSON
+
+    [[nodiscard]] bool has_exact_solution() const {
+        return std::holds_alternative<Solution>(problem);
+    }
+};
+
+/// Reads a scene: a shipped name or a file, with overrides `key=value` applied in order. Everything
+/// that can be said without running is checked here. Throws InputError at file:line:column.
+Scene read_scene(const std::string& name_or_file, const std::vector<std::string>& overrides = {});
+
+/// The problem of a scene up to final_time; throws InputError where its solution or data are not
+/// admissible.
+ProblemData problem_of(const Scene& scene, double final_time);
+
+/// What the scene does without, in words, e.g. "contact: the scene has no stops".
+std::vector<std::string> left_out(const Scene& scene, const ProblemData& data);
+
+} // namespace tvbeam

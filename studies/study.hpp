@@ -1,0 +1,25 @@
+#pragma once
+
+#include "studies/ladder.hpp"
+#include "studies/scene.hpp"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace tvbeam {
+
+/// Everything that running a scene gave: one record for each study whose block the scene has.
+struct StudyResult {
+    Scene scene;
+    std::vector<std::string> left_out; ///< parts that the scene does not need, in words
+    std::optional<LadderResult> ladder;
+
+    [[nodiscard]] bool failed() const { return ladder && ladder->failed(); }
+};
+
+/// Runs the studies of a scene. Throws InputError when its problem is not admissible; nothing has
+/// run then.
+StudyResult run_study(const Scene& scene);
+
+} // namespace tvbeam

@@ -1,0 +1,116 @@
+// What a scene does not need is not computed and not allocated: the counters of the result show it.
+
+#include "core/run.hpp"
+#include "mms/manufactured_problem.hpp"
+#include "mms/solution.hpp"
+#include "tests/marching.hpp"
+
+#include <boost/test/data/monomorphic.hpp>
+#include <boost/test/data/test_case.hpp>
+#include <boost/test/unit_test.hpp>
+
+using namespace tvbeam;
+
+namespace {
+
+const std::string solution = "theta = 'exp(-t)*sin(pi*x)'\nu = '(x^3/6 - x^2/2)*cos(t)/100'";
+
+constexpr std::int64_t steps = 40;
+
+RunResult result_of(const Beam& beam, const std::vector<std::string>& names,
+                    const Scheme& scheme = {}, const std::string& text = solution) {
+    std::vector<Norm> norms;
+    for (const auto& name : names)
+        norms.push_back(*Norm::named(name));
+    return run({beam, Mesh::uniform(30), scheme, 1.0, steps, norms},
+               manufactured_problem(parse_solution(text, "test"), beam, 1.0));
+}
+
+const Beam full{.alpha = 0.4, .zeta = 0.1, .stops = {-0.1, 0.1}};
+const std::vector<std::string> both{"theta_L2L2", "u_LinfH2semi"};
+
+} // namespace
+
+BOOST_AUTO_TEST_SUITE(left_out)
+
+BOOST_AUTO_TEST_CASE(a_full_scene_does_every_part) {
+    const Counters counters = result_of(full, both).counters;
+    BOOST_TEST(counters.steps == steps);
+    BOOST_TEST(counters.heat_solves == steps);
+    BOOST_TEST(counters.beam_solves == steps);
+    BOOST_TEST(counters.coupling_updates == steps);
+    BOOST_TEST(counters.load_updates == steps);
+    BOOST_TEST(counters.tip_evaluations == steps);
+    BOOST_TEST(counters.norm_evaluations == 2 * steps);
+    BOOST_TEST(counters.source_evaluations == 0); // everything separates
+    BOOST_TEST(counters.fixed_point_iterations == 0);
+}
+
+BOOST_AUTO_TEST_CASE(without_alpha_nothing_is_coupled) {
+    Beam beam = full;
+    beam.alpha = 0.0;
+    const Counters counters = result_of(beam, both).counters;
+    BOOST_TEST(counters.coupling_updates == 0);
+    BOOST_TEST(counters.heat_solves == steps);
+    BOOST_TEST(counters.doubles_allocated < result_of(full, both).counters.doubles_allocated);
+}
+
+BOOST_AUTO_TEST_CASE(without_alpha_a_field_that_no_norm_reads_is_not_solved_for) {
+    Beam beam = full;
+    beam.alpha = 0.0;
+    const Counters heat = result_of(beam, {"theta_L2L2"}).counters;
+    BOOST_TEST(heat.beam_solves == 0);
+    BOOST_TEST(heat.tip_evaluations == 0);
+    BOOST_TEST(heat.heat_solves == steps);
+    const Counters bending = result_of(beam, {"u_LinfH2semi"}).counters;
+    BOOST_TEST(bending.heat_solves == 0);
+    BOOST_TEST(bending.beam_solves == steps);
+    // With coupling each field acts on the other, and both are needed.
+    BOOST_TEST(result_of(full, {"theta_L2L2"}).counters.beam_solves == steps);
+    BOOST_TEST(result_of(full, {"u_LinfH2semi"}).counters.heat_solves == steps);
+}
+
+BOOST_AUTO_TEST_CASE(without_stops_the_tip_is_not_looked_at) {
+    Beam beam = full;
+    beam.stops = {};
+    const Counters counters = result_of(beam, both).counters;
+    BOOST_TEST(counters.tip_evaluations == 0);
+    BOOST_TEST(counters.contact_steps == 0);
+    BOOST_TEST(counters.doubles_allocated < result_of(full, both).counters.doubles_allocated);
+}
+
+BOOST_AUTO_TEST_CASE(without_sources_no_load_is_added) {
+    // θ = 0, u = 0 needs neither f nor G.
+    const Counters counters = result_of(full, both, {}, "theta = '0'\nu = '0'").counters;
+    BOOST_TEST(counters.load_updates == 0);
+    BOOST_TEST(counters.source_evaluations == 0);
+    BOOST_TEST(counters.heat_solves == steps);
+}
+
+BOOST_AUTO_TEST_CASE(without_norms_nothing_is_integrated) {
+    const Counters counters = result_of(full, {}).counters;
+    BOOST_TEST(counters.norm_evaluations == 0);
+    BOOST_TEST(counters.heat_solves == steps);
+    BOOST_TEST(counters.beam_solves == steps);
+    BOOST_TEST(counters.doubles_allocated <
+               result_of(full, {"u_LinfH2semi"}).counters.doubles_allocated);
+}
+
+BOOST_DATA_TEST_CASE(what_is_left_out_does_not_change_what_remains,
+                     boost::unit_test::data::make(all_schemes), scheme) {
+    // The tip stays between the stops, so they only cost time; and a field read alone is the field
+    // read with the other.
+    const auto with = result_of(full, both, scheme).errors;
+    Beam open = full;
+    open.stops = {};
+    const auto without = result_of(open, both, scheme).errors;
+    BOOST_TEST(with[0] == without[0], boost::test_tools::tolerance(1e-12));
+    BOOST_TEST(with[1] == without[1], boost::test_tools::tolerance(1e-8));
+    Beam uncoupled = full;
+    uncoupled.alpha = 0.0;
+    const auto together = result_of(uncoupled, both, scheme).errors;
+    BOOST_TEST(result_of(uncoupled, {"theta_L2L2"}, scheme).errors[0] == together[0]);
+    BOOST_TEST(result_of(uncoupled, {"u_LinfH2semi"}, scheme).errors[0] == together[1]);
+}
+
+BOOST_AUTO_TEST_SUITE_END()

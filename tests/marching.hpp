@@ -1,0 +1,85 @@
+#pragma once
+
+#include "core/linear_elements.hpp"
+#include "core/run.hpp"
+
+#include <cmath>
+#include <functional>
+#include <ostream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace tvbeam {
+
+/// Every way of solving a step: tests of general properties run over all of them.
+inline const std::vector<Scheme> all_schemes{
+    {Algorithm::direct, ThermalMass::consistent, 0.0},
+    {Algorithm::direct, ThermalMass::lumped, 0.0},
+    {Algorithm::fixed_point, ThermalMass::consistent, 1e-13},
+    {Algorithm::fixed_point, ThermalMass::lumped, 1e-13},
+};
+
+inline std::ostream& operator<<(std::ostream& stream, ThermalMass mass) {
+    return stream << (mass == ThermalMass::lumped ? "lumped" : "consistent");
+}
+
+/// The name of a scheme in the log of a failing data test.
+inline std::ostream& operator<<(std::ostream& stream, const Scheme& scheme) {
+    return stream << (scheme.algorithm == Algorithm::direct ? "direct" : "fixed point") << ", "
+                  << scheme.thermal_mass;
+}
+
+/// A load with amplitude A(t): the heat source f = A(t) φ(x), or the shear load G = A(t), for which
+/// Ĝ = A(t)(1 − x).
+struct Load {
+    std::function<double(double)> amplitude;
+    SpaceFunction heat_profile; ///< φ; empty: a shear load
+};
+
+/// A problem that starts at rest and is driven by loads.
+inline ProblemData forced_problem(const std::vector<Load>& loads) {
+    ProblemData data;
+    data.amplitude_count = static_cast<Eigen::Index>(loads.size());
+    data.amplitudes = [loads](const Eigen::ArrayXd& t) {
+        Eigen::ArrayXXd values(static_cast<Eigen::Index>(loads.size()), t.size());
+        for (std::size_t k = 0; k < loads.size(); ++k)
+            for (Eigen::Index i = 0; i < t.size(); ++i)
+                values(static_cast<Eigen::Index>(k), i) = loads[k].amplitude(t(i));
+        return values;
+    };
+    for (std::size_t k = 0; k < loads.size(); ++k) {
+        const auto amplitude = static_cast<Eigen::Index>(k);
+        const auto add = [&](Field& field, const SpaceFunction& profile) {
+            field.terms.push_back({amplitude, static_cast<Eigen::Index>(data.profiles.size())});
+            data.profiles.push_back(profile);
+        };
+        if (loads[k].heat_profile) {
+            add(data.heat_source, loads[k].heat_profile);
+        } else {
+            add(data.moment_load,
+                [](const Eigen::ArrayXd& x) -> Eigen::ArrayXd { return 1.0 - x; });
+            add(data.couple_load,
+                [](const Eigen::ArrayXd& x) -> Eigen::ArrayXd { return 0.0 * x + 1.0; });
+        }
+    }
+    return data;
+}
+
+/// Steps a solver and visits every time level; fails the program's test by an exception when a step
+/// fails.
+inline void march(Solver& solver, const ProblemData& data, double dt, int steps,
+                  const std::function<void(double t)>& visit) {
+    for (int n = 1; n <= steps; ++n) {
+        const double t = n * dt;
+        Eigen::VectorXd amplitudes;
+        if (data.amplitude_count > 0)
+            amplitudes = data.amplitudes(Eigen::ArrayXd::Constant(1, t)).col(0).matrix();
+        const std::string reason = solver.step(t, amplitudes);
+        if (!reason.empty())
+            throw std::runtime_error(reason);
+        visit(t);
+    }
+}
+
+} // namespace tvbeam
