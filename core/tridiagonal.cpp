@@ -30,7 +30,11 @@ TridiagonalFactor::TridiagonalFactor(const Tridiagonal& matrix)
     for (Eigen::Index i = 0; i < order(); ++i) {
         multipliers_(i) = i == 0 ? 0.0 : matrix.coupling(i - 1) / pivot;
         pivot = matrix.diagonal(i) - (i == 0 ? 0.0 : multipliers_(i) * matrix.coupling(i - 1));
-        if (!(pivot > 0.0) || !std::isfinite(pivot) || !std::isfinite(1.0 / pivot))
+        if (!std::isfinite(pivot) || !std::isfinite(1.0 / pivot))
+            throw std::domain_error(
+                "the matrix of the step is beyond the range of floating point: pivot " +
+                std::to_string(i) + " or its inverse is not finite");
+        if (!(pivot > 0.0))
             throw std::domain_error("the matrix of the step is not positive definite: pivot " +
                                     std::to_string(i) + " is " + std::to_string(pivot));
         inverse_pivots_(i) = 1.0 / pivot;

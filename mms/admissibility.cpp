@@ -165,11 +165,14 @@ private:
             return;
         const ArrayXd in_time = times(i, time_points);
         const ArrayXd error = series(difference, in_time, source, what);
-        for (Index k = 0; k < in_time.size(); ++k)
-            if (!(std::abs(error(k)) <= relative_tolerance * scale))
-                throw InputError(source.begin(), what + " is " + number(value + error(k)) +
-                                                     " at t = " + number(in_time(k)) +
-                                                     "; it must be " + number(value) + repair);
+        const double tolerance = relative_tolerance * scale;
+        const auto broken = std::find_if(error.begin(), error.end(), [tolerance](double e) {
+            return !(std::abs(e) <= tolerance);
+        });
+        if (broken != error.end())
+            throw InputError(source.begin(), what + " is " + number(value + *broken) + " at t = " +
+                                                 number(in_time(broken - error.begin())) +
+                                                 "; it must be " + number(value) + repair);
     }
 
     // The stops (6) and the contact stress (7), (8).

@@ -121,7 +121,7 @@ private:
     }
 
     ex power() {
-        const ex base = primary();
+        ex base = primary();
         if (peek() != '^')
             return base;
         const std::size_t at = offset_;
@@ -245,7 +245,7 @@ private:
 
     static std::string hint(const std::string& word, const std::vector<std::string>& known,
                             const std::string& introduction) {
-        const std::string meant = did_you_mean(word, known);
+        std::string meant = did_you_mean(word, known);
         if (!meant.empty())
             return meant;
         std::string list;

@@ -135,7 +135,7 @@ private:
     }
 
     [[nodiscard]] Printed product(const Fraction& fraction) const {
-        const Printed above = joined(fraction.coefficient.numer(), fraction.numerator);
+        Printed above = joined(fraction.coefficient.numer(), fraction.numerator);
         const numeric below = fraction.coefficient.denom();
         if (fraction.denominator.empty() && below.is_equal(1))
             return above;
@@ -143,7 +143,7 @@ private:
     }
 
     [[nodiscard]] Printed signed_product(const Fraction& fraction) const {
-        const Printed magnitude = product(fraction);
+        Printed magnitude = product(fraction);
         if (!fraction.negative)
             return magnitude;
         return {"-" + at_least(Binding::Product, magnitude), Binding::Sum};

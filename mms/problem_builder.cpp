@@ -44,6 +44,7 @@ SpaceFunction compiled_profile(const ex& formula) {
 SpaceTimeFunction compiled_rest(const std::vector<ex>& formulas,
                                 const std::vector<TimePhase>& phases) {
     std::vector<Tape> tapes;
+    tapes.reserve(formulas.size());
     for (const ex& formula : formulas)
         tapes.push_back(compile_tape({formula}));
     return [tapes = std::move(tapes), times = PhaseTimes(phases)](const Eigen::ArrayXd& x,

@@ -312,12 +312,7 @@ double numeric_value(const ex& constant) {
 }
 
 double nearest_double(const numeric& rational) {
-    double value = 0.0;
-    try {
-        value = rational.to_double();
-    } catch (const std::exception&) {
-        value = std::numeric_limits<double>::infinity();
-    }
+    const double value = rational.to_double();
     if (!std::isfinite(value))
         throw AlgebraError("a number in it is beyond the range of double precision");
     return value;

@@ -20,9 +20,21 @@ std::string reason() {
 } // namespace
 
 OutputFile::OutputFile(std::filesystem::path path) : path_(std::move(path)) {
-    if (std::error_code error; std::filesystem::is_directory(path_, error))
+    std::error_code error;
+    if (std::filesystem::is_directory(path_, error))
         throw OutputError("cannot write '" + path_.string() +
                           "': it is a directory; name a file in it");
+    if (std::filesystem::exists(path_, error)) {
+        // What a link points to is replaced, not the link; and a device or pipe is written to, not
+        // replaced.
+        path_ = std::filesystem::canonical(path_, error);
+        if (!std::filesystem::is_regular_file(path_, error)) {
+            descriptor_ = open(path_.c_str(), O_WRONLY | O_CLOEXEC);
+            if (descriptor_ < 0)
+                throw OutputError("cannot write '" + path_.string() + "': " + reason());
+            return;
+        }
+    }
     temporary_ = path_.string() + ".XXXXXX";
     descriptor_ = mkstemp(temporary_.data());
     if (descriptor_ < 0)
@@ -32,7 +44,8 @@ OutputFile::OutputFile(std::filesystem::path path) : path_(std::move(path)) {
 OutputFile::~OutputFile() {
     if (descriptor_ >= 0) {
         close(descriptor_);
-        unlink(temporary_.c_str());
+        if (!temporary_.empty())
+            unlink(temporary_.c_str());
     }
 }
 
@@ -47,6 +60,8 @@ void OutputFile::commit(const std::string& text) {
         if (count > 0)
             written += static_cast<std::size_t>(count);
     }
+    if (temporary_.empty())
+        return;
     // mkstemp makes files for their owner alone; a result is readable as any new file is.
     const mode_t mask = umask(0);
     umask(mask);

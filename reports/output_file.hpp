@@ -14,7 +14,7 @@ public:
 
 /// A file that appears whole or not at all: what is written goes to a temporary file beside it,
 /// which commit() flushes to the disk and renames. Opened before a long run, so that a place that
-/// cannot be written is known at once.
+/// cannot be written is known at once. A device or a pipe is written to as it is.
 class OutputFile {
 public:
     /// Throws OutputError when the temporary file cannot be made.

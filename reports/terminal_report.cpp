@@ -46,6 +46,10 @@ TextTable::Column column(const LadderResult& ladder, const std::string& heading,
     return result;
 }
 
+std::string ratio_text(double ratio) {
+    return ratio >= 0.01 && ratio < 100.0 ? fixed(ratio, 4) : scientific(ratio, 1);
+}
+
 TextTable::Group norm_group(const LadderResult& ladder, const LadderBlock& block, std::size_t k) {
     const auto error = [&ladder, k](std::size_t i) {
         const auto& errors = ladder.rungs[i].errors;
@@ -63,7 +67,7 @@ TextTable::Group norm_group(const LadderResult& ladder, const LadderBlock& block
                 ladder, "printed", [&](std::size_t i) { return scientific(figures[i], 3); }));
             group.columns.push_back(column(ladder, "ratio", [&](std::size_t i) {
                 const auto value = error(i);
-                return value && figures[i] != 0.0 ? fixed(*value / figures[i], 4) : std::string();
+                return value && figures[i] != 0.0 ? ratio_text(*value / figures[i]) : std::string();
             }));
         }
     }

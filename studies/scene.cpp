@@ -174,17 +174,25 @@ std::vector<Norm> read_norms(TableReader& table) {
     return norms;
 }
 
+/// Figures may stand there for norms that are not asked for, e.g. after --set ladder.norms=…
 PrintedFigures read_printed(TableReader table, const LadderBlock& ladder) {
     PrintedFigures printed;
     printed.source = table.text("source").value_or("printed");
-    for (const auto& norm : ladder.norms)
-        if (const auto figures = table.numbers(norm.name)) {
+    for (const auto& root : Norm::names())
+        for (const auto& name : {root, root + "_sq"}) {
+            if (!Norm::named(name))
+                continue;
+            const auto figures = table.numbers(name);
+            if (!figures)
+                continue;
             if (figures->size() != ladder.rungs.size())
-                throw InputError(table.place(norm.name),
-                                 table.full(norm.name) + " has " + std::to_string(figures->size()) +
+                throw InputError(table.place(name),
+                                 table.full(name) + " has " + std::to_string(figures->size()) +
                                      " figures for " + std::to_string(ladder.rungs.size()) +
                                      " rungs; give one a rung");
-            printed.figures[norm.name] = *figures;
+            if (std::any_of(ladder.norms.begin(), ladder.norms.end(),
+                            [&](const Norm& norm) { return norm.name == name; }))
+                printed.figures[name] = *figures;
         }
     table.finish();
     return printed;

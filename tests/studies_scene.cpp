@@ -59,8 +59,8 @@ const std::vector<Wrong> wrong_scenes{
     {"title ", "titel ", "1:1", "unknown key 'titel'; did you mean 'title'?"},
     {"[ladder.printed]", "[ladder.prnted]",
      "19:", "unknown key 'ladder.prnted'; did you mean 'printed'?"},
-    {"theta_L2L2_sq = [1.0", "theta_L2H1_sq = [1.0", "21:1",
-     "unknown key 'ladder.printed.theta_L2H1_sq'"},
+    {"theta_L2L2_sq = [1.0", "theta_L2L3_sq = [1.0", "21:1",
+     "unknown key 'ladder.printed.theta_L2L3_sq'; did you mean 'theta_L2L2_sq'?"},
     // Types
     {"alpha = 0.017", "alpha = \"0.017\"", "5:9", "beam.alpha is a string; it must be a number"},
     {"title    = \"a test\"", "title    = 3", "1:12", "title is an integer; it must be a string"},

@@ -1,0 +1,222 @@
+// The program as its users call it: exit codes, one message, nothing half written.
+
+#include "tests/temporary_directory.hpp"
+
+#include <boost/test/unit_test.hpp>
+#include <nlohmann/json.hpp>
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <limits>
+#include <sstream>
+
+#include <sys/wait.h>
+
+using namespace tvbeam;
+
+namespace {
+
+struct Called {
+    int exit = -1;
+    std::string output; ///< standard output
+    std::string errors; ///< standard error
+};
+
+/// Calls tvbeam with arguments as a shell reads them.
+Called call(const TemporaryDirectory& directory, const std::string& arguments) {
+    const std::string errors = (directory.path() / "stderr").string();
+    const std::string command = std::string(TVBEAM_BINARY) + " " + arguments + " 2>" + errors;
+    Called called;
+    FILE* pipe = popen(command.c_str(), "r");
+    BOOST_REQUIRE(pipe != nullptr);
+    std::array<char, 4096> buffer{};
+    for (std::size_t count = 0; (count = std::fread(buffer.data(), 1, buffer.size(), pipe)) > 0;)
+        called.output.append(buffer.data(), count);
+    const int status = pclose(pipe);
+    called.exit = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+    called.errors = directory.read("stderr");
+    std::filesystem::remove(errors);
+    return called;
+}
+
+bool has(const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
+}
+
+const std::string small = "run table1 --set 'ladder.elements=[4,8]' --set ladder.dt=0.1 --set "
+                          "'ladder.dt=[0.1,0.05]' --set 'ladder.printed={}'";
+
+} // namespace
+
+BOOST_AUTO_TEST_SUITE(command_line)
+
+BOOST_AUTO_TEST_CASE(a_run_prints_its_table_and_exits_with_zero) {
+    const TemporaryDirectory directory;
+    const Called called = call(directory, small);
+    BOOST_TEST(called.exit == 0);
+    BOOST_TEST(called.errors.empty(), called.errors);
+    BOOST_TEST(has(called.output, "theta_L2L2_sq"));
+    BOOST_TEST(has(called.output, "ord."));
+    std::istringstream lines(called.output);
+    for (std::string line; std::getline(lines, line);)
+        BOOST_TEST(line.size() <= 82u, line); // 80 columns; é and other letters take two bytes
+}
+
+BOOST_AUTO_TEST_CASE(json_has_the_keys_of_its_schema_and_reads_back_exactly) {
+    const TemporaryDirectory directory;
+    const Called called = call(directory, small + " --json -");
+    BOOST_TEST(called.exit == 0);
+    const auto json = nlohmann::json::parse(called.output);
+    BOOST_TEST(json.at("schema") == "tvbeam-result/1");
+    BOOST_TEST(json.at("scene").at("beam").at("alpha") == 0.017);
+    BOOST_TEST(json.at("left_out").is_array());
+    BOOST_TEST(json.at("provenance").contains("version"));
+    const auto& rungs = json.at("ladder").at("rungs");
+    BOOST_REQUIRE(rungs.size() == 2u);
+    BOOST_TEST(rungs[0].at("elements") == 4);
+    BOOST_TEST(rungs[1].at("steps") == 40);
+    BOOST_TEST(rungs[1].at("status") == "ok");
+    BOOST_TEST(rungs[0].at("orders").at("theta_L2L2_sq").is_null());
+    const double e0 = rungs[0].at("errors").at("theta_L2L2_sq");
+    const double e1 = rungs[1].at("errors").at("theta_L2L2_sq");
+    BOOST_TEST(rungs[1].at("orders").at("theta_L2L2_sq").get<double>() ==
+                   std::log(e0 / e1) / std::log(2.0),
+               boost::test_tools::tolerance(1e-14));
+}
+
+BOOST_AUTO_TEST_CASE(csv_and_json_hold_the_same_doubles) {
+    const TemporaryDirectory directory;
+    const std::string csv = (directory.path() / "t.csv").string();
+    const std::string json_file = (directory.path() / "t.json").string();
+    BOOST_TEST(call(directory, small + " --csv " + csv + " --json " + json_file).exit == 0);
+    const auto json = nlohmann::json::parse(directory.read("t.json"));
+    std::istringstream lines(directory.read("t.csv"));
+    std::string line;
+    std::getline(lines, line);
+    BOOST_TEST(line ==
+               "elements,h,dt,steps,status,theta_L2L2_sq,theta_L2L2_sq_order,u_LinfH2semi_sq,"
+               "u_LinfH2semi_sq_order,seconds,reason");
+    for (const auto& rung : json.at("ladder").at("rungs")) {
+        BOOST_REQUIRE(std::getline(lines, line));
+        std::istringstream fields(line);
+        std::string field;
+        for (int i = 0; i < 6; ++i)
+            std::getline(fields, field, ',');
+        BOOST_TEST(std::stod(field) == rung.at("errors").at("theta_L2L2_sq").get<double>());
+    }
+    BOOST_TEST(directory.count() == 2u); // no temporary file is left
+}
+
+BOOST_AUTO_TEST_CASE(bad_input_exits_with_two_says_one_line_and_writes_nothing) {
+    const TemporaryDirectory directory;
+    const std::string out = (directory.path() / "out.json").string();
+    for (const std::string arguments :
+         {"run no-such-scene", "run table1 --set beam.zeta=-1", "run table1 --set beam.zata=1",
+          "run table1 --set 'ladder.elements=[]'", "run table1 --set beam.alpha=1e400",
+          "run table1 --set solution=missing", "derive no-such-solution"}) {
+        const Called called =
+            call(directory, arguments + (arguments.starts_with("run") ? " --json " + out : ""));
+        BOOST_TEST(called.exit == 2, arguments);
+        BOOST_TEST(called.output.empty());
+        BOOST_TEST(called.errors.starts_with("tvbeam: "), called.errors);
+        BOOST_TEST(std::count(called.errors.begin(), called.errors.end(), '\n') == 1,
+                   called.errors);
+        BOOST_TEST(directory.count() == 0u, arguments);
+    }
+}
+
+BOOST_AUTO_TEST_CASE(wrong_usage_exits_with_two) {
+    const TemporaryDirectory directory;
+    for (const std::string arguments : {"", "frobnicate", "run", "run table1 --no-such-option",
+                                        "run table1 table1", "run table1 --json - --csv -"}) {
+        const Called called = call(directory, arguments);
+        BOOST_TEST(called.exit == 2, arguments);
+        BOOST_TEST(!called.errors.empty());
+    }
+}
+
+BOOST_AUTO_TEST_CASE(help_exits_with_zero_and_shows_an_example) {
+    const TemporaryDirectory directory;
+    for (const std::string command : {"run", "derive", "list"}) {
+        const Called called = call(directory, command + " --help");
+        BOOST_TEST(called.exit == 0);
+        BOOST_TEST(has(called.output, "Example: tvbeam " + command));
+    }
+    BOOST_TEST(call(directory, "--version").exit == 0);
+}
+
+BOOST_AUTO_TEST_CASE(a_failed_run_exits_with_three_and_keeps_what_was_finished) {
+    // The fixed point contracts by α²Δt/((Δt + ζ)(1 + π²Δt)): 0.5²·0.01/0.11/1.1 at the first step,
+    // but for Δt = 1 and α = 5 it is 25/1.1/10.9 > 1.
+    const TemporaryDirectory directory;
+    const Called called = call(
+        directory,
+        "run table1 --set scheme.algorithm=fixed-point --set beam.alpha=5 --set "
+        "'ladder.elements=[4,4]' --set 'ladder.dt=[1e-4,1]' --set 'ladder.printed={}' --json -");
+    BOOST_TEST(called.exit == 3);
+    const auto json = nlohmann::json::parse(called.output);
+    const auto& rungs = json.at("ladder").at("rungs");
+    BOOST_TEST(rungs[0].at("status") == "ok");
+    BOOST_TEST(rungs[0].at("errors").at("theta_L2L2_sq").is_number());
+    BOOST_TEST(rungs[1].at("status") == "failed");
+    BOOST_TEST(rungs[1].at("errors").at("theta_L2L2_sq").is_null());
+    BOOST_TEST(has(rungs[1].at("reason"), "in step 1 of 2"));
+    BOOST_TEST(has(called.errors, "a run failed"));
+}
+
+BOOST_AUTO_TEST_CASE(an_overflow_is_said_and_not_printed_as_a_number) {
+    const TemporaryDirectory directory;
+    const Called called = call(directory, small + " --set beam.alpha=1e200");
+    BOOST_TEST(called.exit != 0);
+    BOOST_TEST(!has(called.output, " nan"));
+    BOOST_TEST(has(called.output + called.errors, "finite"));
+}
+
+BOOST_AUTO_TEST_CASE(a_place_that_cannot_be_written_is_said_before_anything_runs) {
+    const TemporaryDirectory directory;
+    const Called called = call(directory, small + " --json /no/such/directory/r.json");
+    BOOST_TEST(called.exit == 3);
+    BOOST_TEST(called.output.empty());
+    BOOST_TEST(has(called.errors, "cannot write '/no/such/directory/r.json'"));
+}
+
+BOOST_AUTO_TEST_CASE(a_device_is_written_to_and_not_replaced) {
+    const TemporaryDirectory directory;
+    const Called called = call(directory, small + " --csv /dev/full");
+    BOOST_TEST(called.exit == 3);
+    BOOST_TEST(has(called.errors, "cannot write '/dev/full'"));
+    BOOST_TEST(std::filesystem::is_character_file("/dev/full"));
+}
+
+BOOST_AUTO_TEST_CASE(standard_output_that_cannot_be_written_is_said) {
+    const TemporaryDirectory directory;
+    const Called called = call(directory, small + " >/dev/full");
+    BOOST_TEST(called.exit == 3);
+    BOOST_TEST(has(called.errors, "cannot write to standard output"));
+}
+
+BOOST_AUTO_TEST_CASE(derive_prints_formulas_for_a_scene_and_a_solution) {
+    const TemporaryDirectory directory;
+    const Called scene = call(directory, "derive table1");
+    const Called solution = call(directory, "derive copetti-fernandez-2011");
+    BOOST_TEST(scene.exit == 0);
+    BOOST_TEST(scene.output == solution.output);
+    for (const std::string symbol : {"f for", "G for", "m for", "theta0 for", "u0 for"})
+        BOOST_TEST(has(solution.output, symbol));
+    const Called latex = call(directory, "derive copetti-fernandez-2011 --latex");
+    BOOST_TEST(has(latex.output, "\\begin{align*}"));
+    BOOST_TEST(has(latex.output, "\\sin"));
+}
+
+BOOST_AUTO_TEST_CASE(list_names_what_is_shipped) {
+    const TemporaryDirectory directory;
+    const Called called = call(directory, "list");
+    BOOST_TEST(called.exit == 0);
+    for (const std::string name : {"table1:", "table1-consistent:", "table1-fixed-point:",
+                                   "table1-extended:", "copetti-fernandez-2011:"})
+        BOOST_TEST(has(called.output, name), name);
+}
+
+BOOST_AUTO_TEST_SUITE_END()

@@ -1,0 +1,243 @@
+#include "core/problem.hpp"
+#include "mms/derivation.hpp"
+#include "mms/manufactured_problem.hpp"
+#include "mms/tape_compiler.hpp"
+
+#include <boost/math/differentiation/autodiff.hpp>
+#include <boost/test/data/monomorphic.hpp>
+#include <boost/test/data/test_case.hpp>
+#include <boost/test/unit_test.hpp>
+
+#include <cmath>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <random>
+#include <string>
+#include <vector>
+
+// Every shipped solution a second time, as C++ that Boost.Math differentiates automatically. GiNaC
+// and this share nothing but the paper.
+
+namespace autodiff = boost::math::differentiation;
+namespace data = boost::unit_test::data;
+using Eigen::ArrayXd;
+using namespace tvbeam;
+
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+
+const auto jet_variables = autodiff::make_ftuple<double, 3, 1>(0.5, 0.5);
+using X = std::decay_t<decltype(std::get<0>(jet_variables))>;
+using T = std::decay_t<decltype(std::get<1>(jet_variables))>;
+/// A function of x and t with its derivatives up to ∂_x³ ∂_t.
+using Jet = decltype(X() + T());
+
+/// θ̃, u and σ̃ at a point.
+struct Point {
+    Jet theta;
+    Jet u;
+    double sigma;
+};
+
+using Formula = std::function<Point(const X& x, const T& t, const Beam& beam)>;
+
+double value(const T& t) {
+    return t.derivative(0, 0);
+}
+
+Point copetti_fernandez(const X& x, const T& t, const Beam& beam) {
+    const Jet shape = -3.0 * beam.stops.upper * (x * x * x / 6.0 - x * x / 2.0) + 0.0 * t;
+    const Jet theta = exp(t) * sin(pi * x);
+    if (value(t) <= std::sqrt(2.0))
+        return {theta, shape * (std::sqrt(2.0) * t - t * t / 2.0), 0.0};
+    return {theta, shape, -value(t)};
+}
+
+Point pressed_on_g1(const X& x, const T& t, const Beam& beam) {
+    constexpr double release = 1.25;
+    const Jet theta = cos(t) * x * (1.0 - x) * (1.0 + x);
+    const Jet bump = beam.stops.upper * x * x * (1.0 - x) * (1.0 - x) * sin(t);
+    const Jet bent = beam.stops.lower * (3.0 * x * x - x * x * x) / 2.0 + 0.0 * t;
+    const T late = t - release;
+    if (value(t) <= release)
+        return {theta, bent + bump, value(late) * value(late)};
+    return {theta, bent * exp(-late * late) + bump, 0.0};
+}
+
+Point free_oscillation(const X& x, const T& t, const Beam& /*beam*/) {
+    return {sin(3.0 * t) * (sin(pi * x) + sin(2.0 * pi * x) / 2.0),
+            x * x * (2.0 - x) * cos(2.0 * t) / 80.0, 0.0};
+}
+
+Point moving_front(const X& x, const T& t, const Beam& /*beam*/) {
+    const Jet theta = x * (1.0 - x) * tanh(5.0 * (x - 0.25 - t / 4.0)) +
+                      sin(pi * x * (1.0 + t * (1.0 - x))) / 2.0;
+    return {theta, x * x * exp(-x * t) / 100.0, 0.0};
+}
+
+Point heated_end(const X& x, const T& t, const Beam& beam) {
+    const Jet decay = exp(-pi * pi * t) * sin(pi * x);
+    const X bend = 1.0 - cos(pi * x);
+    return {beam.theta_A * (1.0 - x) + decay,
+            (x * x / 2.0 - x * x * x / 6.0) * sin(t) / 200.0 + bend * bend * t / 1000.0, 0.0};
+}
+
+const std::map<std::string, Formula> counterparts = {
+    {"copetti-fernandez-2011", copetti_fernandez},
+    {"pressed-on-g1", pressed_on_g1},
+    {"free-oscillation", free_oscillation},
+    {"moving-front", moving_front},
+    {"heated-end", heated_end},
+};
+
+Point at(const Formula& formula, double x, double t, const Beam& beam) {
+    const auto variables = autodiff::make_ftuple<double, 3, 1>(x, t);
+    return formula(std::get<0>(variables), std::get<1>(variables), beam);
+}
+
+/// A sum and the sum of the sizes of its terms, to which rounding errors are relative.
+struct Sum {
+    double value = 0.0;
+    double size = 0.0;
+
+    explicit Sum(const std::vector<double>& terms) {
+        for (const double term : terms) {
+            value += term;
+            size += std::abs(term);
+        }
+    }
+};
+
+void check_near(double found, const Sum& expected, double scale) {
+    BOOST_TEST(std::abs(found - expected.value) <= 1e-12 * std::max(expected.size, scale));
+}
+
+std::vector<std::string> shipped() {
+    std::vector<std::string> names;
+    for (const auto& entry : std::filesystem::directory_iterator(TVBEAM_SOLUTIONS_DIR))
+        names.push_back(entry.path().stem().string());
+    return names;
+}
+
+const std::vector<Beam> beams = {
+    {0.017, 0.1, 0.5, {-0.02, 0.1}},
+    {2.5, 0.0, -0.3, {-0.02, 0.1}},
+    {0.0, 3.0, 0.0, {-0.02, 0.1}},
+};
+
+Beam beam_for(const std::string& solution, Beam beam) {
+    if (solution != "heated-end")
+        beam.theta_A = 0.0;
+    return beam;
+}
+
+double field_value(const Field& field, const ProblemData& problem, double x, double t) {
+    const ArrayXd point = ArrayXd::Constant(1, x);
+    double sum = field.rest ? field.rest(point, t)(0) : 0.0;
+    for (const Field::Term& term : field.terms)
+        sum += problem.amplitudes(ArrayXd::Constant(1, t))(term.amplitude, 0) *
+               problem.profiles[static_cast<std::size_t>(term.profile)](point)(0);
+    return sum;
+}
+
+double amplitude_value(const std::optional<Eigen::Index>& amplitude, const ProblemData& problem,
+                       double t) {
+    return amplitude ? problem.amplitudes(ArrayXd::Constant(1, t))(*amplitude, 0) : 0.0;
+}
+
+/// Floors of the scale that rounding is relative to: where all terms of a sum vanish together, what
+/// their own computation rounded off counts, which is relative to the size of the fields
+/// themselves.
+constexpr double size_of_theta = 1.0;
+constexpr double size_of_u = 1e-2;
+
+void check_point(const Formula& formula, const Beam& beam, const ProblemData& problem,
+                 const DerivedSolution& derived, double x, double t) {
+    const Point here = at(formula, x, t, beam);
+    const Point tip = at(formula, 1.0, t, beam);
+    const Jet& theta = here.theta;
+    const Jet& u = here.u;
+    const Sum f(
+        {theta.derivative(0, 1), -theta.derivative(2, 0), -beam.alpha * u.derivative(2, 1)});
+    const Sum G({here.sigma, u.derivative(3, 0), beam.zeta * u.derivative(3, 1),
+                 beam.alpha * theta.derivative(1, 0)});
+    const Sum m({tip.u.derivative(2, 0), beam.zeta * tip.u.derivative(2, 1)});
+    const Sum load({here.sigma * (1.0 - x), beam.alpha * tip.theta.derivative(0, 0),
+                    -u.derivative(2, 0), -beam.zeta * u.derivative(2, 1),
+                    -beam.alpha * theta.derivative(0, 0)});
+
+    const auto field = [&](const Field& g) { return field_value(g, problem, x, t); };
+    check_near(field(problem.heat_source), f, size_of_theta);
+    check_near(field(problem.couple_load), G, size_of_u);
+    check_near(field(problem.moment_load), load, size_of_u);
+    check_near(amplitude_value(problem.end_moment, problem, t), m, size_of_u);
+    check_near(field(problem.exact->theta), Sum({theta.derivative(0, 0)}), size_of_theta);
+    check_near(field(problem.exact->theta_x), Sum({theta.derivative(1, 0)}), size_of_theta);
+    check_near(field(problem.exact->u), Sum({u.derivative(0, 0)}), size_of_u);
+    check_near(field(problem.exact->u_x), Sum({u.derivative(1, 0)}), size_of_u);
+    check_near(field(problem.exact->u_xx), Sum({u.derivative(2, 0)}), size_of_u);
+    check_near(amplitude_value(problem.exact->stress, problem, t), Sum({here.sigma}), 0.0);
+
+    const std::size_t phase = t <= derived.phases.front().end_value ? 0 : derived.phases.size() - 1;
+    const DerivedPhase& symbolic = derived.derived[phase];
+    const Eigen::ArrayXXd values =
+        compile_tape({symbolic.heat_source, symbolic.couple_load, symbolic.end_moment})
+            .evaluate(ArrayXd::Constant(1, x), ArrayXd::Constant(1, t));
+    check_near(values(0, 0), f, size_of_theta);
+    check_near(values(1, 0), G, size_of_u);
+    check_near(values(2, 0), m, size_of_u);
+}
+
+void check_start(const Formula& formula, const Beam& beam, const ProblemData& problem, double x) {
+    const Point start = at(formula, x, 0.0, beam);
+    check_near(field_value(problem.theta_initial, problem, x, 0.0),
+               Sum({start.theta.derivative(0, 0)}), size_of_theta);
+    check_near(field_value(problem.curvature_initial, problem, x, 0.0),
+               Sum({start.u.derivative(2, 0)}), size_of_u);
+}
+
+} // namespace
+
+BOOST_AUTO_TEST_SUITE(mms_derivation)
+
+BOOST_DATA_TEST_CASE(every_shipped_solution_has_a_counterpart, data::make(shipped())) {
+    BOOST_TEST(counterparts.contains(sample));
+}
+
+// f, G, m and the solution itself, both as GiNaC derives them and as they arrive in a ProblemData,
+// separated and compiled.
+BOOST_DATA_TEST_CASE(derived_functions_agree_with_automatic_differentiation,
+                     data::make(shipped()) * data::make({0, 1, 2}), name, which) {
+    BOOST_REQUIRE(counterparts.contains(name));
+    const Beam beam = beam_for(name, beams[static_cast<std::size_t>(which)]);
+    const Solution solution = read_solution(std::string(TVBEAM_SOLUTIONS_DIR "/") + name + ".toml");
+    const ProblemData problem = manufactured_problem(solution, beam, 2.0);
+    const DerivedSolution derived = derive_on(solution, beam);
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> uniform(0.0, 1.0);
+    for (int i = 0; i < 60; ++i) {
+        const double x = uniform(random);
+        const double t = 2.0 * uniform(random);
+        check_point(counterparts.at(name), beam, problem, derived, x, t);
+    }
+    for (const double x : ArrayXd::LinSpaced(11, 0.0, 1.0))
+        check_start(counterparts.at(name), beam, problem, x);
+}
+
+// f has u with two derivatives in x, G with three: formulas that grow without bound are refused in
+// time.
+BOOST_AUTO_TEST_CASE(derivatives_that_grow_too_large_are_refused) {
+    std::string product = "x^2";
+    for (int i = 1; i <= 300; ++i)
+        product += "*sin(" + std::to_string(i) + "*x)";
+    const Solution solution =
+        parse_solution("theta = \"sin(pi*x)\"\nu = \"" + product + "\"\n", "my.toml");
+    BOOST_CHECK_EXCEPTION(derive_on(solution, {}), InputError, [](const InputError& error) {
+        const std::string what = error.what();
+        return what.find("my.toml:2:6: u: the derivatives are too large") == 0;
+    });
+}
+
+BOOST_AUTO_TEST_SUITE_END()

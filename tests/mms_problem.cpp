@@ -1,0 +1,266 @@
+#include "mms/given_problem.hpp"
+#include "mms/manufactured_problem.hpp"
+
+#include <boost/math/quadrature/gauss_kronrod.hpp>
+#include <boost/test/data/monomorphic.hpp>
+#include <boost/test/data/test_case.hpp>
+#include <boost/test/unit_test.hpp>
+
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace data = boost::unit_test::data;
+using Eigen::ArrayXd;
+using Eigen::Index;
+using namespace tvbeam;
+
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+const Beam papers_beam = {0.017, 0.1, 0.0, {-0.02, 0.1}};
+
+ArrayXd one(double value) {
+    return ArrayXd::Constant(1, value);
+}
+
+double field_value(const Field& field, const ProblemData& problem, double x, double t) {
+    double sum = field.rest ? field.rest(one(x), t)(0) : 0.0;
+    for (const Field::Term& term : field.terms)
+        sum += problem.amplitudes(one(t))(term.amplitude, 0) *
+               problem.profiles[static_cast<std::size_t>(term.profile)](one(x))(0);
+    return sum;
+}
+
+double amplitude_value(const std::optional<Index>& amplitude, const ProblemData& problem,
+                       double t) {
+    return amplitude ? problem.amplitudes(one(t))(*amplitude, 0) : 0.0;
+}
+
+Solution papers_solution() {
+    return read_solution(TVBEAM_SOLUTIONS_DIR "/copetti-fernandez-2011.toml");
+}
+
+std::vector<std::string> shipped() {
+    std::vector<std::string> paths;
+    for (const auto& entry : std::filesystem::directory_iterator(TVBEAM_SOLUTIONS_DIR))
+        paths.push_back(entry.path().string());
+    return paths;
+}
+
+/// ∫_y^1 g dx to about 1e-14 of the integral of |g|.
+template <typename Function>
+double integral(const Function& g, double y) {
+    return boost::math::quadrature::gauss_kronrod<double, 31>::integrate(g, y, 1.0, 8, 1e-14);
+}
+
+GivenData given(const std::string& q) {
+    GivenData data;
+    data.body_force = SourceText(q, {"scene.toml", 5, 15});
+    return data;
+}
+
+} // namespace
+
+BOOST_AUTO_TEST_SUITE(mms_problem)
+
+BOOST_AUTO_TEST_CASE(the_papers_problem_is_a_few_products) {
+    const ProblemData problem = manufactured_problem(papers_solution(), papers_beam, 2.0);
+    BOOST_TEST(problem.heat_source.is_separable());
+    BOOST_TEST(problem.moment_load.is_separable());
+    // f: sin πx and x − 1. μ: sin πx, and x − 1 for σ, u_xx and u_xxt together.
+    BOOST_TEST(problem.heat_source.terms.size() == 2U);
+    BOOST_TEST(problem.moment_load.terms.size() == 2U);
+    BOOST_TEST(problem.heat_source.terms[0].profile != problem.heat_source.terms[1].profile);
+    // G: cos πx and 1.
+    BOOST_TEST(problem.couple_load.terms.size() == 2U);
+    BOOST_TEST(problem.exact->theta.terms.size() == 1U);
+    BOOST_TEST(problem.exact->u_xx.terms.size() == 1U);
+    // sin πx, cos πx, x − 1, 1, x³ − 3x², x² − 2x.
+    BOOST_TEST(problem.profiles.size() == 6U);
+    BOOST_TEST(problem.body_force.is_zero());
+    BOOST_TEST(!problem.end_moment.has_value());
+    BOOST_TEST(problem.exact->stress.has_value());
+}
+
+BOOST_AUTO_TEST_CASE(what_the_beam_does_not_have_leaves_no_terms) {
+    Beam beam = papers_beam;
+    beam.alpha = 0.0;
+    const ProblemData problem = manufactured_problem(papers_solution(), beam, 2.0);
+    BOOST_TEST(problem.heat_source.terms.size() == 1U);
+    BOOST_TEST(problem.moment_load.terms.size() == 1U);
+    BOOST_TEST(problem.couple_load.terms.size() == 1U);
+    const ProblemData at_rest =
+        manufactured_problem(parse_solution("theta = 0\nu = 0\n", "rest.toml"), Beam{}, 1.0);
+    BOOST_TEST(at_rest.heat_source.is_zero());
+    BOOST_TEST(at_rest.moment_load.is_zero());
+    BOOST_TEST(at_rest.exact->u.is_zero());
+    BOOST_TEST(at_rest.profiles.empty());
+    BOOST_TEST(at_rest.amplitude_count == 0);
+    BOOST_TEST(!at_rest.exact->stress.has_value());
+}
+
+BOOST_DATA_TEST_CASE(profiles_and_amplitudes_are_finite_and_distinct, data::make(shipped())) {
+    const ProblemData problem = manufactured_problem(read_solution(sample), papers_beam, 2.0);
+    const ArrayXd x = ArrayXd::LinSpaced(50, 0.0, 1.0);
+    for (std::size_t i = 0; i < problem.profiles.size(); ++i) {
+        const ArrayXd values = problem.profiles[i](x);
+        BOOST_TEST(values.isFinite().all());
+        BOOST_TEST(values.abs().maxCoeff() > 0.0);
+        for (std::size_t j = 0; j < i; ++j)
+            BOOST_TEST((values - problem.profiles[j](x)).abs().maxCoeff() > 1e-6);
+    }
+    if (problem.amplitude_count == 0)
+        return;
+    const Eigen::ArrayXXd amplitudes = problem.amplitudes(ArrayXd::LinSpaced(50, 0.0, 2.0));
+    BOOST_TEST(amplitudes.rows() == problem.amplitude_count);
+    BOOST_TEST(amplitudes.isFinite().all());
+    for (Index i = 0; i < amplitudes.rows(); ++i)
+        for (Index j = 0; j < i; ++j)
+            BOOST_TEST((amplitudes.row(i) - amplitudes.row(j)).abs().maxCoeff() > 1e-9);
+}
+
+// The two descriptions of the load: μ in closed form against ∫_y^1 G dx − m by quadrature.
+BOOST_DATA_TEST_CASE(moment_load_is_the_integral_of_the_couple_load, data::make(shipped())) {
+    Beam beam = papers_beam;
+    beam.theta_A = sample.find("heated-end") == std::string::npos ? 0.0 : 0.75;
+    const ProblemData problem = manufactured_problem(read_solution(sample), beam, 2.0);
+    for (const double t : {0.0, 0.3, 1.2, 1.25, 1.3, 1.9})
+        for (const double y : {0.0, 0.2, 0.55, 1.0}) {
+            const auto G = [&](double x) {
+                return field_value(problem.couple_load, problem, x, t);
+            };
+            const double expected =
+                (y < 1.0 ? integral(G, y) : 0.0) - amplitude_value(problem.end_moment, problem, t);
+            BOOST_TEST(std::abs(field_value(problem.moment_load, problem, y, t) - expected) <
+                       1e-12);
+        }
+}
+
+// Also where times are not in order, and at the very end of a phase, which is still its own.
+BOOST_AUTO_TEST_CASE(amplitudes_follow_the_phases) {
+    const ProblemData problem = manufactured_problem(papers_solution(), papers_beam, 2.0);
+    const Index stress = *problem.exact->stress;
+    const double end = std::sqrt(2.0);
+    ArrayXd t(7);
+    t << 1.9, 0.0, end, std::nextafter(end, 2.0), 1.0, 100.0, 1.5;
+    const Eigen::ArrayXXd values = problem.amplitudes(t);
+    ArrayXd expected(7);
+    expected << -1.9, 0.0, 0.0, -std::nextafter(end, 2.0), 0.0, -100.0, -1.5;
+    BOOST_TEST((values.row(stress).transpose() == expected).all());
+    for (Index i = 0; i < t.size(); ++i)
+        BOOST_TEST((values.col(i) == problem.amplitudes(one(t(i))).col(0)).all());
+    BOOST_TEST(problem.amplitudes(ArrayXd(0)).cols() == 0);
+}
+
+BOOST_AUTO_TEST_CASE(rests_follow_the_phases) {
+    const Solution solution = parse_solution("u = 0\n[[phase]]\nuntil = 1\n"
+                                             "theta = \"x*(1-x)*exp(x*t)\"\n"
+                                             "[[phase]]\ntheta = \"x*(1-x)*exp(x*t^2)\"\n",
+                                             "my.toml");
+    const ProblemData problem = manufactured_problem(solution, papers_beam, 2.0);
+    const auto theta = [&](double x, double t) {
+        return field_value(problem.exact->theta, problem, x, t);
+    };
+    BOOST_TEST(!problem.exact->theta.is_separable());
+    BOOST_TEST(theta(0.5, 0.5) == 0.25 * std::exp(0.25));
+    BOOST_TEST(theta(0.5, 1.0) == 0.25 * std::exp(0.5));
+    BOOST_TEST(theta(0.5, 1.5) == 0.25 * std::exp(1.125));
+}
+
+BOOST_AUTO_TEST_CASE(phases_after_the_final_time_do_no_harm) {
+    const Solution solution =
+        parse_solution("theta = \"t*sin(pi*x)\"\n[[phase]]\nuntil = 2\nu = \"x^2*t\"\n"
+                       "[[phase]]\nuntil = 3\nu = \"x^2*log(t - 2)\"\n[[phase]]\nu = \"x*t\"\n",
+                       "my.toml");
+    const ProblemData problem = manufactured_problem(solution, {0.5, 0.1, 0.0, {}}, 2.0);
+    BOOST_TEST(field_value(problem.exact->u, problem, 0.5, 2.0) == 0.5);
+    BOOST_TEST(problem.heat_source.is_separable());
+}
+
+// exp(1000x) overflows although exp(1000(x − 1) − t) does not.
+BOOST_AUTO_TEST_CASE(products_that_overflow_by_themselves_are_not_taken_apart) {
+    const Solution solution =
+        parse_solution("theta = \"x*(1-x)*exp(1000*(x - 1 - t))\"\nu = 0\n", "my.toml");
+    const ProblemData problem = manufactured_problem(solution, {}, 2.0);
+    for (const double t : {0.0, 0.01, 0.5, 2.0}) {
+        const double expected = 0.9 * 0.1 * std::exp(1000.0 * (0.9 - 1.0 - t));
+        BOOST_TEST(std::abs(field_value(problem.exact->theta, problem, 0.9, t) - expected) <=
+                   1e-12 * expected);
+    }
+}
+
+BOOST_AUTO_TEST_CASE(a_beam_is_taken_at_its_shortest_decimal) {
+    const Solution solution =
+        parse_solution("theta = \"alpha*x*(1-x)*(1000/17)*t\"\nu = 0\n", "my.toml");
+    const ProblemData problem = manufactured_problem(solution, papers_beam, 1.0);
+    BOOST_TEST(field_value(problem.exact->theta, problem, 0.5, 1.0) == 0.25);
+}
+
+BOOST_AUTO_TEST_CASE(given_data_are_the_problem) {
+    GivenData data = given("5*sin(2*pi*t)");
+    data.theta0 = SourceText("2*sin(pi*x)", {"scene.toml", 2, 11});
+    data.u0 = SourceText("g2*x^2", {"scene.toml", 3, 7});
+    data.heat_source = SourceText("x*t + alpha", {"scene.toml", 4, 16});
+    const ProblemData problem = given_problem(data, papers_beam, 2.0);
+    BOOST_TEST(!problem.exact.has_value());
+    BOOST_TEST(!problem.end_moment.has_value());
+    BOOST_TEST(problem.couple_load.is_zero());
+    const auto value = [&](const Field& field, double x, double t) {
+        return field_value(field, problem, x, t);
+    };
+    for (const double x : {0.0, 0.3, 1.0}) {
+        BOOST_TEST(std::abs(value(problem.theta_initial, x, 0.0) - 2.0 * std::sin(pi * x)) < 1e-15);
+        BOOST_TEST(std::abs(value(problem.curvature_initial, x, 0.0) - 0.2) < 1e-15);
+        for (const double t : {0.1, 0.8}) {
+            const double q = 5.0 * std::sin(2.0 * pi * t);
+            BOOST_TEST(std::abs(value(problem.heat_source, x, t) - (x * t + 0.017)) < 1e-15);
+            BOOST_TEST(std::abs(value(problem.body_force, x, t) - q) < 1e-14);
+            BOOST_TEST(std::abs(value(problem.moment_load, x, t) - q * (1 - x) * (1 - x) / 2) <
+                       1e-14);
+        }
+    }
+}
+
+BOOST_DATA_TEST_CASE(body_forces_have_their_moments,
+                     data::make({"1", "x", "(x-1)^3*t + 2*x^5 - t", "exp(x)*t", "sin(20*x)",
+                                 "exp(x*t) + x", "t/(1+x)", "sqrt(1 + x) + x*t"})) {
+    const ProblemData problem = given_problem(given(sample), papers_beam, 2.0);
+    for (const double t : {0.0, 0.7, 2.0})
+        for (const double y : {0.0, 0.1, 0.6, 1.0}) {
+            const auto moment = [&](double x) {
+                return (x - y) * field_value(problem.body_force, problem, x, t);
+            };
+            const double expected = y < 1.0 ? integral(moment, y) : 0.0;
+            BOOST_TEST(std::abs(field_value(problem.moment_load, problem, y, t) - expected) <
+                       1e-13);
+        }
+}
+
+BOOST_AUTO_TEST_CASE(given_data_that_break_a_rule_are_refused_at_their_place) {
+    const auto refused_at = [](const GivenData& data, const Beam& beam, const std::string& start) {
+        BOOST_CHECK_EXCEPTION(
+            given_problem(data, beam, 2.0), InputError, [&](const InputError& error) {
+                BOOST_TEST_INFO(error.what());
+                BOOST_TEST(std::string(error.what()).substr(0, start.size()) == start);
+                return true;
+            });
+    };
+    const auto deflected = [](const std::string& u) {
+        GivenData data;
+        data.u0 = SourceText(u, {"scene.toml", 3, 7});
+        return data;
+    };
+    refused_at(given("5*sin(2*pi*s)"), papers_beam, "scene.toml:5:26: unknown symbol 's'");
+    refused_at(given("1/(t-1)"), papers_beam, "scene.toml:5:15: body_force is not finite");
+    refused_at(given("g1"), {}, "scene.toml:5:15: 'g1' is used");
+    refused_at(deflected("x^2*t"), papers_beam, "scene.toml:3:11: unknown symbol 't'");
+    refused_at(deflected("x^2 + 1"), papers_beam, "scene.toml:3:7: (5): u0(0) is 1");
+    refused_at(deflected("x/100"), papers_beam, "scene.toml:3:7: (5): the slope of u0");
+    refused_at(deflected("x^2"), papers_beam, "scene.toml:3:7: (6): u0(1) is 1");
+    refused_at(deflected("x^(3/2)/100"), papers_beam, "scene.toml:3:7: u0'' is not finite");
+}
+
+BOOST_AUTO_TEST_SUITE_END()
