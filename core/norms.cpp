@@ -6,6 +6,8 @@ namespace tvbeam {
 
 namespace {
 
+constexpr std::string_view square_suffix = "_sq";
+
 using enum TimeNorm::Kind;
 //                                θ      θ_x    u      u_x    u_xx   σ
 constexpr QuantitySet temperature{true, false, false, false, false, false};
@@ -42,10 +44,15 @@ QuantitySet Norm::quantities() const {
     return set;
 }
 
+std::string Norm::root() const {
+    return name.ends_with(square_suffix) ? name.substr(0, name.size() - square_suffix.size())
+                                         : name;
+}
+
 std::optional<Norm> Norm::named(std::string_view name) {
-    constexpr std::string_view square = "_sq";
-    const bool squared = name.ends_with(square);
-    const std::string_view root = squared ? name.substr(0, name.size() - square.size()) : name;
+    const bool squared = name.ends_with(square_suffix);
+    const std::string_view root =
+        squared ? name.substr(0, name.size() - square_suffix.size()) : name;
     const auto found = std::find_if(roots().begin(), roots().end(),
                                     [&](const Norm& norm) { return norm.name == root; });
     // corollary_sq would be the square of a square, which nothing is measured in.

@@ -34,6 +34,9 @@ struct Norm {
     std::vector<TimeNorm> parts; ///< squares, added
     bool squared = false;        ///< the sum itself rather than its root
 
+    /// The name without `_sq`.
+    [[nodiscard]] std::string root() const;
+
     /// The quantities that any part needs.
     [[nodiscard]] QuantitySet quantities() const;
 

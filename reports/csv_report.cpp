@@ -27,10 +27,11 @@ std::string csv_report(const StudyResult& result) {
     };
     std::string text = "elements,h,dt,steps,status";
     for (const auto& norm : ladder.norms) {
-        text += "," + norm;
-        if (has_figures(norm))
-            text += "," + norm + "_printed";
-        text += "," + norm + "_order";
+        const std::string& name = norm.norm.name;
+        text += "," + name;
+        if (has_figures(name))
+            text += "," + name + "_printed";
+        text += "," + name + "_order";
     }
     text += ",seconds,reason\n";
     for (std::size_t i = 0; i < ladder.rungs.size(); ++i) {
@@ -41,9 +42,10 @@ std::string csv_report(const StudyResult& result) {
                             rung.rung.steps, ok ? "ok" : "failed");
         for (std::size_t k = 0; k < ladder.norms.size(); ++k) {
             text += ok ? fmt::format(",{}", rung.errors[k]) : ",";
-            if (has_figures(ladder.norms[k]))
-                text += fmt::format(",{}", printed->figures.at(ladder.norms[k])[i]);
-            text += rung.orders[k] ? fmt::format(",{}", *rung.orders[k]) : ",";
+            const LadderNorm& norm = ladder.norms[k];
+            if (has_figures(norm.norm.name))
+                text += fmt::format(",{}", printed->figures.at(norm.norm.name)[i]);
+            text += norm.orders[i] ? fmt::format(",{}", *norm.orders[i]) : ",";
         }
         text += fmt::format(",{},{}\n", rung.seconds, quoted(rung.reason));
     }

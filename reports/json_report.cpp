@@ -22,40 +22,111 @@ Json json_of(const Counters& counters) {
             {"doubles_allocated", counters.doubles_allocated}};
 }
 
+Json json_of(std::optional<double> value) {
+    return value ? Json(*value) : Json();
+}
+
+/// What every run of a study says of itself.
+Json json_of(const RungResult& rung) {
+    Json entry{{"elements", rung.rung.elements},
+               {"dt", rung.rung.dt},
+               {"steps", rung.rung.steps},
+               {"status", rung.status == RunStatus::ok ? "ok" : "failed"}};
+    if (!rung.reason.empty())
+        entry["reason"] = rung.reason;
+    entry["seconds"] = rung.seconds;
+    entry["iterations"] = rung.counters.fixed_point_iterations;
+    return entry;
+}
+
+Json errors_of(const RungResult& rung, const std::vector<Norm>& norms) {
+    Json errors = Json::object();
+    for (std::size_t k = 0; k < norms.size(); ++k)
+        errors[norms[k].name] = rung.errors.empty() ? Json() : Json(rung.errors[k]);
+    return errors;
+}
+
 Json json_of(const LadderResult& ladder, const LadderBlock& block) {
     Json rungs = Json::array();
     for (std::size_t i = 0; i < ladder.rungs.size(); ++i) {
-        const RungResult& rung = ladder.rungs[i];
-        Json errors = Json::object();
+        Json entry = json_of(ladder.rungs[i]);
+        entry["errors"] = errors_of(ladder.rungs[i], block.norms);
         Json orders = Json::object();
         Json printed = Json::object();
-        for (std::size_t k = 0; k < ladder.norms.size(); ++k) {
-            const std::string& norm = ladder.norms[k];
-            errors[norm] = rung.errors.empty() ? Json() : Json(rung.errors[k]);
-            orders[norm] = rung.orders[k] ? Json(*rung.orders[k]) : Json();
-            if (block.printed && block.printed->figures.contains(norm))
-                printed[norm] = block.printed->figures.at(norm)[i];
+        Json predicted = Json::object();
+        Json verdict = Json::object();
+        Json reason = Json::object();
+        for (const auto& norm : ladder.norms) {
+            const std::string& name = norm.norm.name;
+            orders[name] = json_of(norm.orders[i]);
+            if (block.printed && block.printed->figures.contains(name))
+                printed[name] = block.printed->figures.at(name)[i];
+            if (!norm.predictions.empty())
+                predicted[name] = json_of(norm.predictions[i]);
+            verdict[name] = name_of(norm.verdicts[i].verdict);
+            reason[name] = norm.verdicts[i].reason;
         }
-        Json entry{{"elements", rung.rung.elements},
-                   {"dt", rung.rung.dt},
-                   {"steps", rung.rung.steps},
-                   {"status", rung.status == RunStatus::ok ? "ok" : "failed"}};
-        if (!rung.reason.empty())
-            entry["reason"] = rung.reason;
-        entry["seconds"] = rung.seconds;
-        entry["iterations"] = rung.counters.fixed_point_iterations;
-        entry["errors"] = std::move(errors);
         entry["orders"] = std::move(orders);
         if (!printed.empty())
             entry["printed"] = std::move(printed);
-        entry["counters"] = json_of(rung.counters);
+        if (!predicted.empty())
+            entry["predicted"] = std::move(predicted);
+        entry["verdict"] = std::move(verdict);
+        entry["verdict_reason"] = std::move(reason);
+        entry["counters"] = json_of(ladder.rungs[i].counters);
         rungs.push_back(std::move(entry));
     }
-    Json json{
-        {"final_time", block.final_time}, {"norms", ladder.norms}, {"rungs", std::move(rungs)}};
+    Json json{{"final_time", block.final_time}, {"rungs", std::move(rungs)}};
     if (block.printed)
         json["printed_source"] = block.printed->source;
-    json["remarks"] = ladder.remarks;
+    Json remarks = Json::array();
+    for (const auto& norm : ladder.norms)
+        for (const auto& remark : norm.remarks)
+            remarks.push_back(remark);
+    json["remarks"] = std::move(remarks);
+    return json;
+}
+
+Json json_of(const OrdersResult& orders, const OrdersBlock& block) {
+    Json norms = Json::object();
+    for (const auto& [norm, fit] : orders.norms) {
+        if (!fit.holds()) {
+            norms[norm] = {{"status", "failed"}, {"reason", fit.failure}};
+            continue;
+        }
+        Json rejected = Json::array();
+        for (const auto& record : fit.rejected) {
+            const Rung& rung = orders.runs[record.record].rung;
+            rejected.push_back(
+                {{"elements", rung.elements}, {"dt", rung.dt}, {"reason", record.reason}});
+        }
+        norms[norm] = {{"status", "ok"},
+                       {"p", fit.model.p},
+                       {"p_se", fit.p_se},
+                       {"p_uncertainty", fit.p_uncertainty()},
+                       {"q", fit.model.q},
+                       {"q_se", fit.q_se},
+                       {"q_uncertainty", fit.q_uncertainty()},
+                       {"a", fit.model.a},
+                       {"b", fit.model.b},
+                       {"rho", fit.model.rho},
+                       {"rho_se", fit.rho_se},
+                       {"rms", fit.rms},
+                       {"used", fit.used.size()},
+                       {"rejected", std::move(rejected)}};
+    }
+    Json runs = Json::array();
+    for (const auto& run : orders.runs) {
+        Json entry = json_of(run);
+        entry["errors"] = errors_of(run, block.norms);
+        runs.push_back(std::move(entry));
+    }
+    Json json{
+        {"final_time", block.final_time}, {"norms", std::move(norms)}, {"runs", std::move(runs)}};
+    if (orders.corollary)
+        json["corollary_constant"] = {{"least", orders.corollary->least},
+                                      {"greatest", orders.corollary->greatest},
+                                      {"finest", orders.corollary->finest}};
     return json;
 }
 
@@ -70,6 +141,8 @@ std::string json_report(const StudyResult& result) {
                 {"build_type", TVBEAM_BUILD_TYPE},
                 {"scene_file", result.scene.file}}},
               {"left_out", result.left_out}};
+    if (result.orders)
+        json["orders"] = json_of(*result.orders, *result.scene.orders);
     if (result.ladder)
         json["ladder"] = json_of(*result.ladder, *result.scene.ladder);
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";

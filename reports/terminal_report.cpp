@@ -1,6 +1,7 @@
 #include "reports/terminal_report.hpp"
 
 #include "reports/number_text.hpp"
+#include "reports/orders_text.hpp"
 #include "reports/text_table.hpp"
 
 #include <fmt/format.h>
@@ -55,12 +56,13 @@ TextTable::Group norm_group(const LadderResult& ladder, const LadderBlock& block
         const auto& errors = ladder.rungs[i].errors;
         return errors.empty() ? std::optional<double>() : errors[k];
     };
-    TextTable::Group group{ladder.norms[k], {}};
+    const std::string& name = ladder.norms[k].norm.name;
+    TextTable::Group group{name, {}};
     group.columns.push_back(column(ladder, "error", [&](std::size_t i) {
         return error(i) ? scientific(error(i), 4) : std::string("failed");
     }));
     if (block.printed) {
-        if (const auto found = block.printed->figures.find(ladder.norms[k]);
+        if (const auto found = block.printed->figures.find(name);
             found != block.printed->figures.end()) {
             const auto& figures = found->second;
             group.columns.push_back(column(
@@ -72,7 +74,7 @@ TextTable::Group norm_group(const LadderResult& ladder, const LadderBlock& block
         }
     }
     group.columns.push_back(
-        column(ladder, "ord.", [&](std::size_t i) { return fixed(ladder.rungs[i].orders[k], 2); }));
+        column(ladder, "ord.", [&](std::size_t i) { return fixed(ladder.norms[k].orders[i], 2); }));
     return group;
 }
 
@@ -111,10 +113,9 @@ std::string ladder_report(const LadderResult& ladder, const LadderBlock& block,
         if (rung.status != RunStatus::ok)
             text += "\n" + wrapped(fmt::format("s = {}, dt = {} failed: {}", rung.rung.elements,
                                                shortest(rung.rung.dt), rung.reason));
-    if (!ladder.remarks.empty())
-        text += "\n";
-    for (const auto& remark : ladder.remarks)
-        text += wrapped(remark);
+    for (const auto& norm : ladder.norms)
+        for (std::size_t i = 0; i < norm.remarks.size(); ++i)
+            text += (i == 0 ? "\n" : "") + wrapped(norm.remarks[i]);
     return text;
 }
 
@@ -127,6 +128,8 @@ std::string terminal_report(const StudyResult& result) {
     if (result.ladder)
         text += wrapped("errors up to T = " + shortest(scene.ladder->final_time)) + "\n" +
                 ladder_report(*result.ladder, *scene.ladder, scene.scheme.algorithm);
+    if (result.orders)
+        text += "\n" + orders_text(*result.orders);
     if (!result.left_out.empty()) {
         text += "\nLeft out, as the scene does not need it:\n";
         for (const auto& part : result.left_out)

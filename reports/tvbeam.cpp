@@ -2,12 +2,16 @@
 
 #include "mms/derived_formulas.hpp"
 #include "mms/input_error.hpp"
+#include "reports/analysis_report.hpp"
+#include "reports/baseline.hpp"
+#include "reports/check_report.hpp"
 #include "reports/csv_report.hpp"
 #include "reports/formula_report.hpp"
 #include "reports/json_report.hpp"
 #include "reports/output_file.hpp"
 #include "reports/terminal_report.hpp"
 #include "reports/text_table.hpp"
+#include "studies/csv_records.hpp"
 #include "studies/shipped.hpp"
 #include "studies/study.hpp"
 #include "studies/toml_reader.hpp"
@@ -15,6 +19,7 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <exception>
@@ -26,7 +31,7 @@ namespace {
 
 using namespace tvbeam;
 
-enum Exit { done = 0, bad_input = 2, run_failed = 3 };
+enum Exit { done = 0, violated = 1, bad_input = 2, run_failed = 3 };
 
 struct RunOptions {
     std::string scene;
@@ -75,6 +80,79 @@ int run_command(const RunOptions& options) {
         report_error("a run failed; the result says which and why");
         return run_failed;
     }
+    return done;
+}
+
+struct CheckOptions {
+    std::vector<std::string> scenes;
+    std::vector<std::string> overrides;
+    bool short_form = false;
+    std::string junit;
+    std::string record;
+    std::string baseline;
+    double tolerance = 1e-6;
+};
+
+/// The first run of a result that failed, in words; empty when none did.
+std::string first_failure(const StudyResult& result) {
+    const auto reason = [](const std::vector<RungResult>& runs) {
+        const auto failed = std::find_if(runs.begin(), runs.end(), [](const RungResult& run) {
+            return run.status != RunStatus::ok;
+        });
+        return failed == runs.end() ? std::string() : failed->reason;
+    };
+    const std::string in_ladder = result.ladder ? reason(result.ladder->rungs) : "";
+    return in_ladder.empty() && result.orders ? reason(result.orders->runs) : in_ladder;
+}
+
+int check_command(const CheckOptions& options) {
+    // All scenes are read before any is run, so that a mistake in the last is not found after the
+    // others' run.
+    std::vector<Scene> scenes;
+    for (const auto& name : options.scenes)
+        scenes.push_back(read_scene(name, options.overrides,
+                                    {.short_form = options.short_form, .expectations = true}));
+    const auto baseline =
+        options.baseline.empty() ? std::nullopt : std::optional<Baseline>(options.baseline);
+    for (const auto& scene : scenes)
+        if (scene.expectations.empty() && !baseline && options.record.empty())
+            throw InputError(
+                {scene.file},
+                "has no [expect] block, so there is nothing to check; add one, or record a "
+                "baseline with --record");
+    Destination junit(options.junit);
+    Destination record(options.record);
+
+    std::vector<StudyResult> results;
+    std::vector<CheckedScene> checked;
+    for (const auto& scene : scenes) {
+        const auto start = std::chrono::steady_clock::now();
+        results.push_back(run_study(scene));
+        const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+        checked.push_back(
+            {scene.name, elapsed.count(), first_failure(results.back()), check(results.back())});
+        if (baseline) {
+            const auto more = baseline->check(results.back(), options.tolerance);
+            checked.back().expectations.insert(checked.back().expectations.end(), more.begin(),
+                                               more.end());
+        }
+        if (!junit.standard_output() && !record.standard_output())
+            write_standard_output(check_report(checked.back()));
+    }
+    if (junit.wanted())
+        junit.write(junit_report(checked));
+    if (record.wanted())
+        record.write(baseline_of(results));
+    const bool failed = std::any_of(results.begin(), results.end(),
+                                    [](const StudyResult& result) { return result.failed(); });
+    const bool passed = std::all_of(checked.begin(), checked.end(),
+                                    [](const CheckedScene& scene) { return scene.passed(); });
+    return failed ? run_failed : passed ? done : violated;
+}
+
+int analyse_command(const std::string& file, const std::string& error_column) {
+    write_standard_output(analysis_report(analyse(
+        read_records(file, error_column.empty() ? std::nullopt : std::optional(error_column)))));
     return done;
 }
 
@@ -142,6 +220,38 @@ int command_line(int argc, char** argv) {
                     "write the ladder as CSV; -: to standard output, in place of the table")
         ->type_name("FILE|-");
 
+    CheckOptions checks;
+    auto* check = app.add_subcommand(
+        "check", "Run scenes and hold them against what their [expect] blocks say; exit 1 "
+                 "and a line for each violation.\n"
+                 "Example: tvbeam check table1 table1-orders --short --junit results.xml");
+    check->add_option("scenes", checks.scenes, "shipped scenes, or files")->required();
+    check->add_option("--set", checks.overrides, "override a key in every scene (again and again)")
+        ->type_name("KEY=VALUE")
+        ->expected(1)
+        ->take_all();
+    check->add_flag("--short", checks.short_form,
+                    "with the scenes' [short] blocks: the form for CI");
+    check->add_option("--junit", checks.junit, "write JUnit XML")->type_name("FILE|-");
+    check->add_option("--record", checks.record, "write a baseline of every error found")
+        ->type_name("FILE|-");
+    check->add_option("--baseline", checks.baseline, "hold every error against a recorded baseline")
+        ->type_name("FILE");
+    check->add_option("--tolerance", checks.tolerance, "relative, both sides, for --baseline")
+        ->check(CLI::PositiveNumber)
+        ->capture_default_str();
+
+    std::string csv;
+    std::string error_column;
+    auto* analyse = app.add_subcommand(
+        "analyse", "Observed orders, verdicts and fits for any solver's errors: a CSV file "
+                   "with columns h (or elements), dt, error, seconds; of h and dt one "
+                   "may be absent.\n"
+                   "Example: tvbeam analyse errors.csv --error l2_error");
+    analyse->add_option("file", csv, "the CSV file")->required();
+    analyse->add_option("--error", error_column, "the column of the error; default: error")
+        ->type_name("NAME");
+
     std::string name;
     bool latex = false;
     auto* derive =
@@ -164,6 +274,14 @@ int command_line(int argc, char** argv) {
                              "only one report fits on standard output; give the other a file");
         return run_command(options);
     }
+    if (*check) {
+        if (checks.junit == "-" && checks.record == "-")
+            throw InputError({"--junit - --record -"},
+                             "only one report fits on standard output; give the other a file");
+        return check_command(checks);
+    }
+    if (*analyse)
+        return analyse_command(csv, error_column);
     if (*derive)
         return derive_command(name, latex);
     return *list ? list_command() : bad_input;

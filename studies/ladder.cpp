@@ -1,60 +1,39 @@
 #include "studies/ladder.hpp"
 
-#include "studies/observed_order.hpp"
 #include "studies/order_remarks.hpp"
-
-#include <algorithm>
-#include <chrono>
-#include <limits>
 
 namespace tvbeam {
 
 namespace {
 
-RungResult run_rung(const Scene& scene, const LadderBlock& ladder, const Rung& rung,
-                    const ProblemData& data) {
-    const auto start = std::chrono::steady_clock::now();
-    const RunResult run = tvbeam::run({.beam = scene.beam,
-                                       .mesh = Mesh::uniform(rung.elements),
-                                       .scheme = scene.scheme,
-                                       .final_time = ladder.final_time,
-                                       .steps = rung.steps,
-                                       .norms = ladder.norms},
-                                      data);
-    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
-    return {rung, run.status, run.reason, elapsed.count(), run.counters, run.errors, {}};
+LadderNorm analysed(const Norm& norm, const std::vector<RungResult>& rungs, std::size_t k,
+                    const TwoTermModel* model) {
+    LadderNorm result;
+    result.norm = norm;
+    result.orders = observed_orders(records_of(rungs, k));
+    // Verdicts rest on the norm itself, in which the two terms of the error add up.
+    const auto roots = root_records_of(rungs, k, norm);
+    result.verdicts = judge(roots, {.model = model}).rows;
+    if (model != nullptr)
+        for (const auto& record : roots) {
+            const double root = model->error(record.h, record.dt);
+            result.predictions.emplace_back(norm.squared ? root * root : root);
+        }
+    result.remarks = order_remarks(norm, roots, model);
+    return result;
 }
 
 } // namespace
 
-bool LadderResult::failed() const {
-    return std::any_of(rungs.begin(), rungs.end(),
-                       [](const RungResult& rung) { return rung.status != RunStatus::ok; });
-}
-
-LadderResult run_ladder(const Scene& scene, const LadderBlock& ladder, const ProblemData& data) {
+LadderResult run_ladder(const Scene& scene, const LadderBlock& ladder, const ProblemData& data,
+                        const OrdersResult* orders) {
     LadderResult result;
-    for (const auto& norm : ladder.norms)
-        result.norms.push_back(norm.name);
-    for (const auto& rung : ladder.rungs) {
-        result.rungs.push_back(run_rung(scene, ladder, rung, data));
-        result.rungs.back().orders.resize(ladder.norms.size());
-    }
-    for (std::size_t k = 0; k < ladder.norms.size(); ++k) {
-        std::vector<Refinement> records;
-        for (const auto& rung : result.rungs)
-            records.push_back({.h = 1.0 / static_cast<double>(rung.rung.elements),
-                               .dt = rung.rung.dt,
-                               .error = rung.errors.empty()
-                                            ? std::numeric_limits<double>::quiet_NaN()
-                                            : rung.errors[k],
-                               .seconds = rung.seconds});
-        const auto orders = observed_orders(records);
-        for (std::size_t i = 0; i < orders.size(); ++i)
-            result.rungs[i].orders[k] = orders[i];
-        const auto remarks = order_remarks(ladder.norms[k], records, orders);
-        result.remarks.insert(result.remarks.end(), remarks.begin(), remarks.end());
-    }
+    for (const auto& rung : ladder.rungs)
+        result.rungs.push_back(run_rung(scene, ladder.norms, ladder.final_time, rung, data));
+    for (std::size_t k = 0; k < ladder.norms.size(); ++k)
+        result.norms.push_back(
+            analysed(ladder.norms[k], result.rungs, k,
+                     orders != nullptr ? orders->model_of(ladder.norms[k]) : nullptr));
     return result;
 }
 

@@ -1,7 +1,8 @@
 #pragma once
 
-#include "core/run.hpp"
-#include "studies/scene.hpp"
+#include "studies/orders.hpp"
+#include "studies/rung.hpp"
+#include "studies/verdict.hpp"
 
 #include <optional>
 #include <string>
@@ -9,28 +10,24 @@
 
 namespace tvbeam {
 
-/// What one rung gave.
-struct RungResult {
-    Rung rung;
-    RunStatus status = RunStatus::ok;
-    std::string reason;   ///< why it failed; empty when ok
-    double seconds = 0.0; ///< wall clock, error norms included
-    Counters counters;
-    std::vector<double> errors; ///< one a norm; empty when failed
-    std::vector<std::optional<double>>
-        orders; ///< observed order against the rung before; one a norm
+/// One norm along a ladder.
+struct LadderNorm {
+    Norm norm;
+    std::vector<std::optional<double>> orders;      ///< observed order against the rung before
+    std::vector<RowVerdict> verdicts;               ///< what each rung shows
+    std::vector<std::optional<double>> predictions; ///< of the two-term model; empty without one
+    std::vector<std::string> remarks;               ///< what the orders mean, in sentences
 };
 
 /// The record of a ladder study.
 struct LadderResult {
-    std::vector<std::string> norms;
     std::vector<RungResult> rungs;
-    std::vector<std::string> remarks; ///< what the observed orders show, a sentence or more a norm
-
-    [[nodiscard]] bool failed() const; ///< some rung failed
+    std::vector<LadderNorm> norms;
 };
 
-/// Runs every rung of the scene's ladder, the others also after one that failed.
-LadderResult run_ladder(const Scene& scene, const LadderBlock& ladder, const ProblemData& data);
+/// Runs every rung of the scene's ladder, the others also after one that failed. orders: the grid
+/// study of the same scene, whose models then judge the rungs and predict them; or null.
+LadderResult run_ladder(const Scene& scene, const LadderBlock& ladder, const ProblemData& data,
+                        const OrdersResult* orders);
 
 } // namespace tvbeam

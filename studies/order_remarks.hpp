@@ -2,18 +2,20 @@
 
 #include "core/norms.hpp"
 #include "studies/observed_order.hpp"
+#include "studies/two_term_model.hpp"
 
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 namespace tvbeam {
 
-/// What the pairwise orders of one norm show along a ladder, in sentences: the range they keep,
-/// where they leave it and what that means. Steady: within 0.15 of the first (0.3 for a square).
-/// Nothing for fewer than two orders.
-std::vector<std::string> order_remarks(const Norm& norm, std::span<const Refinement> ladder,
-                                       std::span<const std::optional<double>> orders);
+/// What the orders of one norm along a ladder mean, in sentences. With a two-term model: which term
+/// rules, where the terms cancel, and which order the ladder shows in the end. Without: the range
+/// that the pairwise orders keep, and where they leave it by more than 0.15. Nothing for fewer than
+/// two orders. roots: the records of the norm itself, also where the table shows its square; orders
+/// in the text are the table's.
+std::vector<std::string> order_remarks(const Norm& norm, std::span<const Refinement> roots,
+                                       const TwoTermModel* model);
 
 } // namespace tvbeam

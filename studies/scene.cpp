@@ -198,8 +198,7 @@ PrintedFigures read_printed(TableReader table, const LadderBlock& ladder) {
     return printed;
 }
 
-LadderBlock read_ladder(TableReader table) {
-    LadderBlock ladder;
+double read_final_time(TableReader& table) {
     const auto final_time = table.number("final_time");
     if (!final_time)
         throw InputError(table.place("final_time"),
@@ -208,16 +207,48 @@ LadderBlock read_ladder(TableReader table) {
     if (!(*final_time > 0.0))
         throw InputError(table.place("final_time"), table.full("final_time") + " is " +
                                                         text_of(*final_time) + "; it must be > 0");
-    ladder.final_time = *final_time;
+    return *final_time;
+}
+
+LadderBlock read_ladder(TableReader table) {
+    LadderBlock ladder;
+    ladder.final_time = read_final_time(table);
     const auto elements = read_elements(table);
     const auto dt = read_dt(table, elements);
     for (std::size_t i = 0; i < elements.size(); ++i)
-        ladder.rungs.push_back({elements[i], steps_of(table, i, *final_time, dt[i]), dt[i]});
+        ladder.rungs.push_back({elements[i], steps_of(table, i, ladder.final_time, dt[i]), dt[i]});
     ladder.norms = read_norms(table);
     if (auto printed = table.table("printed"))
         ladder.printed = read_printed(*std::move(printed), ladder);
     table.finish();
     return ladder;
+}
+
+OrdersBlock read_orders(TableReader table) {
+    OrdersBlock orders;
+    orders.final_time = read_final_time(table);
+    const auto elements = read_elements(table);
+    const auto dt = table.numbers("dt");
+    if (!dt || dt->empty())
+        throw InputError(table.place("dt"),
+                         table.full("dt") + " is missing or empty; give the steps that every mesh "
+                                            "is run with, e.g. [1e-2, 5e-3, 2.5e-3]");
+    for (std::size_t j = 0; j < dt->size(); ++j)
+        for (const std::int64_t s : elements)
+            orders.grid.push_back({s, steps_of(table, j, orders.final_time, (*dt)[j]), (*dt)[j]});
+    orders.norms = read_norms(table);
+    if (orders.norms.empty())
+        throw InputError(table.place("norms"),
+                         table.full("norms") +
+                             " is missing or empty; name the norms whose orders are wanted");
+    for (std::size_t i = 0; i < orders.norms.size(); ++i)
+        if (orders.norms[i].name != orders.norms[i].root())
+            throw InputError(table.place("norms", i),
+                             table.full("norms") + " names the square '" + orders.norms[i].name +
+                                 "'; the model is one of the norm itself: write " +
+                                 orders.norms[i].root());
+    table.finish();
+    return orders;
 }
 
 GivenData read_data(TableReader table) {
@@ -252,9 +283,12 @@ std::string json_of(const toml::table& table) {
 
 } // namespace
 
-Scene read_scene(const std::string& name_or_file, const std::vector<std::string>& overrides) {
+Scene read_scene(const std::string& name_or_file, const std::vector<std::string>& overrides,
+                 const Reading& reading) {
     const std::filesystem::path path = find_file(Shipped::scene, name_or_file);
     TomlDocument document = read_toml(path.string());
+    if (reading.short_form)
+        merge_block(document, "short");
     for (const auto& assignment : overrides)
         override_key(document, assignment);
 
@@ -284,16 +318,23 @@ Scene read_scene(const std::string& name_or_file, const std::vector<std::string>
     else
         scene.problem = read_scene_solution(root, path.parent_path());
 
-    if (auto ladder = root.table("ladder")) {
+    if (auto ladder = root.table("ladder"))
         scene.ladder = read_ladder(*std::move(ladder));
-        if (!scene.ladder->norms.empty() && !scene.has_exact_solution())
-            throw InputError(root.place("ladder"),
-                             "ladder.norms asks for errors, but the scene has no exact solution; "
-                             "remove the norms or give a solution");
-    }
+    if (auto orders = root.table("orders"))
+        scene.orders = read_orders(*std::move(orders));
+    if (!scene.ladder && !scene.orders)
+        throw InputError({scene.file}, "the scene has no study; add a block [ladder] or [orders]");
+    if (!scene.has_exact_solution() && (scene.orders || !scene.ladder->norms.empty()))
+        throw InputError(
+            root.place(scene.orders ? "orders" : "ladder"),
+            "the norms ask for errors, but the scene has no exact solution; remove them or "
+            "give a solution");
+    if (auto expect = root.table("expect"); expect && reading.expectations)
+        scene.expectations =
+            read_expectations(*std::move(expect), scene.ladder ? &*scene.ladder : nullptr,
+                              scene.orders ? &*scene.orders : nullptr);
+    root.table("short"); // what it holds is read in the short form
     root.finish();
-    if (!scene.ladder)
-        throw InputError({scene.file}, "the scene has no study; add a block [ladder]");
     return scene;
 }
 
@@ -305,8 +346,12 @@ ProblemData problem_of(const Scene& scene, double final_time) {
 
 std::vector<std::string> left_out(const Scene& scene, const ProblemData& data) {
     std::vector<std::string> parts;
-    const Needs needs =
-        scene.ladder && data.exact ? ErrorNorms::needs(data, scene.ladder->norms) : Needs{};
+    std::vector<Norm> norms;
+    if (scene.ladder)
+        norms = scene.ladder->norms;
+    if (scene.orders)
+        norms.insert(norms.end(), scene.orders->norms.begin(), scene.orders->norms.end());
+    const Needs needs = ErrorNorms::needs(data, norms);
     const bool coupled = scene.beam.alpha != 0.0;
     const bool direct = scene.scheme.algorithm == Algorithm::direct;
     if (!coupled)
@@ -323,7 +368,7 @@ std::vector<std::string> left_out(const Scene& scene, const ProblemData& data) {
         parts.emplace_back("heat source: zero");
     if (data.moment_load.is_zero())
         parts.emplace_back("moment load: zero");
-    if (scene.ladder && scene.ladder->norms.empty())
+    if (norms.empty())
         parts.emplace_back("error norms: none asked for");
     return parts;
 }

@@ -5,6 +5,7 @@
 #include "core/scheme.hpp"
 #include "mms/given_problem.hpp"
 #include "mms/solution.hpp"
+#include "studies/expectation.hpp"
 
 #include <cstdint>
 #include <map>
@@ -36,6 +37,13 @@ struct LadderBlock {
     std::optional<PrintedFigures> printed;
 };
 
+/// The block [orders]: a grid of runs, every mesh with every step.
+struct OrdersBlock {
+    double final_time = 0.0;
+    std::vector<Rung> grid;  ///< elements change fastest
+    std::vector<Norm> norms; ///< none is a square, but for `corollary`
+};
+
 /// What to run. A study runs if its block is there.
 struct Scene {
     std::string file;
@@ -46,16 +54,25 @@ struct Scene {
     std::variant<Solution, GivenData> problem;
     Scheme scheme;
     std::optional<LadderBlock> ladder;
-    std::string json; ///< the scene with its overrides, as JSON
+    std::optional<OrdersBlock> orders;
+    std::vector<Expectation> expectations; ///< empty unless they were asked for
+    std::string json;                      ///< the scene with its overrides, as JSON
 
     [[nodiscard]] bool has_exact_solution() const {
         return std::holds_alternative<Solution>(problem);
     }
 };
 
+/// How a scene is read.
+struct Reading {
+    bool short_form = false; ///< with the block [short], whose keys replace those of the same path
+    bool expectations = false; ///< with the block [expect]; otherwise it is passed over
+};
+
 /// Reads a scene: a shipped name or a file, with overrides `key=value` applied in order. Everything
 /// that can be said without running is checked here. Throws InputError at file:line:column.
-Scene read_scene(const std::string& name_or_file, const std::vector<std::string>& overrides = {});
+Scene read_scene(const std::string& name_or_file, const std::vector<std::string>& overrides = {},
+                 const Reading& reading = {});
 
 /// The problem of a scene up to final_time; throws InputError where its solution or data are not
 /// admissible.

@@ -1,14 +1,25 @@
 #include "studies/study.hpp"
 
+#include <algorithm>
+
 namespace tvbeam {
 
+bool StudyResult::failed() const {
+    return (orders && any_failed(orders->runs)) || (ladder && any_failed(ladder->rungs));
+}
+
 StudyResult run_study(const Scene& scene) {
-    StudyResult result{.scene = scene, .left_out = {}, .ladder = {}};
-    if (scene.ladder) {
-        const ProblemData data = problem_of(scene, scene.ladder->final_time);
-        result.left_out = left_out(scene, data);
-        result.ladder = run_ladder(scene, *scene.ladder, data);
-    }
+    StudyResult result{.scene = scene, .left_out = {}, .orders = {}, .ladder = {}};
+    // One problem serves all studies: it is admissible up to the longest of their times.
+    const double final_time = std::max(scene.ladder ? scene.ladder->final_time : 0.0,
+                                       scene.orders ? scene.orders->final_time : 0.0);
+    const ProblemData data = problem_of(scene, final_time);
+    result.left_out = left_out(scene, data);
+    if (scene.orders)
+        result.orders = run_orders(scene, *scene.orders, data);
+    if (scene.ladder)
+        result.ladder =
+            run_ladder(scene, *scene.ladder, data, result.orders ? &*result.orders : nullptr);
     return result;
 }
 

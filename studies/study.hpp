@@ -1,6 +1,7 @@
 #pragma once
 
 #include "studies/ladder.hpp"
+#include "studies/orders.hpp"
 #include "studies/scene.hpp"
 
 #include <optional>
@@ -13,9 +14,10 @@ namespace tvbeam {
 struct StudyResult {
     Scene scene;
     std::vector<std::string> left_out; ///< parts that the scene does not need, in words
+    std::optional<OrdersResult> orders;
     std::optional<LadderResult> ladder;
 
-    [[nodiscard]] bool failed() const { return ladder && ladder->failed(); }
+    [[nodiscard]] bool failed() const; ///< some run failed
 };
 
 /// Runs the studies of a scene. Throws InputError when its problem is not admissible; nothing has

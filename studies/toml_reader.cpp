@@ -109,6 +109,30 @@ void override_key(TomlDocument& document, const std::string& assignment) {
     table->insert_or_assign(path, std::move(*parsed.get("value")));
 }
 
+namespace {
+
+void merge(toml::table& into, toml::table& from) {
+    for (auto&& [key, node] : from) {
+        toml::table* inner = node.as_table();
+        toml::table* target = into[key].as_table();
+        if (inner != nullptr && target != nullptr)
+            merge(*target, *inner);
+        else
+            into.insert_or_assign(key, std::move(node));
+    }
+}
+
+} // namespace
+
+void merge_block(TomlDocument& document, std::string_view key) {
+    toml::node* node = document.table.get(key);
+    if (node == nullptr || !node->is_table())
+        return;
+    toml::table block = std::move(*node->as_table());
+    document.table.erase(key);
+    merge(document.table, block);
+}
+
 TableReader::TableReader(const TomlDocument& document, const toml::table& table, std::string path)
     : document_(&document), table_(&table), path_(std::move(path)) {}
 
@@ -194,6 +218,37 @@ std::optional<std::vector<double>> TableReader::numbers(std::string_view key, In
     for (const auto& element : *array)
         values.push_back(checked_number(key, element, infinity));
     return values;
+}
+
+TableReader::Band TableReader::checked_band(std::string_view key, const toml::node& node) const {
+    const toml::array* pair = node.as_array();
+    if (pair == nullptr || pair->size() != 2)
+        throw InputError(place_of(node),
+                         full(key) + " must be a band [lowest, highest]: a gate has two sides");
+    const Band band{checked_number(key, *pair->get(0), Infinity::refused),
+                    checked_number(key, *pair->get(1), Infinity::refused)};
+    if (!(band.lowest < band.highest))
+        throw InputError(place_of(node),
+                         full(key) + " is a band whose lowest value is not below its highest");
+    return band;
+}
+
+std::optional<TableReader::Band> TableReader::band(std::string_view key) {
+    const toml::node* node = find(key);
+    return node == nullptr ? std::nullopt : std::optional(checked_band(key, *node));
+}
+
+std::optional<std::vector<TableReader::Band>> TableReader::bands(std::string_view key) {
+    const toml::node* node = find(key);
+    if (node == nullptr)
+        return std::nullopt;
+    const toml::array* array = node->as_array();
+    if (array == nullptr || array->empty() || !array->get(0)->is_array())
+        return std::vector<Band>{checked_band(key, *node)};
+    std::vector<Band> bands;
+    for (const auto& element : *array)
+        bands.push_back(checked_band(key, element));
+    return bands;
 }
 
 std::optional<std::vector<std::int64_t>> TableReader::integers(std::string_view key) {

@@ -28,6 +28,9 @@ TomlDocument read_toml(const std::string& file);
 /// '=' or no key, or when a.b is not a table.
 void override_key(TomlDocument& document, const std::string& assignment);
 
+/// Takes the table at `key` away and puts its values in place of those of the same path.
+void merge_block(TomlDocument& document, std::string_view key);
+
 /// One table of a document, read key by key: every reader notes the key as known, and finish()
 /// refuses the others. All readers throw InputError at the value when it has the wrong type or
 /// breaks the rule they are given.
@@ -45,6 +48,14 @@ public:
                                                Infinity infinity = Infinity::refused);
     std::optional<std::vector<std::int64_t>> integers(std::string_view key);
     std::optional<std::vector<std::string>> texts(std::string_view key);
+    /// A two-sided band [lo, hi] with lo < hi, both finite.
+    struct Band {
+        double lowest;
+        double highest;
+    };
+    std::optional<Band> band(std::string_view key);
+    /// One band, or an array of bands.
+    std::optional<std::vector<Band>> bands(std::string_view key);
     /// One of the choices, as its index.
     std::optional<std::size_t> choice(std::string_view key,
                                       const std::vector<std::string>& choices);
@@ -68,6 +79,7 @@ private:
     const toml::node* find(std::string_view key);
     [[nodiscard]] InputError wrong_type(std::string_view key, const toml::node& node,
                                         const std::string& wanted) const;
+    Band checked_band(std::string_view key, const toml::node& node) const;
     double checked_number(std::string_view key, const toml::node& node, Infinity infinity) const;
 
     const TomlDocument* document_;

@@ -140,6 +140,8 @@ BOOST_AUTO_TEST_CASE(the_order_does_not_depend_on_addresses) {
         if (round == 0)
             first = text;
         BOOST_TEST(text == first);
+        BOOST_TEST(formula_text(pow(b - a, 2) + c) == "(a - b)^2 + c");
+        BOOST_TEST(formula_text(pow(b - a, 3) + c) == "c - (a - b)^3");
     }
 }
 

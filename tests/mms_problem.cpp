@@ -6,9 +6,12 @@
 #include <boost/test/data/test_case.hpp>
 #include <boost/test/unit_test.hpp>
 
+#include <chrono>
 #include <cmath>
 #include <filesystem>
+#include <functional>
 #include <limits>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -261,6 +264,48 @@ BOOST_AUTO_TEST_CASE(given_data_that_break_a_rule_are_refused_at_their_place) {
     refused_at(deflected("x/100"), papers_beam, "scene.toml:3:7: (5): the slope of u0");
     refused_at(deflected("x^2"), papers_beam, "scene.toml:3:7: (6): u0(1) is 1");
     refused_at(deflected("x^(3/2)/100"), papers_beam, "scene.toml:3:7: u0'' is not finite");
+}
+
+// From text to compiled problem, whatever the formulas: a problem or an InputError, in reasonable
+// time. Factors in front make most of them admissible. Fixed seeds.
+BOOST_AUTO_TEST_CASE(any_formulas_are_a_problem_or_an_input_error) {
+    std::mt19937 random(31);
+    const auto below = [&random](std::size_t count) {
+        return std::uniform_int_distribution<std::size_t>(0, count - 1)(random);
+    };
+    const std::vector<std::string> leaves = {"x",  "t", "alpha", "zeta",
+                                             "pi", "2", "0.3",   "theta_A"};
+    const std::vector<std::string> functions = {"sin",  "cos",  "tan",  "asin", "acos", "atan",
+                                                "sinh", "cosh", "tanh", "exp",  "log",  "sqrt"};
+    const std::function<std::string(int)> formula = [&](int depth) -> std::string {
+        if (depth == 0 || below(8) == 0)
+            return leaves[below(leaves.size())];
+        const std::string left = "(" + formula(depth - 1) + ")";
+        if (below(3) == 0)
+            return functions[below(functions.size())] + left;
+        const std::string right = "(" + formula(depth - 1) + ")";
+        return left + "+-*/^+*"[below(7)] + right;
+    };
+    int accepted = 0;
+    const auto start = std::chrono::steady_clock::now();
+    for (int i = 0; i < 200; ++i) {
+        const std::string theta = "x*(1-x)*(" + formula(int(below(6))) + ")";
+        const std::string u = "x^2*(" + formula(int(below(5))) + ")";
+        std::string document = "theta = '";
+        document.append(theta).append("'\nu = '").append(u).append("'\n");
+        try {
+            const Solution solution = parse_solution(document, "my.toml");
+            const ProblemData problem = manufactured_problem(solution, {0.5, 0.25, 0.0, {}}, 2.0);
+            BOOST_TEST(std::isfinite(field_value(problem.heat_source, problem, 0.4, 1.1)));
+            ++accepted;
+        } catch (const InputError&) {
+            // Expected of many.
+        }
+    }
+    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+    BOOST_TEST(accepted > 40);
+    // Some seconds at most even with sanitizers; a hang is minutes.
+    BOOST_TEST(elapsed.count() < 120.0);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

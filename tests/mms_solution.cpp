@@ -107,6 +107,25 @@ BOOST_DATA_TEST_CASE(what_breaks_a_rule_is_refused_at_its_place, data::make(refu
                           });
 }
 
+BOOST_AUTO_TEST_CASE(every_character_of_a_string_has_its_place) {
+    const std::string document = "a = \"\\u00e4+\\U0001F600\\n\u00fcx\"\n";
+    const std::string value = "\u00e4+\U0001F600\n\u00fcx";
+    const SourceText text = SourceText::of_toml_string(value, document, {"my.toml", 1, 5});
+    const auto column_of = [&](const std::string& part) {
+        return text.at(value.find(part)).column;
+    };
+    BOOST_TEST(column_of("\u00e4") == 6);
+    BOOST_TEST(column_of("+") == 12);
+    BOOST_TEST(column_of("\U0001F600") == 13);
+    BOOST_TEST(column_of("\n") == 23);
+    BOOST_TEST(column_of("\u00fc") == 25);
+    BOOST_TEST(column_of("x") == 26);
+    BOOST_TEST(text.at(1000).column == 27);
+    const SourceText plain("\u00e4x", {"my.toml", 7, 3});
+    BOOST_TEST(plain.at(2).column == 4);
+    BOOST_TEST(plain.at(3).line == 7);
+}
+
 BOOST_AUTO_TEST_CASE(top_holds_for_all_phases) {
     const Solution solution = parse_solution("name = \"n\"\nsource = \"s\"\npurpose = \"p\"\n"
                                              "theta = \"k*x\"\n"
@@ -196,6 +215,7 @@ BOOST_AUTO_TEST_CASE(nearest_names_are_near) {
     BOOST_TEST(nearest_name("thetaA", known) == "theta_A");
     BOOST_TEST(nearest_name("stop", known) == "stops");
     BOOST_TEST(nearest_name("y", known).empty());
+    BOOST_TEST(nearest_name("thetxyz", known).empty());
     BOOST_TEST(nearest_name("frequency", known).empty());
     BOOST_TEST(nearest_name("", known).empty());
     BOOST_TEST(nearest_name(std::string(100000, 'a'), known).empty());

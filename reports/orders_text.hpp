@@ -1,0 +1,19 @@
+#pragma once
+
+#include "studies/orders.hpp"
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace tvbeam {
+
+/// A table of fits of the two-term model that hold, a row each: p, q with what to quote behind ±,
+/// a, b, ρ, rms and how many of the records were used.
+std::string fit_table(const std::vector<std::pair<std::string, const TwoTermFit*>>& fits,
+                      std::size_t records);
+
+/// The whole of an [orders] study: the fits, what they leave out, the constants of Corollary 2.2.
+std::string orders_text(const OrdersResult& orders);
+
+} // namespace tvbeam

@@ -1,0 +1,175 @@
+#include "studies/check.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace tvbeam {
+
+namespace {
+
+using Figure = Expectation::Figure;
+
+std::string text_of(double value) {
+    std::ostringstream text;
+    text.precision(6);
+    text << value;
+    return text.str();
+}
+
+CheckedExpectation held(const Expectation& expectation, const std::string& what,
+                        std::optional<double> figure, const std::string& absence) {
+    CheckedExpectation checked;
+    checked.what = what;
+    checked.expected = text_of(expectation.lowest) + " to " + text_of(expectation.highest);
+    checked.place = expectation.place;
+    checked.found = figure ? text_of(*figure) : absence;
+    // A figure that is not a number lies in no band.
+    checked.holds = figure && *figure >= expectation.lowest && *figure <= expectation.highest;
+    return checked;
+}
+
+std::string rung_text(const RungResult& rung) {
+    return "s = " + std::to_string(rung.rung.elements) + ", dt = " + text_of(rung.rung.dt);
+}
+
+std::string absence_of(const RungResult& rung, const std::string& otherwise) {
+    return rung.reason.empty() ? otherwise : "no error: " + rung.reason;
+}
+
+/// The ratio of two norms from that of their squares, if squares they are: the model is one of the
+/// norm itself.
+double of_norm(const Norm& norm, double ratio) {
+    return norm.squared ? std::sqrt(ratio) : ratio;
+}
+
+/// Rungs finer in h or dt than every run of the grid: there a prediction is one.
+bool beyond(const Rung& rung, const std::vector<RungResult>& grid) {
+    return std::all_of(grid.begin(), grid.end(), [&](const RungResult& run) {
+        return rung.elements > run.rung.elements || rung.dt < run.rung.dt;
+    });
+}
+
+class Checker {
+public:
+    explicit Checker(const StudyResult& result) : result_(result) {}
+
+    void add(const Expectation& expectation) {
+        switch (expectation.figure) {
+        case Figure::order:
+        case Figure::ratio:
+        case Figure::error:
+        case Figure::predicted:
+            add_ladder(expectation);
+            break;
+        case Figure::constant:
+            add_constant(expectation);
+            break;
+        default:
+            add_fit(expectation);
+        }
+    }
+
+    [[nodiscard]] std::vector<CheckedExpectation> take() { return std::move(checked_); }
+
+private:
+    void add_ladder(const Expectation& expectation) {
+        const LadderResult& ladder = *result_.ladder;
+        const auto at =
+            std::find_if(ladder.norms.begin(), ladder.norms.end(), [&](const LadderNorm& norm) {
+                return norm.norm.name == expectation.norm;
+            });
+        const auto k = static_cast<std::size_t>(at - ladder.norms.begin());
+        const std::string prefix = "ladder." + expectation.norm + ": ";
+        const auto error = [&](std::size_t i) {
+            const auto& errors = ladder.rungs[i].errors;
+            return errors.empty() ? std::optional<double>() : errors[k];
+        };
+        const auto push = [&](std::size_t i, const std::string& name,
+                              std::optional<double> figure) {
+            checked_.push_back(held(expectation,
+                                    prefix + name + " at " + rung_text(ladder.rungs[i]), figure,
+                                    absence_of(ladder.rungs[i], "undefined")));
+        };
+        const std::size_t i = expectation.rung;
+        if (expectation.figure == Figure::error) {
+            push(i, "error", error(i));
+        } else if (expectation.figure == Figure::ratio) {
+            const double printed = result_.scene.ladder->printed->figures.at(expectation.norm)[i];
+            push(i, "ratio to the printed figure",
+                 error(i) ? std::optional(*error(i) / printed) : std::nullopt);
+        } else if (expectation.figure == Figure::order) {
+            for (std::size_t row = 1; row < ladder.rungs.size(); ++row)
+                push(row, "observed order", at->orders[row]);
+        } else {
+            add_predicted(expectation, *at, error, push);
+        }
+    }
+
+    template <typename Error, typename Push>
+    void add_predicted(const Expectation& expectation, const LadderNorm& norm, const Error& error,
+                       const Push& push) {
+        bool some = false;
+        for (std::size_t row = 0; row < norm.predictions.size(); ++row)
+            if (beyond(result_.ladder->rungs[row].rung, result_.orders->runs)) {
+                push(row, "ratio to the two-term model's prediction",
+                     error(row)
+                         ? std::optional(of_norm(norm.norm, *error(row) / *norm.predictions[row]))
+                         : std::nullopt);
+                some = true;
+            }
+        if (!some)
+            checked_.push_back(held(expectation, "ladder." + expectation.norm + ": prediction",
+                                    std::nullopt,
+                                    norm.predictions.empty()
+                                        ? "no two-term model: [orders] is missing or its fit failed"
+                                        : "no rung is finer than the grid of [orders]"));
+    }
+
+    void add_fit(const Expectation& expectation) {
+        const auto& norms = result_.orders->norms;
+        const auto at = std::find_if(norms.begin(), norms.end(), [&](const NormOrders& orders) {
+            return orders.norm == expectation.norm;
+        });
+        const TwoTermModel& model = at->fit.model;
+        const auto [name, figure] = [&]() -> std::pair<std::string, double> {
+            switch (expectation.figure) {
+            case Figure::p:
+                return {"p, the order in h", model.p};
+            case Figure::q:
+                return {"q, the order in dt", model.q};
+            case Figure::a:
+                return {"a, the constant of h^p", model.a};
+            case Figure::b:
+                return {"b, the constant of dt^q", model.b};
+            default:
+                return {"rho", model.rho};
+            }
+        }();
+        checked_.push_back(held(expectation, "orders." + expectation.norm + ": " + name,
+                                at->fit.holds() ? std::optional(figure) : std::nullopt,
+                                at->fit.failure));
+    }
+
+    void add_constant(const Expectation& expectation) {
+        for (const auto& [name, value] :
+             {std::pair{"least", result_.orders->corollary->least},
+              std::pair{"greatest", result_.orders->corollary->greatest}})
+            checked_.push_back(held(
+                expectation, "orders.corollary: " + std::string(name) + " constant C", value, ""));
+    }
+
+    const StudyResult& result_;
+    std::vector<CheckedExpectation> checked_;
+};
+
+} // namespace
+
+std::vector<CheckedExpectation> check(const StudyResult& result) {
+    Checker checker(result);
+    for (const auto& expectation : result.scene.expectations)
+        checker.add(expectation);
+    return checker.take();
+}
+
+} // namespace tvbeam

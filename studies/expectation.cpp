@@ -1,0 +1,109 @@
+#include "studies/expectation.hpp"
+
+#include "studies/scene.hpp"
+#include "studies/toml_reader.hpp"
+
+namespace tvbeam {
+
+namespace {
+
+using Figure = Expectation::Figure;
+
+void add(std::vector<Expectation>& expectations, TableReader& table, const char* key, Figure figure,
+         const std::string& norm) {
+    if (const auto band = table.band(key))
+        expectations.push_back({figure, norm, 0, band->lowest, band->highest, table.place(key)});
+}
+
+void add_errors(std::vector<Expectation>& expectations, TableReader& table, const std::string& norm,
+                std::size_t rungs) {
+    const double within = table.number("within").value_or(1e-3);
+    if (!(within > 0.0 && within < 1.0))
+        throw InputError(table.place("within"),
+                         table.full("within") + " must be a part between 0 and 1");
+    const auto errors = table.numbers("errors");
+    if (!errors)
+        return;
+    if (errors->size() != rungs)
+        throw InputError(table.place("errors"),
+                         table.full("errors") + " has " + std::to_string(errors->size()) +
+                             " values for " + std::to_string(rungs) + " rungs; give one a rung");
+    for (std::size_t i = 0; i < rungs; ++i)
+        expectations.push_back({Figure::error, norm, i, (*errors)[i] * (1.0 - within),
+                                (*errors)[i] * (1.0 + within), table.place("errors", i)});
+}
+
+void add_ratios(std::vector<Expectation>& expectations, TableReader& table, const std::string& norm,
+                const LadderBlock& ladder) {
+    const auto bands = table.bands("ratios");
+    if (!bands)
+        return;
+    if (!ladder.printed || !ladder.printed->figures.contains(norm))
+        throw InputError(table.place("ratios"), table.full("ratios") +
+                                                    " compares with printed figures, but "
+                                                    "ladder.printed has none for " +
+                                                    norm);
+    const std::size_t rungs = ladder.rungs.size();
+    if (bands->size() != 1 && bands->size() != rungs)
+        throw InputError(table.place("ratios"), table.full("ratios") + " has " +
+                                                    std::to_string(bands->size()) + " bands for " +
+                                                    std::to_string(rungs) +
+                                                    " rungs; give one for all, or one a rung");
+    for (std::size_t i = 0; i < rungs; ++i) {
+        const auto& band = (*bands)[bands->size() == 1 ? 0 : i];
+        expectations.push_back(
+            {Figure::ratio, norm, i, band.lowest, band.highest, table.place("ratios")});
+    }
+}
+
+/// The names by which a study's norms stand in [expect].
+std::vector<std::string> names_of(const std::vector<Norm>& norms, bool roots) {
+    std::vector<std::string> names;
+    for (const auto& norm : norms)
+        names.push_back(roots ? norm.root() : norm.name);
+    return names;
+}
+
+template <typename Read>
+void for_each_norm(TableReader& expect, const char* study, const std::vector<std::string>& measured,
+                   const Read& read) {
+    auto block = expect.table(study);
+    if (!block)
+        return;
+    for (const auto& name : measured)
+        if (auto table = block->table(name)) {
+            read(*table, name);
+            table->finish();
+        }
+    block->finish();
+}
+
+} // namespace
+
+std::vector<Expectation> read_expectations(TableReader table, const LadderBlock* ladder,
+                                           const OrdersBlock* orders) {
+    std::vector<Expectation> expectations;
+    for_each_norm(table, "ladder",
+                  ladder != nullptr ? names_of(ladder->norms, false) : std::vector<std::string>{},
+                  [&](TableReader& norm_table, const std::string& norm) {
+                      add(expectations, norm_table, "orders", Figure::order, norm);
+                      add_ratios(expectations, norm_table, norm, *ladder);
+                      add_errors(expectations, norm_table, norm, ladder->rungs.size());
+                      add(expectations, norm_table, "predicted", Figure::predicted, norm);
+                  });
+    for_each_norm(table, "orders",
+                  orders != nullptr ? names_of(orders->norms, true) : std::vector<std::string>{},
+                  [&](TableReader& norm_table, const std::string& norm) {
+                      add(expectations, norm_table, "p", Figure::p, norm);
+                      add(expectations, norm_table, "q", Figure::q, norm);
+                      add(expectations, norm_table, "a", Figure::a, norm);
+                      add(expectations, norm_table, "b", Figure::b, norm);
+                      add(expectations, norm_table, "rho", Figure::rho, norm);
+                      if (norm == "corollary")
+                          add(expectations, norm_table, "constant", Figure::constant, norm);
+                  });
+    table.finish();
+    return expectations;
+}
+
+} // namespace tvbeam

@@ -1,0 +1,27 @@
+/// Which points the two-term model holds for: a forward search (two_term_fit.hpp says how and why).
+#pragma once
+
+#include "studies/two_term_regression.hpp"
+
+#include <optional>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace tvbeam {
+
+struct FitWindow {
+    std::vector<Eigen::Index> members; ///< ascending
+    LeastSquares fit;
+    /// how far p and q lie from a fit that has the next terms too, where the data ask for those
+    double p_drift = 0;
+    double q_drift = 0;
+};
+
+/// All points, judged by nobody.
+std::optional<FitWindow> whole_window(const TwoTermPoints& points);
+
+/// The window that grows from the finest consistent half. None where no half can be fitted.
+std::optional<FitWindow> forward_window(const TwoTermPoints& points);
+
+} // namespace tvbeam

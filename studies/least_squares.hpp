@@ -1,0 +1,52 @@
+/// Weighted nonlinear least squares (GSL's trust region), with what an honest interval needs.
+///
+/// Minimises χ² = Σ_i w_i (y_i − f_i(θ))². The weights are relative: the variance of the data is
+/// estimated from the residuals, s² = χ² / dof with dof = observations − parameters, and
+///
+///     cov θ = s² (Jᵀ W J)⁻¹,      a 95 % interval is θ_k ± t_{0.975, dof} sqrt(cov_kk).
+///
+/// Without a degree of freedom, or where J does not determine θ to working precision, the
+/// covariance is infinite on its diagonal: an interval then covers everything, and nothing passes
+/// by accident.
+#pragma once
+
+#include <Eigen/Core>
+
+#include <functional>
+#include <optional>
+
+namespace tvbeam {
+
+/// Sets the values f(θ), and the Jacobian ∂f_i/∂θ_k where it is not null. A NaN among the values
+/// marks θ as inadmissible; the search turns back from there.
+using ModelFunction = std::function<void(const Eigen::VectorXd& theta, Eigen::VectorXd& values,
+                                         Eigen::MatrixXd* jacobian)>;
+
+struct LeastSquares {
+    Eigen::VectorXd theta;
+    Eigen::MatrixXd covariance;
+    Eigen::VectorXd residuals; ///< y − f(θ), not weighted
+    double chi2 = 0;
+    int dof = 0;
+
+    /// sqrt(χ² / dof); 0 where dof is 0
+    double scale() const;
+    double standard_error(int k) const;
+};
+
+/// None where there are fewer observations than parameters, the start is inadmissible, or the
+/// search comes to no finite end.
+std::optional<LeastSquares> least_squares(const ModelFunction& model, const Eigen::VectorXd& y,
+                                          const Eigen::VectorXd& weights,
+                                          const Eigen::VectorXd& start);
+
+/// Half the width of the two-sided Student interval: t_{(1+level)/2, dof} · se. Infinite where dof
+/// < 1.
+double student_half_width(double se, int dof, double level = 0.95);
+
+/// Is the drop from χ²_small to χ²_large, bought with `extra` more parameters that leave `dof`
+/// degrees of freedom, more than chance gives at this significance? The F test of nested models.
+bool f_test_prefers_larger(double chi2_small, double chi2_large, int extra, int dof,
+                           double significance);
+
+} // namespace tvbeam

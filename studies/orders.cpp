@@ -1,0 +1,52 @@
+#include "studies/orders.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tvbeam {
+
+namespace {
+
+CorollaryConstants corollary_constants(const std::vector<Refinement>& squares) {
+    CorollaryConstants constants;
+    double finest_width = 0.0;
+    bool first = true;
+    for (const auto& record : squares) {
+        if (!std::isfinite(record.error))
+            continue;
+        const double width = record.h * record.h + record.dt * record.dt;
+        const double c = record.error / width;
+        constants.least = first ? c : std::min(constants.least, c);
+        constants.greatest = first ? c : std::max(constants.greatest, c);
+        if (first || width < finest_width) {
+            finest_width = width;
+            constants.finest = c;
+        }
+        first = false;
+    }
+    return constants;
+}
+
+} // namespace
+
+const TwoTermModel* OrdersResult::model_of(const Norm& norm) const {
+    const auto found = std::find_if(norms.begin(), norms.end(), [&](const NormOrders& orders) {
+        return orders.norm == norm.root();
+    });
+    return found != norms.end() && found->fit.holds() ? &found->fit.model : nullptr;
+}
+
+OrdersResult run_orders(const Scene& scene, const OrdersBlock& block, const ProblemData& data) {
+    OrdersResult result;
+    for (const auto& rung : block.grid)
+        result.runs.push_back(run_rung(scene, block.norms, block.final_time, rung, data));
+    for (std::size_t k = 0; k < block.norms.size(); ++k) {
+        const Norm& norm = block.norms[k];
+        result.norms.push_back({norm.root(), fit_two_term(root_records_of(result.runs, k, norm))});
+        if (norm.name == "corollary")
+            result.corollary = corollary_constants(records_of(result.runs, k));
+    }
+    return result;
+}
+
+} // namespace tvbeam

@@ -1,0 +1,49 @@
+#include "studies/rung.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+
+namespace tvbeam {
+
+RungResult run_rung(const Scene& scene, const std::vector<Norm>& norms, double final_time,
+                    const Rung& rung, const ProblemData& data) {
+    const auto start = std::chrono::steady_clock::now();
+    const RunResult run = tvbeam::run({.beam = scene.beam,
+                                       .mesh = Mesh::uniform(rung.elements),
+                                       .scheme = scene.scheme,
+                                       .final_time = final_time,
+                                       .steps = rung.steps,
+                                       .norms = norms},
+                                      data);
+    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+    return {rung, run.status, run.reason, elapsed.count(), run.counters, run.errors};
+}
+
+std::vector<Refinement> records_of(const std::vector<RungResult>& rungs, std::size_t k) {
+    std::vector<Refinement> records;
+    for (const auto& rung : rungs)
+        records.push_back({.h = 1.0 / static_cast<double>(rung.rung.elements),
+                           .dt = rung.rung.dt,
+                           .error = rung.errors.empty() ? std::numeric_limits<double>::quiet_NaN()
+                                                        : rung.errors[k],
+                           .seconds = rung.seconds});
+    return records;
+}
+
+std::vector<Refinement> root_records_of(const std::vector<RungResult>& rungs, std::size_t k,
+                                        const Norm& norm) {
+    auto records = records_of(rungs, k);
+    if (norm.squared)
+        for (auto& record : records)
+            record.error = std::sqrt(record.error);
+    return records;
+}
+
+bool any_failed(const std::vector<RungResult>& rungs) {
+    return std::any_of(rungs.begin(), rungs.end(),
+                       [](const RungResult& rung) { return rung.status != RunStatus::ok; });
+}
+
+} // namespace tvbeam

@@ -1,0 +1,36 @@
+#pragma once
+
+#include "core/run.hpp"
+#include "studies/observed_order.hpp"
+#include "studies/scene.hpp"
+
+#include <string>
+#include <vector>
+
+namespace tvbeam {
+
+/// What one run of a study gave.
+struct RungResult {
+    Rung rung;
+    RunStatus status = RunStatus::ok;
+    std::string reason;   ///< why it failed; empty when ok
+    double seconds = 0.0; ///< wall clock, error norms included
+    Counters counters;
+    std::vector<double> errors; ///< one a norm; empty when failed
+};
+
+/// Runs the scene's scheme on one rung.
+RungResult run_rung(const Scene& scene, const std::vector<Norm>& norms, double final_time,
+                    const Rung& rung, const ProblemData& data);
+
+/// The runs as records for an order analysis of norm k; a failed run has a NaN error.
+std::vector<Refinement> records_of(const std::vector<RungResult>& rungs, std::size_t k);
+
+/// The same with the root of every error: what the two-term model wants of a squared norm.
+std::vector<Refinement> root_records_of(const std::vector<RungResult>& rungs, std::size_t k,
+                                        const Norm& norm);
+
+/// Whether some run failed.
+bool any_failed(const std::vector<RungResult>& rungs);
+
+} // namespace tvbeam
