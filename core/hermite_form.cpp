@@ -53,11 +53,6 @@ Eigen::VectorXd cubic_loads(const Mesh& mesh, const SpaceFunction& g, int deriva
     return loads;
 }
 
-bool uses(const Field& field, Eigen::Index profile) {
-    return std::any_of(field.terms.begin(), field.terms.end(),
-                       [&](const Field::Term& term) { return term.profile == profile; });
-}
-
 } // namespace
 
 HermiteForm::HermiteForm(const Beam& beam, const ProblemData& data, const Mesh& mesh,
@@ -68,11 +63,11 @@ HermiteForm::HermiteForm(const Beam& beam, const ProblemData& data, const Mesh& 
     loads_.resize(data_.profiles.size());
     for (std::size_t r = 0; r < loads_.size(); ++r) {
         const auto index = static_cast<Eigen::Index>(r);
-        if (uses(data_.heat_source, index))
+        if (data_.heat_source.uses(index))
             loads_[r].hat = hat_loads(mesh_, data_.profiles[r]).segment(1, inner);
-        if (uses(data_.couple_load, index))
+        if (data_.couple_load.uses(index))
             loads_[r].slope = cubic_loads(mesh_, data_.profiles[r], 1);
-        if (uses(data_.body_force, index))
+        if (data_.body_force.uses(index))
             loads_[r].value = cubic_loads(mesh_, data_.profiles[r], 0);
         counters_.doubles_allocated +=
             loads_[r].hat.size() + loads_[r].slope.size() + loads_[r].value.size();
@@ -129,25 +124,15 @@ void HermiteForm::assemble(ThermalMass mass) {
 
 void HermiteForm::project_initial_state() {
     const Eigen::Index s = mesh_.elements();
-    Eigen::VectorXd amplitudes;
-    if (data_.amplitude_count > 0)
-        amplitudes = data_.amplitudes(Eigen::ArrayXd::Zero(1)).col(0).matrix();
-    const auto initial = [&](const Field& field) {
-        return [this, &field, &amplitudes](const Eigen::ArrayXd& x) -> Eigen::ArrayXd {
-            Eigen::ArrayXd values = Eigen::ArrayXd::Zero(x.size());
-            for (const auto& term : field.terms)
-                values += amplitudes(term.amplitude) *
-                          data_.profiles[static_cast<std::size_t>(term.profile)](x);
-            if (field.rest)
-                values += field.rest(x, 0.0);
-            return values;
-        };
-    };
     theta_ =
-        (initial(data_.theta_initial)(mesh_.nodes) - beam_.theta_A * (1.0 - mesh_.nodes)).matrix();
+        (values(data_, data_.theta_initial, mesh_.nodes, 0.0) - beam_.theta_A * (1.0 - mesh_.nodes))
+            .matrix();
     theta_(0) = 0.0;
     theta_(s) = 0.0;
-    deflection_ = bending_factor_.solve(cubic_loads(mesh_, initial(data_.curvature_initial), 2));
+    const SpaceFunction curvature = [this](const Eigen::ArrayXd& x) {
+        return values(data_, data_.curvature_initial, x, 0.0);
+    };
+    deflection_ = bending_factor_.solve(cubic_loads(mesh_, curvature, 2));
 }
 
 Eigen::VectorXd HermiteForm::heat_load(double t,

@@ -7,15 +7,6 @@
 
 namespace tvbeam {
 
-namespace {
-
-bool uses(const Field& field, Eigen::Index profile) {
-    return std::any_of(field.terms.begin(), field.terms.end(),
-                       [&](const Field::Term& term) { return term.profile == profile; });
-}
-
-} // namespace
-
 MomentForm::MomentForm(const Beam& beam, const ProblemData& data, const Mesh& mesh,
                        ThermalMass mass, double dt, const Needs& needs)
     : beam_(beam), data_(data), mesh_(mesh), heat_(needs.temperature || beam.alpha != 0.0),
@@ -52,13 +43,9 @@ void MomentForm::load_initial_state(const Needs& needs) {
     if (data_.amplitude_count > 0)
         amplitudes = data_.amplitudes(Eigen::ArrayXd::Zero(1)).col(0).matrix();
     if (heat_) {
-        Eigen::ArrayXd values = Eigen::ArrayXd::Zero(s + 1);
-        for (const auto& term : data_.theta_initial.terms)
-            values += amplitudes(term.amplitude) *
-                      data_.profiles[static_cast<std::size_t>(term.profile)](mesh_.nodes);
-        if (data_.theta_initial.rest)
-            values += data_.theta_initial.rest(mesh_.nodes, 0.0);
-        theta_ = (values - beam_.theta_A * (1.0 - mesh_.nodes)).matrix();
+        theta_ = (values(data_, data_.theta_initial, mesh_.nodes, 0.0) -
+                  beam_.theta_A * (1.0 - mesh_.nodes))
+                     .matrix();
         theta_(0) = 0.0;
         theta_(s) = 0.0;
     }
@@ -90,10 +77,10 @@ void MomentForm::load_profiles() {
     tip_moments_ = Eigen::VectorXd::Zero(lever + 1);
     std::vector<Eigen::VectorXd> loads;
     for (Eigen::Index r = 0; r <= lever; ++r) {
-        const bool bends = r == lever ? lever_used
-                                      : bending_ && (uses(data_.moment_load, r) ||
-                                                     uses(data_.curvature_initial, r));
-        const bool heats = r < lever && heat_ && uses(data_.heat_source, r);
+        const bool bends =
+            r == lever ? lever_used
+                       : bending_ && (data_.moment_load.uses(r) || data_.curvature_initial.uses(r));
+        const bool heats = r < lever && heat_ && data_.heat_source.uses(r);
         if (!bends && !heats)
             continue;
         LoadProfile profile = load_profile(

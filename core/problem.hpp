@@ -49,6 +49,7 @@ struct Field {
 
     [[nodiscard]] bool is_separable() const { return !rest; }
     [[nodiscard]] bool is_zero() const { return terms.empty() && !rest; }
+    [[nodiscard]] bool uses(Eigen::Index profile) const; ///< in one of its terms
 };
 
 /// The exact solution that a run is measured against. θ̃ is the temperature of (1)–(10), not the
@@ -61,6 +62,10 @@ struct ExactSolution {
     Field u_xx;    ///< curvature
     std::optional<Eigen::Index>
         stress; ///< amplitude of the contact stress σ̃(t); none: zero at all times
+
+    /// A computed solution: its fields are polynomials of degree ≤ 5 on each of so many equal
+    /// elements, a multiple of those of any mesh that it is compared on. 0: smooth on [0, 1].
+    Eigen::Index elements = 0;
 };
 
 /// The data of the problem (1)–(10), as functions of x and t on [0,1] × [0,T].
@@ -87,5 +92,9 @@ struct ProblemData {
 
     std::optional<ExactSolution> exact;
 };
+
+/// The values of a field of the problem at the points x and the time t.
+Eigen::ArrayXd values(const ProblemData& data, const Field& field, const Eigen::ArrayXd& x,
+                      double t);
 
 } // namespace tvbeam

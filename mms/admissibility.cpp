@@ -2,13 +2,13 @@
 
 #include "mms/admissibility_check.hpp"
 #include "mms/algebra.hpp"
+#include "mms/error_text.hpp"
 #include "mms/symbols.hpp"
 #include "mms/tape_compiler.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -23,21 +23,6 @@ namespace {
 constexpr double relative_tolerance = 1e-12;
 constexpr Index grid_points = 33;  ///< in space, and in time for the grid
 constexpr Index time_points = 257; ///< for what depends on time only; both ends are among them
-
-std::string number(double value) {
-    std::ostringstream stream;
-    stream << value;
-    return std::isnan(value) ? "nan" : stream.str();
-}
-
-template <typename Operation>
-auto located(const SourceText& source, const std::string& what, const Operation& operation) {
-    try {
-        return operation();
-    } catch (const AlgebraError& error) {
-        throw InputError(source.begin(), what + ": " + error.what());
-    }
-}
 
 /// The largest sizes of the solution's parts over all phases; tolerances are relative to them.
 struct Scales {
@@ -117,11 +102,12 @@ private:
             for (Index k = 0; k < x.size(); ++k) {
                 if (!std::isfinite(values(k)))
                     throw InputError(source.begin(),
-                                     what + " is not finite at x = " + number(x(k)) +
-                                         ", t = " + number(t) + " (it is " + number(values(k)) +
+                                     what + " is not finite at x = " + number_text(x(k)) +
+                                         ", t = " + number_text(t) + " (it is " +
+                                         number_text(values(k)) +
                                          "); write it so that it and its derivatives exist "
                                          "everywhere on [0, 1] x [0, " +
-                                         number(final_time_) + "]");
+                                         number_text(final_time_) + "]");
                 result = std::max(result, std::abs(values(k)));
             }
         }
@@ -170,9 +156,10 @@ private:
             return !(std::abs(e) <= tolerance);
         });
         if (broken != error.end())
-            throw InputError(source.begin(), what + " is " + number(value + *broken) + " at t = " +
-                                                 number(in_time(broken - error.begin())) +
-                                                 "; it must be " + number(value) + repair);
+            throw InputError(source.begin(),
+                             what + " is " + number_text(value + *broken) +
+                                 " at t = " + number_text(in_time(broken - error.begin())) +
+                                 "; it must be " + number_text(value) + repair);
     }
 
     // The stops (6) and the contact stress (7), (8).
@@ -195,9 +182,9 @@ private:
 
     void require_between_stops(double t, double tip, const SourceText& source) const {
         const auto fail = [&](const std::string& stop, double value, const std::string& rule) {
-            throw InputError(source.begin(), "(6): u(1,t) is " + number(tip) +
-                                                 " at t = " + number(t) + "; it must be " + rule +
-                                                 " " + stop + " = " + number(value) +
+            throw InputError(source.begin(), "(6): u(1,t) is " + number_text(tip) +
+                                                 " at t = " + number_text(t) + "; it must be " +
+                                                 rule + " " + stop + " = " + number_text(value) +
                                                  "; scale u down or move the stop");
         };
         if (tip < beam_.stops.lower - tip_tolerance())
@@ -211,9 +198,10 @@ private:
         if (std::abs(stress) <= tolerance)
             return;
         const auto fail = [&](const std::string& equation, const std::string& rule) {
-            throw InputError(source.begin(), equation + ": sigma is " + number(stress) +
-                                                 " at t = " + number(t) + ", where u(1,t) is " +
-                                                 number(tip) + "; it must be " + rule);
+            throw InputError(source.begin(), equation + ": sigma is " + number_text(stress) +
+                                                 " at t = " + number_text(t) +
+                                                 ", where u(1,t) is " + number_text(tip) +
+                                                 "; it must be " + rule);
         };
         const bool at_lower = tip <= beam_.stops.lower + tip_tolerance();
         const bool at_upper = tip >= beam_.stops.upper - tip_tolerance();
@@ -254,8 +242,8 @@ private:
         for (Index k = 0; k < x.size(); ++k)
             if (!(std::abs(values(k)) <= relative_tolerance * scale))
                 throw InputError(source.begin(),
-                                 what + " jumps by " + number(values(k)) + " at t = " +
-                                     number(phase.end_value) + ", x = " + number(x(k)) +
+                                 what + " jumps by " + number_text(values(k)) + " at t = " +
+                                     number_text(phase.end_value) + ", x = " + number_text(x(k)) +
                                      "; it must be continuous; make both phases agree at that "
                                      "time, or move until");
     }
@@ -271,7 +259,7 @@ private:
 
 void require_final_time(double final_time) {
     if (!(final_time > 0.0) || !std::isfinite(final_time))
-        throw InputError({}, "the final time is " + number(final_time) +
+        throw InputError({}, "the final time is " + number_text(final_time) +
                                  "; it must be positive and finite");
 }
 

@@ -2,6 +2,7 @@
 
 #include "mms/admissibility_check.hpp"
 #include "mms/algebra.hpp"
+#include "mms/error_text.hpp"
 #include "mms/expression_parser.hpp"
 #include "mms/problem_builder.hpp"
 #include "mms/separation.hpp"
@@ -11,7 +12,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <sstream>
 #include <string>
 
 namespace tvbeam {
@@ -23,21 +23,6 @@ using GiNaC::ex;
 namespace {
 
 constexpr Index grid_points = 33;
-
-std::string number(double value) {
-    std::ostringstream stream;
-    stream << value;
-    return std::isnan(value) ? "nan" : stream.str();
-}
-
-template <typename Operation>
-auto located(const SourceText& source, const std::string& what, const Operation& operation) {
-    try {
-        return operation();
-    } catch (const AlgebraError& error) {
-        throw InputError(source.begin(), what + ": " + error.what());
-    }
-}
 
 ArrayXd values(const ex& formula, const ArrayXd& x, double t) {
     return compile_tape({formula}).evaluate(x, ArrayXd::Constant(1, t)).row(0);
@@ -64,8 +49,8 @@ void require_finite(const ex& formula, const SourceText& source, double final_ti
         const ArrayXd sampled = tape.evaluate(x, ArrayXd::Constant(1, t)).row(0);
         for (Index k = 0; k < x.size(); ++k)
             if (!std::isfinite(sampled(k)))
-                throw InputError(source.begin(), what + " is not finite at x = " + number(x(k)) +
-                                                     ", t = " + number(t));
+                throw InputError(source.begin(), what + " is not finite at x = " +
+                                                     number_text(x(k)) + ", t = " + number_text(t));
     }
 }
 
@@ -78,15 +63,17 @@ void require_admissible_start(const ex& u, const ex& u_x, const SourceText& sour
     const double tolerance = 1e-12 * deflection.abs().maxCoeff();
     const double tip = deflection(points.size() - 1);
     if (std::abs(deflection(0)) > tolerance)
-        throw InputError(source.begin(), "(5): u0(0) is " + number(deflection(0)) +
+        throw InputError(source.begin(), "(5): u0(0) is " + number_text(deflection(0)) +
                                              "; it must be 0; a factor x^2 makes it so");
     if (std::abs(slope(0)) > 1e-12 * slope.abs().maxCoeff())
-        throw InputError(source.begin(), "(5): the slope of u0 at x = 0 is " + number(slope(0)) +
+        throw InputError(source.begin(), "(5): the slope of u0 at x = 0 is " +
+                                             number_text(slope(0)) +
                                              "; it must be 0; a factor x^2 makes it so");
     if (tip < beam.stops.lower - tolerance || tip > beam.stops.upper + tolerance)
-        throw InputError(source.begin(),
-                         "(6): u0(1) is " + number(tip) + "; it must be between the stops " +
-                             number(beam.stops.lower) + " and " + number(beam.stops.upper));
+        throw InputError(source.begin(), "(6): u0(1) is " + number_text(tip) +
+                                             "; it must be between the stops " +
+                                             number_text(beam.stops.lower) + " and " +
+                                             number_text(beam.stops.upper));
 }
 
 /// ∫_y^1 (x − y) q dx for q = x^n, by parts twice: the antiderivative's antiderivative is

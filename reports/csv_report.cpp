@@ -32,6 +32,8 @@ std::string csv_report(const StudyResult& result) {
         if (has_figures(name))
             text += "," + name + "_printed";
         text += "," + name + "_order";
+        if (!norm.predictions.empty())
+            text += "," + name + "_predicted";
     }
     text += ",seconds,reason\n";
     for (std::size_t i = 0; i < ladder.rungs.size(); ++i) {
@@ -46,6 +48,8 @@ std::string csv_report(const StudyResult& result) {
             if (has_figures(norm.norm.name))
                 text += fmt::format(",{}", printed->figures.at(norm.norm.name)[i]);
             text += norm.orders[i] ? fmt::format(",{}", *norm.orders[i]) : ",";
+            if (!norm.predictions.empty())
+                text += norm.predictions[i] ? fmt::format(",{}", *norm.predictions[i]) : ",";
         }
         text += fmt::format(",{},{}\n", rung.seconds, quoted(rung.reason));
     }

@@ -19,14 +19,7 @@ const Beam paper_beam{.alpha = 0.017, .zeta = 0.1, .stops = {-0.02, 0.1}};
 /// The same field without its separation: the errors are then integrated pointwise.
 Field unseparated(const Field& field, const ProblemData& problem) {
     Field result;
-    result.rest = [=](const Eigen::ArrayXd& x, double t) -> Eigen::ArrayXd {
-        const Eigen::ArrayXXd amplitudes = problem.amplitudes(Eigen::ArrayXd::Constant(1, t));
-        Eigen::ArrayXd values = Eigen::ArrayXd::Zero(x.size());
-        for (const auto& term : field.terms)
-            values += amplitudes(term.amplitude, 0) *
-                      problem.profiles[static_cast<std::size_t>(term.profile)](x);
-        return values;
-    };
+    result.rest = [=](const Eigen::ArrayXd& x, double t) { return values(problem, field, x, t); };
     return result;
 }
 
