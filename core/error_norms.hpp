@@ -21,7 +21,8 @@ class MomentForm;
 /// - split: where the exact function is a sum of products, ‖Θ − θ‖ and ‖U_xx − u_xx‖ of the moment
 /// form come from nodal
 ///   errors and constants (ErrorProfiles), a few operations a node;
-/// - pointwise: anything else is evaluated at the quadrature points of every element.
+/// - pointwise: anything else is evaluated at the quadrature points of every element, or of every
+///   element of a computed solution that it is compared with.
 class ErrorNorms {
 public:
     /// data.exact must be set; data must outlive the object. moment_form: the solver when it is

@@ -21,6 +21,17 @@ GaussRule GaussRule::of(Eigen::Index points) {
     return rule;
 }
 
+GaussRule GaussRule::repeated(Eigen::Index parts) const {
+    const auto count = static_cast<double>(parts);
+    GaussRule rule{Eigen::ArrayXd(parts * points.size()), Eigen::ArrayXd(parts * points.size())};
+    for (Eigen::Index part = 0; part < parts; ++part) {
+        const Eigen::Index first = part * points.size();
+        rule.points.segment(first, points.size()) = (points + static_cast<double>(part)) / count;
+        rule.weights.segment(first, points.size()) = weights / count;
+    }
+    return rule;
+}
+
 const GaussRule& element_rule() {
     static const GaussRule rule = GaussRule::of(6);
     return rule;

@@ -13,6 +13,9 @@ struct GaussRule {
     Eigen::ArrayXd weights; ///< sum 1
 
     static GaussRule of(Eigen::Index points);
+
+    /// This rule on each of so many equal parts of [0, 1].
+    [[nodiscard]] GaussRule repeated(Eigen::Index parts) const;
 };
 
 /// The rule of every load and every error norm: degree 11 on each element, so that on ten elements

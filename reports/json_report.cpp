@@ -80,10 +80,23 @@ Json json_of(const LadderResult& ladder, const LadderBlock& block) {
     if (block.printed)
         json["printed_source"] = block.printed->source;
     Json remarks = Json::array();
+    if (!ladder.reference_remark.empty())
+        remarks.push_back(ladder.reference_remark);
     for (const auto& norm : ladder.norms)
         for (const auto& remark : norm.remarks)
             remarks.push_back(remark);
     json["remarks"] = std::move(remarks);
+    return json;
+}
+
+Json json_of(const ReferenceResult& reference, const ReferenceBlock& block) {
+    Json json{{"elements", block.elements},
+              {"dt", block.dt},
+              {"richardson", block.richardson},
+              {"status", reference.failure.empty() ? "ok" : "failed"},
+              {"seconds", reference.seconds}};
+    if (!reference.failure.empty())
+        json["reason"] = reference.failure;
     return json;
 }
 
@@ -141,6 +154,8 @@ std::string json_report(const StudyResult& result) {
                 {"build_type", TVBEAM_BUILD_TYPE},
                 {"scene_file", result.scene.file}}},
               {"left_out", result.left_out}};
+    if (result.reference)
+        json["reference"] = json_of(*result.reference, *result.scene.reference);
     if (result.orders)
         json["orders"] = json_of(*result.orders, *result.scene.orders);
     if (result.ladder)

@@ -39,6 +39,22 @@ std::string scheme_line(const Scheme& scheme) {
            " heat mass matrix";
 }
 
+/// What errors are measured against, if not the exact solution.
+std::string reference_line(const Scene& scene, const ReferenceResult& result) {
+    const ReferenceBlock& block = *scene.reference;
+    std::string line = std::string("errors against ") +
+                       (block.richardson ? "a reference extrapolated (Richardson) from runs with "
+                                         : "a reference run: ") +
+                       "s = " + std::to_string(block.elements) + ", dt = " + shortest(block.dt);
+    if (block.richardson)
+        line += ", with half of s, and with twice dt";
+    if (scene.has_exact_solution())
+        line += "; not against the exact solution that the scene has";
+    if (!result.failure.empty())
+        line += "; it failed: " + result.failure;
+    return line;
+}
+
 TextTable::Column column(const LadderResult& ladder, const std::string& heading,
                          const std::function<std::string(std::size_t)>& cell) {
     TextTable::Column result{heading, {}};
@@ -113,6 +129,8 @@ std::string ladder_report(const LadderResult& ladder, const LadderBlock& block,
         if (rung.status != RunStatus::ok)
             text += "\n" + wrapped(fmt::format("s = {}, dt = {} failed: {}", rung.rung.elements,
                                                shortest(rung.rung.dt), rung.reason));
+    if (!ladder.reference_remark.empty())
+        text += "\n" + wrapped(ladder.reference_remark);
     for (const auto& norm : ladder.norms)
         for (std::size_t i = 0; i < norm.remarks.size(); ++i)
             text += (i == 0 ? "\n" : "") + wrapped(norm.remarks[i]);
@@ -125,6 +143,8 @@ std::string terminal_report(const StudyResult& result) {
     const Scene& scene = result.scene;
     std::string text =
         wrapped(scene.title) + wrapped(problem_line(scene)) + wrapped(scheme_line(scene.scheme));
+    if (result.reference)
+        text += wrapped(reference_line(scene, *result.reference));
     if (result.ladder)
         text += wrapped("errors up to T = " + shortest(scene.ladder->final_time)) + "\n" +
                 ladder_report(*result.ladder, *scene.ladder, scene.scheme.algorithm);

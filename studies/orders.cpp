@@ -1,7 +1,10 @@
 #include "studies/orders.hpp"
 
+#include "studies/reference_solution.hpp"
+
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 namespace tvbeam {
 
@@ -27,6 +30,15 @@ CorollaryConstants corollary_constants(const std::vector<Refinement>& squares) {
     return constants;
 }
 
+TwoTermOptions fit_options(const Scene& scene, std::span<const Refinement> records) {
+    auto reference = reference_widths(scene);
+    // A step that is the reference's may be smaller by rounding.
+    if (reference)
+        for (const auto& record : records)
+            reference->dt = std::min(reference->dt, record.dt);
+    return {.reference = reference};
+}
+
 } // namespace
 
 const TwoTermModel* OrdersResult::model_of(const Norm& norm) const {
@@ -42,7 +54,8 @@ OrdersResult run_orders(const Scene& scene, const OrdersBlock& block, const Prob
         result.runs.push_back(run_rung(scene, block.norms, block.final_time, rung, data));
     for (std::size_t k = 0; k < block.norms.size(); ++k) {
         const Norm& norm = block.norms[k];
-        result.norms.push_back({norm.root(), fit_two_term(root_records_of(result.runs, k, norm))});
+        const auto roots = root_records_of(result.runs, k, norm);
+        result.norms.push_back({norm.root(), fit_two_term(roots, fit_options(scene, roots))});
         if (norm.name == "corollary")
             result.corollary = corollary_constants(records_of(result.runs, k));
     }

@@ -324,11 +324,16 @@ Scene read_scene(const std::string& name_or_file, const std::vector<std::string>
         scene.orders = read_orders(*std::move(orders));
     if (!scene.ladder && !scene.orders)
         throw InputError({scene.file}, "the scene has no study; add a block [ladder] or [orders]");
-    if (!scene.has_exact_solution() && (scene.orders || !scene.ladder->norms.empty()))
+    if (auto reference = root.table("reference"))
+        scene.reference =
+            read_reference(*std::move(reference), scene.ladder ? &*scene.ladder : nullptr,
+                           scene.orders ? &*scene.orders : nullptr);
+    if (!scene.has_exact_solution() && !scene.reference &&
+        (scene.orders || !scene.ladder->norms.empty()))
         throw InputError(
             root.place(scene.orders ? "orders" : "ladder"),
-            "the norms ask for errors, but the scene has no exact solution; remove them or "
-            "give a solution");
+            "the norms ask for errors, but the scene has no exact solution; remove them, or give "
+            "a solution or a block [reference]");
     if (auto expect = root.table("expect"); expect && reading.expectations)
         scene.expectations =
             read_expectations(*std::move(expect), scene.ladder ? &*scene.ladder : nullptr,
@@ -370,6 +375,8 @@ std::vector<std::string> left_out(const Scene& scene, const ProblemData& data) {
         parts.emplace_back("moment load: zero");
     if (norms.empty())
         parts.emplace_back("error norms: none asked for");
+    if (norms.empty() && scene.reference)
+        parts.emplace_back("reference run: no norm asks for it");
     return parts;
 }
 

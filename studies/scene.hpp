@@ -6,6 +6,7 @@
 #include "mms/given_problem.hpp"
 #include "mms/solution.hpp"
 #include "studies/expectation.hpp"
+#include "studies/reference_block.hpp"
 
 #include <cstdint>
 #include <map>
@@ -55,8 +56,9 @@ struct Scene {
     Scheme scheme;
     std::optional<LadderBlock> ladder;
     std::optional<OrdersBlock> orders;
-    std::vector<Expectation> expectations; ///< empty unless they were asked for
-    std::string json;                      ///< the scene with its overrides, as JSON
+    std::optional<ReferenceBlock> reference; ///< then errors are measured against it
+    std::vector<Expectation> expectations;   ///< empty unless they were asked for
+    std::string json;                        ///< the scene with its overrides, as JSON
 
     [[nodiscard]] bool has_exact_solution() const {
         return std::holds_alternative<Solution>(problem);

@@ -2,6 +2,7 @@
 
 #include "studies/ladder.hpp"
 #include "studies/orders.hpp"
+#include "studies/reference_solution.hpp"
 #include "studies/scene.hpp"
 
 #include <optional>
@@ -13,7 +14,8 @@ namespace tvbeam {
 /// Everything that running a scene gave: one record for each study whose block the scene has.
 struct StudyResult {
     Scene scene;
-    std::vector<std::string> left_out; ///< parts that the scene does not need, in words
+    std::vector<std::string> left_out;        ///< parts that the scene does not need, in words
+    std::optional<ReferenceResult> reference; ///< if errors are measured against one
     std::optional<OrdersResult> orders;
     std::optional<LadderResult> ladder;
 

@@ -183,6 +183,24 @@ std::optional<double> TableReader::number(std::string_view key, Infinity infinit
     return node == nullptr ? std::nullopt : std::optional(checked_number(key, *node, infinity));
 }
 
+std::optional<std::int64_t> TableReader::integer(std::string_view key) {
+    const toml::node* node = find(key);
+    if (node == nullptr)
+        return std::nullopt;
+    if (!node->is_integer())
+        throw wrong_type(key, *node, "an integer");
+    return node->value<std::int64_t>();
+}
+
+std::optional<bool> TableReader::flag(std::string_view key) {
+    const toml::node* node = find(key);
+    if (node == nullptr)
+        return std::nullopt;
+    if (!node->is_boolean())
+        throw wrong_type(key, *node, "true or false");
+    return node->value<bool>();
+}
+
 bool TableReader::is_string(std::string_view key) const {
     const toml::node* node = table_->get(key);
     return node != nullptr && node->is_string();

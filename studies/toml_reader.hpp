@@ -42,6 +42,8 @@ public:
     enum class Infinity { refused, allowed };
 
     std::optional<double> number(std::string_view key, Infinity infinity = Infinity::refused);
+    std::optional<std::int64_t> integer(std::string_view key);
+    std::optional<bool> flag(std::string_view key);
     std::optional<std::string> text(std::string_view key);
     std::optional<SourceText> expression(std::string_view key);
     std::optional<std::vector<double>> numbers(std::string_view key,

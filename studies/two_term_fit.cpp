@@ -183,17 +183,9 @@ std::vector<double> residuals_of(std::span<const Refinement> records, const TwoT
                                  const TwoTermOptions& options) {
     std::vector<double> residuals;
     for (const auto& record : records) {
-        TwoTermModel parts = model;
-        double in_space = model.spatial(record.h);
-        double in_time = model.temporal(record.dt);
-        if (options.reference && !std::isnan(options.reference->h))
-            in_space -= model.spatial(options.reference->h);
-        if (options.reference && !std::isnan(options.reference->dt))
-            in_time -= model.temporal(options.reference->dt);
-        // At h = Δt = 1 the model is its two sizes.
-        parts.a = in_space;
-        parts.b = in_time;
-        residuals.push_back(std::log(record.error) - std::log(parts.error(1, 1)));
+        const double modelled =
+            error_against(options.reference.value_or(Refinement{}), model, record.h, record.dt);
+        residuals.push_back(std::log(record.error) - std::log(modelled));
         if (!std::isfinite(residuals.back()))
             residuals.back() = std::numeric_limits<double>::quiet_NaN();
     }

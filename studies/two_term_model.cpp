@@ -104,6 +104,14 @@ double TwoTermModel::error(double h, double dt) const {
     return std::sqrt(std::max(0.0, sum * sum + cross));
 }
 
+double error_against(const Refinement& reference, const TwoTermModel& model, double h, double dt) {
+    // At h = Δt = 1 the model is its two sizes.
+    TwoTermModel parts = model;
+    parts.a = model.spatial(h) - (std::isnan(reference.h) ? 0.0 : model.spatial(reference.h));
+    parts.b = model.temporal(dt) - (std::isnan(reference.dt) ? 0.0 : model.temporal(reference.dt));
+    return parts.error(1, 1);
+}
+
 LadderForecast forecast(const TwoTermModel& model, std::span<const Refinement> ladder,
                         double tolerance) {
     require_widths(ladder);

@@ -34,6 +34,11 @@ struct TwoTermModel {
     double error(double h, double dt) const;
 };
 
+/// What is measured of the model's error against a run that stands in for the exact solution: the
+/// model with a (h^p − h_ref^p) and b (Δt^q − Δt_ref^q) for its two terms. A width of the reference
+/// that is NaN: exact in that width.
+double error_against(const Refinement& reference, const TwoTermModel& model, double h, double dt);
+
 enum class Ruling { space, time, both, cancellation };
 
 /// A record is in the cancellation where the cross term takes the norm below this part of the
