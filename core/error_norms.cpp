@@ -339,7 +339,7 @@ void ErrorNorms::add(double t, double dt, const Solver& solver,
             double& sum = sums_[k][part];
             if (norm.kind == TimeNorm::Kind::L2)
                 sum += dt * square;
-            else if (!(square <= sum)) // keeps NaN
+            else if (!std::isnan(sum) && !(square <= sum)) // once NaN, always NaN
                 sum = square;
         }
 }

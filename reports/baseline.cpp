@@ -57,8 +57,8 @@ Baseline::Baseline(const std::string& file) : file_(file) {
     text << stream.rdbuf();
     text_ = text.str();
     const Json json = Json::parse(text_, nullptr, false);
-    if (json.is_discarded() || !json.is_object() || json.value("schema", "") != schema ||
-        !json.contains("scenes") || !json["scenes"].is_object())
+    if (json.is_discarded() || !json.is_object() || !json.contains("schema") ||
+        json["schema"] != schema || !json.contains("scenes") || !json["scenes"].is_object())
         throw InputError({file}, std::string("is not a baseline (schema ") + schema +
                                      "); record one with --record");
 }

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <optional>
+
 namespace tvbeam {
 
 namespace {
@@ -15,13 +17,26 @@ std::string quoted(const std::string& field) {
     return text + "\"";
 }
 
-} // namespace
+/// What every run says of itself, before its errors.
+std::string run_fields(const RungResult& run) {
+    return fmt::format("{},{},{},{},{}", run.rung.elements,
+                       1.0 / static_cast<double>(run.rung.elements), run.rung.dt, run.rung.steps,
+                       run.status == RunStatus::ok ? "ok" : "failed");
+}
 
-std::string csv_report(const StudyResult& result) {
-    if (!result.ladder)
-        return {};
-    const LadderResult& ladder = *result.ladder;
-    const auto& printed = result.scene.ladder->printed;
+std::string number_field(std::optional<double> value) {
+    return value ? fmt::format(",{}", *value) : ",";
+}
+
+std::optional<double> error_of(const RungResult& run, std::size_t k) {
+    return run.errors.empty() ? std::nullopt : std::optional(run.errors[k]);
+}
+
+std::string cost_fields(const RungResult& run) {
+    return fmt::format(",{},{}\n", run.seconds, quoted(run.reason));
+}
+
+std::string ladder_csv(const LadderResult& ladder, const std::optional<PrintedFigures>& printed) {
     const auto has_figures = [&](const std::string& norm) {
         return printed && printed->figures.contains(norm);
     };
@@ -37,23 +52,41 @@ std::string csv_report(const StudyResult& result) {
     }
     text += ",seconds,reason\n";
     for (std::size_t i = 0; i < ladder.rungs.size(); ++i) {
-        const RungResult& rung = ladder.rungs[i];
-        const bool ok = rung.status == RunStatus::ok;
-        text += fmt::format("{},{},{},{},{}", rung.rung.elements,
-                            1.0 / static_cast<double>(rung.rung.elements), rung.rung.dt,
-                            rung.rung.steps, ok ? "ok" : "failed");
+        text += run_fields(ladder.rungs[i]);
         for (std::size_t k = 0; k < ladder.norms.size(); ++k) {
-            text += ok ? fmt::format(",{}", rung.errors[k]) : ",";
             const LadderNorm& norm = ladder.norms[k];
+            text += number_field(error_of(ladder.rungs[i], k));
             if (has_figures(norm.norm.name))
-                text += fmt::format(",{}", printed->figures.at(norm.norm.name)[i]);
-            text += norm.orders[i] ? fmt::format(",{}", *norm.orders[i]) : ",";
+                text += number_field(printed->figures.at(norm.norm.name)[i]);
+            text += number_field(norm.orders[i]);
             if (!norm.predictions.empty())
-                text += norm.predictions[i] ? fmt::format(",{}", *norm.predictions[i]) : ",";
+                text += number_field(norm.predictions[i]);
         }
-        text += fmt::format(",{},{}\n", rung.seconds, quoted(rung.reason));
+        text += cost_fields(ladder.rungs[i]);
     }
     return text;
+}
+
+std::string grid_csv(const OrdersResult& orders, const std::vector<Norm>& norms) {
+    std::string text = "elements,h,dt,steps,status";
+    for (const auto& norm : norms)
+        text += "," + norm.name;
+    text += ",seconds,reason\n";
+    for (const auto& run : orders.runs) {
+        text += run_fields(run);
+        for (std::size_t k = 0; k < norms.size(); ++k)
+            text += number_field(error_of(run, k));
+        text += cost_fields(run);
+    }
+    return text;
+}
+
+} // namespace
+
+std::string csv_report(const StudyResult& result) {
+    if (result.ladder)
+        return ladder_csv(*result.ladder, result.scene.ladder->printed);
+    return grid_csv(*result.orders, result.scene.orders->norms);
 }
 
 } // namespace tvbeam

@@ -6,10 +6,11 @@
 
 namespace tvbeam {
 
-/// The ladder as CSV (RFC 4180, but with \n): one row a rung, columns elements, h, dt, steps,
-/// status, then for each norm its error, printed figure (where the scene has them), order and
-/// prediction (where there is a model), then seconds and reason. Numbers read back to the same
-/// doubles; an undefined number is an empty field.
+/// The ladder as CSV (RFC 4180, but with \n), or the grid of a scene that has no ladder: one row a
+/// run, columns elements, h, dt, steps, status, then for each norm its error, and of a ladder also
+/// the printed figure (where the scene has them), order and prediction (where there is a model),
+/// then seconds and reason. Numbers read back to the same doubles; an undefined number is an empty
+/// field.
 std::string csv_report(const StudyResult& result);
 
 } // namespace tvbeam

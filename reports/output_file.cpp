@@ -35,9 +35,9 @@ OutputFile::OutputFile(std::filesystem::path path) : path_(std::move(path)) {
             return;
         }
     }
-    temporary_ = path_.string() + ".XXXXXX";
-    descriptor_ = mkstemp(temporary_.data());
-    if (descriptor_ < 0)
+    const auto directory =
+        path_.has_parent_path() ? path_.parent_path() : std::filesystem::path(".");
+    if (access(directory.c_str(), W_OK | X_OK) != 0)
         throw OutputError("cannot write '" + path_.string() + "': " + reason());
 }
 
@@ -53,6 +53,12 @@ void OutputFile::commit(const std::string& text) {
     const auto fail = [&] {
         throw OutputError("cannot write '" + path_.string() + "': " + reason());
     };
+    if (descriptor_ < 0) {
+        temporary_ = path_.string() + ".XXXXXX";
+        descriptor_ = mkstemp(temporary_.data());
+        if (descriptor_ < 0)
+            fail();
+    }
     for (std::size_t written = 0; written < text.size();) {
         const ssize_t count = write(descriptor_, text.data() + written, text.size() - written);
         if (count < 0 && errno != EINTR)

@@ -12,12 +12,13 @@ public:
     using std::runtime_error::runtime_error;
 };
 
-/// A file that appears whole or not at all: what is written goes to a temporary file beside it,
-/// which commit() flushes to the disk and renames. Opened before a long run, so that a place that
-/// cannot be written is known at once. A device or a pipe is written to as it is.
+/// A file that appears whole or not at all: the text goes to a temporary file beside it, which is
+/// flushed to the disk and renamed. A place that cannot be written is told when the object is made,
+/// before a long run, and nothing is made there until the text is at hand. A device or a pipe is
+/// written to as it is.
 class OutputFile {
 public:
-    /// Throws OutputError when the temporary file cannot be made.
+    /// Throws OutputError when no file can be made there.
     explicit OutputFile(std::filesystem::path path);
     ~OutputFile();
     OutputFile(const OutputFile&) = delete;

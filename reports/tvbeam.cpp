@@ -23,6 +23,7 @@
 #include <csignal>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -64,6 +65,15 @@ private:
     bool standard_output_;
     std::optional<OutputFile> file_;
 };
+
+/// Whether two reports are wanted in the same file, or both on standard output.
+bool same_place(const std::string& first, const std::string& second) {
+    if (first.empty() || second.empty())
+        return false;
+    std::error_code error;
+    return first == second || std::filesystem::weakly_canonical(first, error) ==
+                                  std::filesystem::weakly_canonical(second, error);
+}
 
 int run_command(const RunOptions& options) {
     const Scene scene = read_scene(options.scene, options.overrides);
@@ -269,15 +279,15 @@ int command_line(int argc, char** argv) {
         return app.exit(error) == 0 ? done : bad_input;
     }
     if (*run) {
-        if (options.json == "-" && options.csv == "-")
-            throw InputError({"--json - --csv -"},
-                             "only one report fits on standard output; give the other a file");
+        if (same_place(options.json, options.csv))
+            throw InputError({"--json " + options.json + " --csv " + options.csv},
+                             "two reports do not fit in one place; give one of them another");
         return run_command(options);
     }
     if (*check) {
-        if (checks.junit == "-" && checks.record == "-")
-            throw InputError({"--junit - --record -"},
-                             "only one report fits on standard output; give the other a file");
+        if (same_place(checks.junit, checks.record))
+            throw InputError({"--junit " + checks.junit + " --record " + checks.record},
+                             "two reports do not fit in one place; give one of them another");
         return check_command(checks);
     }
     if (*analyse)

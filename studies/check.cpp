@@ -146,17 +146,24 @@ private:
                 return {"rho", model.rho};
             }
         }();
+        // An order that is known less well than its band is wide says nothing about the band.
+        const double uncertainty = expectation.figure == Figure::p   ? at->fit.p_uncertainty()
+                                   : expectation.figure == Figure::q ? at->fit.q_uncertainty()
+                                                                     : 0.0;
+        const bool known =
+            at->fit.holds() && uncertainty <= expectation.highest - expectation.lowest;
         checked_.push_back(held(expectation, "orders." + expectation.norm + ": " + name,
-                                at->fit.holds() ? std::optional(figure) : std::nullopt,
-                                at->fit.failure));
+                                known ? std::optional(figure) : std::nullopt,
+                                at->fit.holds() ? text_of(figure) + " ± " + text_of(uncertainty) +
+                                                      ", not known well enough for this band"
+                                                : at->fit.failure));
     }
 
     void add_constant(const Expectation& expectation) {
-        for (const auto& [name, value] :
-             {std::pair{"least", result_.orders->corollary->least},
-              std::pair{"greatest", result_.orders->corollary->greatest}})
-            checked_.push_back(held(
-                expectation, "orders.corollary: " + std::string(name) + " constant C", value, ""));
+        const auto& corollary = result_.orders->corollary;
+        checked_.push_back(held(expectation, "orders.corollary: greatest constant C",
+                                corollary ? std::optional(corollary->greatest) : std::nullopt,
+                                "no run of the grid has an error"));
     }
 
     const StudyResult& result_;
@@ -169,7 +176,12 @@ std::vector<CheckedExpectation> check(const StudyResult& result) {
     Checker checker(result);
     for (const auto& expectation : result.scene.expectations)
         checker.add(expectation);
-    return checker.take();
+    auto checked = checker.take();
+    if (checked.empty() && !result.scene.expectations.empty())
+        checked.push_back({"expectations", "something to check",
+                           "nothing: a ladder of one rung has no order",
+                           result.scene.expectations[0].place, false});
+    return checked;
 }
 
 } // namespace tvbeam

@@ -70,6 +70,11 @@ void for_each_norm(TableReader& expect, const char* study, const std::vector<std
     auto block = expect.table(study);
     if (!block)
         return;
+    if (measured.empty())
+        throw InputError(expect.place(study), expect.full(study) +
+                                                  " expects something of a study that the scene "
+                                                  "does not run: it has no block [" +
+                                                  study + "] with norms");
     for (const auto& name : measured)
         if (auto table = block->table(name)) {
             read(*table, name);

@@ -21,7 +21,7 @@ struct Expectation {
         a,
         b,
         rho,     ///< of the two-term fit
-        constant ///< every constant of Corollary 2.2 over the grid
+        constant ///< the greatest constant of Corollary 2.2 over the grid
     };
     Figure figure = Figure::order;
     std::string norm;

@@ -10,7 +10,7 @@ namespace tvbeam {
 
 namespace {
 
-CorollaryConstants corollary_constants(const std::vector<Refinement>& squares) {
+std::optional<CorollaryConstants> corollary_constants(const std::vector<Refinement>& squares) {
     CorollaryConstants constants;
     double finest_width = 0.0;
     bool first = true;
@@ -27,7 +27,7 @@ CorollaryConstants corollary_constants(const std::vector<Refinement>& squares) {
         }
         first = false;
     }
-    return constants;
+    return first ? std::nullopt : std::optional(constants);
 }
 
 TwoTermOptions fit_options(const Scene& scene, std::span<const Refinement> records) {

@@ -26,7 +26,8 @@ struct CorollaryConstants {
 struct OrdersResult {
     std::vector<RungResult> runs;
     std::vector<NormOrders> norms;
-    std::optional<CorollaryConstants> corollary; ///< if the norm `corollary` was asked for
+    std::optional<CorollaryConstants>
+        corollary; ///< if `corollary` was asked for and some run has an error
 
     /// The model of a norm, or of the root of a squared one; null when the grid has none that
     /// holds.

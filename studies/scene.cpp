@@ -189,7 +189,8 @@ PrintedFigures read_printed(TableReader table, const LadderBlock& ladder) {
                 throw InputError(table.place(name),
                                  table.full(name) + " has " + std::to_string(figures->size()) +
                                      " figures for " + std::to_string(ladder.rungs.size()) +
-                                     " rungs; give one a rung");
+                                     " rungs; give one a rung, or none: --set " +
+                                     table.full("").substr(0, table.full("").size() - 1) + "={}");
             if (std::any_of(ladder.norms.begin(), ladder.norms.end(),
                             [&](const Norm& norm) { return norm.name == name; }))
                 printed.figures[name] = *figures;
@@ -215,6 +216,12 @@ LadderBlock read_ladder(TableReader table) {
     ladder.final_time = read_final_time(table);
     const auto elements = read_elements(table);
     const auto dt = read_dt(table, elements);
+    for (std::size_t i = 1; i < elements.size(); ++i)
+        if (elements[i] < elements[i - 1] || dt[i] > dt[i - 1])
+            throw InputError(
+                table.place(elements[i] < elements[i - 1] ? "elements" : "dt", i),
+                "rung " + std::to_string(i + 1) + " of " + table.full("elements") +
+                    " is coarser than the one before it; a ladder goes from coarse to fine");
     for (std::size_t i = 0; i < elements.size(); ++i)
         ladder.rungs.push_back({elements[i], steps_of(table, i, ladder.final_time, dt[i]), dt[i]});
     ladder.norms = read_norms(table);
@@ -262,17 +269,8 @@ GivenData read_data(TableReader table) {
 }
 
 Solution read_scene_solution(TableReader& root, const std::filesystem::path& beside) {
-    const std::string name = *root.text("solution");
-    try {
-        return read_solution(find_file(Shipped::solution, name, beside));
-    } catch (const InputError& error) {
-        // An error inside the solution file has its own place; one about its name stands in the
-        // scene.
-        const std::string what = error.what();
-        if (what.starts_with("there is no "))
-            throw InputError(root.place("solution"), what);
-        throw;
-    }
+    return read_solution(
+        find_file(Shipped::solution, *root.text("solution"), beside, root.place("solution")));
 }
 
 std::string json_of(const toml::table& table) {

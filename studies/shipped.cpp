@@ -36,12 +36,12 @@ std::vector<ShippedFile> shipped_files(Shipped kind) {
 }
 
 std::filesystem::path find_file(Shipped kind, const std::string& name,
-                                const std::filesystem::path& beside) {
+                                const std::filesystem::path& beside, const Place& place) {
     const std::string word = kind == Shipped::scene ? "scene" : "solution";
     if (name.find('/') != std::string::npos || name.ends_with(".toml")) {
         const auto path = beside / name;
         if (std::error_code error; !std::filesystem::exists(path, error))
-            throw InputError({}, "there is no " + word + " file '" + path.string() + "'");
+            throw InputError(place, "there is no " + word + " file '" + path.string() + "'");
         return path;
     }
     std::vector<std::string> names;
@@ -51,9 +51,9 @@ std::filesystem::path find_file(Shipped kind, const std::string& name,
         names.push_back(file.name);
     }
     throw InputError(
-        {}, "there is no shipped " + word + " '" + name + "'" + did_you_mean(name, names) +
-                "; `tvbeam list` shows them, and a file is named with its ending: " + name +
-                ".toml");
+        place, "there is no shipped " + word + " '" + name + "'" + did_you_mean(name, names) +
+                   "; `tvbeam list` shows them, and a file is named with its ending: " + name +
+                   ".toml");
 }
 
 } // namespace tvbeam

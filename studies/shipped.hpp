@@ -1,5 +1,7 @@
 #pragma once
 
+#include "mms/input_error.hpp"
+
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -19,9 +21,9 @@ struct ShippedFile {
 std::vector<ShippedFile> shipped_files(Shipped kind);
 
 /// The file that a name on the command line or in a scene means: with a '/' or the ending .toml a
-/// path, relative to `beside`; otherwise a shipped name. Throws InputError without place, naming
+/// path, relative to `beside`; otherwise a shipped name. Throws InputError at `place`, naming
 /// the nearest shipped name, when there is no such file.
 std::filesystem::path find_file(Shipped kind, const std::string& name,
-                                const std::filesystem::path& beside = {});
+                                const std::filesystem::path& beside = {}, const Place& place = {});
 
 } // namespace tvbeam

@@ -110,6 +110,23 @@ BOOST_AUTO_TEST_CASE(csv_and_json_hold_the_same_doubles) {
     BOOST_TEST(directory.count() == 2u); // no temporary file is left
 }
 
+BOOST_AUTO_TEST_CASE(two_reports_in_one_file_are_refused) {
+    const TemporaryDirectory directory;
+    const std::string file = (directory.path() / "r").string();
+    BOOST_TEST(call(directory, small + " --json " + file + " --csv " + file).exit == 2);
+    BOOST_TEST(directory.count() == 0u);
+}
+
+BOOST_AUTO_TEST_CASE(a_grid_without_a_ladder_has_a_csv_of_its_own) {
+    const TemporaryDirectory directory;
+    const std::string csv = (directory.path() / "grid.csv").string();
+    const std::string grid =
+        "run table1-orders --set 'orders.elements=[4,8,16]' --set 'orders.dt=[0.1,0.05,0.025]' ";
+    BOOST_TEST(call(directory, grid + "--csv " + csv).exit == 0);
+    BOOST_TEST(
+        has(call(directory, "analyse " + csv + " --error theta_L2L2").output, "a grid of 9 runs"));
+}
+
 BOOST_AUTO_TEST_CASE(bad_input_exits_with_two_says_one_line_and_writes_nothing) {
     const TemporaryDirectory directory;
     const std::string out = (directory.path() / "out.json").string();
@@ -155,15 +172,15 @@ BOOST_AUTO_TEST_CASE(a_failed_run_exits_with_three_and_keeps_what_was_finished) 
     const Called called = call(
         directory,
         "run table1 --set scheme.algorithm=fixed-point --set beam.alpha=5 --set "
-        "'ladder.elements=[4,4]' --set 'ladder.dt=[1e-4,1]' --set 'ladder.printed={}' --json -");
+        "'ladder.elements=[4,4]' --set 'ladder.dt=[1,1e-4]' --set 'ladder.printed={}' --json -");
     BOOST_TEST(called.exit == 3);
     const auto json = nlohmann::json::parse(called.output);
     const auto& rungs = json.at("ladder").at("rungs");
-    BOOST_TEST(rungs[0].at("status") == "ok");
-    BOOST_TEST(rungs[0].at("errors").at("theta_L2L2_sq").is_number());
-    BOOST_TEST(rungs[1].at("status") == "failed");
-    BOOST_TEST(rungs[1].at("errors").at("theta_L2L2_sq").is_null());
-    BOOST_TEST(has(rungs[1].at("reason"), "in step 1 of 2"));
+    BOOST_TEST(rungs[1].at("status") == "ok");
+    BOOST_TEST(rungs[1].at("errors").at("theta_L2L2_sq").is_number());
+    BOOST_TEST(rungs[0].at("status") == "failed");
+    BOOST_TEST(rungs[0].at("errors").at("theta_L2L2_sq").is_null());
+    BOOST_TEST(has(rungs[0].at("reason"), "in step 1 of 2"));
     BOOST_TEST(has(called.errors, "a run failed"));
 }
 

@@ -9,6 +9,8 @@
 #include <boost/test/data/test_case.hpp>
 #include <boost/test/unit_test.hpp>
 
+#include <cmath>
+
 using namespace tvbeam;
 namespace data = boost::unit_test::data;
 
@@ -106,6 +108,34 @@ BOOST_AUTO_TEST_CASE(a_square_is_the_square_and_the_corollary_is_the_sum_of_its_
     BOOST_TEST(errors[1] == errors[0] * errors[0], boost::test_tools::tolerance(1e-14));
     BOOST_TEST(errors[4] == errors[2] * errors[2] + errors[1] + errors[3] * errors[3],
                boost::test_tools::tolerance(1e-14));
+}
+
+BOOST_AUTO_TEST_CASE(an_error_that_is_not_a_number_at_one_level_is_not_passed_over) {
+    // The exact solution is NaN at the second of four levels only; the run must fail and say so.
+    ProblemData problem;
+    problem.amplitude_count = 1;
+    problem.amplitudes = [](const Eigen::ArrayXd& t) {
+        return Eigen::ArrayXXd(
+            t.unaryExpr([](double at) { return at == 0.5 ? std::nan("") : 1.0; }).transpose());
+    };
+    problem.profiles = {[](const Eigen::ArrayXd& x) -> Eigen::ArrayXd { return x * (1.0 - x); }};
+    problem.exact = ExactSolution{.theta = {{{0, 0}}, {}},
+                                  .theta_x = {},
+                                  .u = {{{0, 0}}, {}},
+                                  .u_x = {},
+                                  .u_xx = {{{0, 0}}, {}},
+                                  .stress = {}};
+    for (const std::string name : {"theta_LinfL2", "theta_L2L2", "u_LinfH2semi", "u_LinfL2"}) {
+        const RunResult result = run({Beam{.alpha = 0.1, .zeta = 0.1},
+                                      Mesh::uniform(3),
+                                      Scheme{},
+                                      1.0,
+                                      4,
+                                      {*Norm::named(name)}},
+                                     problem);
+        BOOST_TEST((result.status == RunStatus::failed), name);
+        BOOST_TEST(result.errors.empty());
+    }
 }
 
 BOOST_AUTO_TEST_CASE(norms_of_a_known_error_are_its_integrals) {

@@ -84,6 +84,25 @@ BOOST_AUTO_TEST_CASE(a_defect_of_the_scheme_s_own_order_shows_in_the_constant_al
     BOOST_TEST(!all[2].holds);
 }
 
+BOOST_AUTO_TEST_CASE(a_scene_whose_expectations_find_nothing_to_check_does_not_pass) {
+    const auto all = checked("[expect.ladder.theta_L2L2_sq]\norders = [3.9, 4.1]\n",
+                             {"ladder.elements=[10]", "ladder.dt=[1e-3]", "ladder.printed={}"});
+    BOOST_TEST(all.size() == 1u);
+    BOOST_TEST(violations(all) == 1u);
+}
+
+BOOST_AUTO_TEST_CASE(an_order_that_is_known_less_well_than_its_band_is_wide_does_not_hold) {
+    // Steps of T/4 and more: the error in time hides that in space, whose order the grid does not
+    // tell.
+    const auto all = checked(
+        "[orders]\nfinal_time = 1\nelements = [40, 60, 80, 120]\ndt = [0.25, 0.2, 0.125, 0.1]\n"
+        "norms = [\"u_LinfH2semi\"]\n[expect.orders.u_LinfH2semi]\np = [1.7, 1.76]\n");
+    BOOST_TEST(all.size() == 1u);
+    // The estimate, 1.73, lies in the band, but its uncertainty is wider than the band.
+    BOOST_TEST(violations(all) == 1u, all[0].found);
+    BOOST_TEST(all[0].found.starts_with("1.73"), all[0].found);
+}
+
 BOOST_AUTO_TEST_CASE(a_run_that_failed_meets_no_expectation) {
     const auto all =
         checked("[expect.ladder.theta_L2L2_sq]\norders = [-1e9, 1e9]\nratios = [-1e9, 1e9]\n"
@@ -131,7 +150,7 @@ BOOST_AUTO_TEST_CASE(wrong_expectations_are_told) {
     says("[expect.ladder.theta_L2L2_sq]\nerrors = [1e-3]\n", "has 1 values for 2 rungs");
     says("[expect.ladder.theta_L2L2_sq]\norder = [3.9, 4.1]\n", "did you mean 'orders'?");
     says("[expect.ladder.u_LinfH2]\norders = [3.9, 4.1]\n", "unknown key 'expect.ladder.u_LinfH2'");
-    says("[expect.orders.theta_L2L2]\np = [1, 2]\n", "unknown key 'expect.orders.theta_L2L2'");
+    says("[expect.orders.theta_L2L2]\np = [1, 2]\n", "it has no block [orders] with norms");
     says("[expect.ladder.theta_L2L2_sq]\nratios = [[0.9, 1.1], [0.9, 1.1], [0.9, 1.1]]\n",
          "has 3 bands for 2 rungs");
     says("[expect.ladder.theta_L2L2_sq]\nerrors = [1, 2]\nwithin = 2\n", "between 0 and 1");

@@ -97,7 +97,7 @@ const std::vector<Wrong> wrong_scenes{
      "ladder.dt is 0; it must be > 0"},
     {"dt         = [1e-3, 5e-4]", "dt         = [1e-3, 1e-30]", "16:21",
      "at most 1e12 are possible"},
-    {"dt         = [1e-3, 5e-4]", "dt         = [1e-3, 3]", "16:21",
+    {"dt         = [1e-3, 5e-4]", "dt         = [3, 5e-4]", "16:15",
      "ladder.dt is 3; it must divide"},
     {"dt         = [1e-3, 5e-4]", "dt         = \"0.01/q\"", "16:20", "unknown symbol 'q'"},
     {"dt         = [1e-3, 5e-4]", "dt         = \"0.01/(s\"", "16:20", "'(' is never closed"},
@@ -113,6 +113,10 @@ const std::vector<Wrong> wrong_scenes{
      "unknown norm 'u_LinfH2sem'; did you mean 'u_LinfH2semi'?"},
     {"\"u_LinfH2semi\"", "\"theta_L2L2_sq\"", "17:32", "names 'theta_L2L2_sq' twice"},
     {"[1.0, 2.0]", "[1.0]", "21:17", "ladder.printed.theta_L2L2_sq has 1 figures for 2 rungs"},
+    {"elements   = [10, 20]", "elements   = [20, 10]", "15:19",
+     "rung 2 of ladder.elements is coarser"},
+    {"dt         = [1e-3, 5e-4]", "dt         = [5e-4, 1e-3]", "16:21",
+     "is coarser than the one before it"},
     // The problem
     {"copetti-fernandez-2011", "copetti-fernandez-2012", "2:12",
      "there is no shipped solution 'copetti-fernandez-2012'; did you mean "
