@@ -43,13 +43,16 @@ std::string ladder_text(const RecordAnalysis& analysis) {
         const std::string rows =
             window ? fmt::format("rows {} to {}", window->first + 1, window->last + 1)
                    : std::string("all rows, none of which is shown to be asymptotic");
-        text += wrapped(fmt::format("fit over {}: error = {} w^{}, order {}", rows,
-                                    scientific(fit->c, 3), fixed(fit->p, 3),
+        const std::string floor =
+            fit->floor > 0 ? " + " + scientific(fit->floor, 1) + " (floor)" : std::string();
+        text += wrapped(fmt::format("fit over {}{}: error = {} w^{}{}, order {}", rows,
+                                    fit->floor > 0 ? " and those on the floor" : "",
+                                    scientific(fit->c, 3), fixed(fit->p, 3), floor,
                                     std::isfinite(fit->p_uncertainty())
                                         ? fixed(fit->p, 3) + " ± " + fixed(fit->p_uncertainty(), 3)
                                         : "without an uncertainty: two rows"));
     } else {
-        text += "no fit: fewer than two usable rows\n";
+        text += wrapped("no fit: " + analysis.no_power_law);
     }
     return text;
 }
@@ -71,9 +74,42 @@ std::string grid_text(const RecordAnalysis& analysis) {
     return notes.empty() ? text : text + "\n" + notes;
 }
 
+std::string value_text(const ValueAnalysis& analysis) {
+    TextTable::Column h{"width", {}};
+    TextTable::Column value{"value", {}};
+    for (const auto& grid : analysis.grids) {
+        h.cells.push_back(shortest(grid.h));
+        value.cells.push_back(std::isfinite(grid.value) ? shortest(grid.value) : "failed");
+    }
+    std::string text = TextTable({"", {h}}, {{"", {value}}}).text() + "\n";
+    if (const auto& finest = analysis.finest; !finest)
+        text += wrapped("no extrapolation: " + analysis.no_extrapolation);
+    else if (finest->order > 0)
+        text += wrapped(fmt::format("the three finest grids: observed order {}, Richardson's limit "
+                                    "{:.8g}, GCI {} about the finest value",
+                                    fixed(finest->order, 3), finest->limit,
+                                    scientific(finest->gci, 2)));
+    else
+        text +=
+            wrapped(fmt::format("the three finest grids: observed order {}, the values run apart",
+                                fixed(finest->order, 3)));
+    if (const auto& fit = analysis.limit) {
+        // As for an order of errors: one that scatters by more than itself is no order.
+        const double uncertainty = fit->order_uncertainty();
+        text += wrapped(fmt::format("fit over all grids: limit {:.8g}, finest value ± {}, order {}",
+                                    fit->limit, scientific(fit->uncertainty, 2),
+                                    uncertainty <= TwoTermFit::widest_uncertainty
+                                        ? fixed(fit->order, 3) + " ± " + fixed(uncertainty, 3)
+                                        : std::string("not determined")));
+    }
+    return text;
+}
+
 } // namespace
 
 std::string analysis_report(const RecordAnalysis& analysis) {
+    if (analysis.values)
+        return value_text(*analysis.values);
     return analysis.two_term ? grid_text(analysis) : ladder_text(analysis);
 }
 

@@ -5,15 +5,14 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-
 namespace tvbeam {
 
 namespace {
 
-std::string plus_minus(double value, double uncertainty) {
-    return std::isfinite(uncertainty) ? fixed(value, 3) + " ± " + fixed(uncertainty, 3)
-                                      : "not seen";
+std::string order_text(double size, double order, bool determined, double uncertainty) {
+    if (size == 0)
+        return "not seen";
+    return determined ? fixed(order, 3) + " ± " + fixed(uncertainty, 3) : "not determined";
 }
 
 const char* cause(Rejection why) {
@@ -66,11 +65,15 @@ std::string fit_table(const std::vector<std::pair<std::string, const TwoTermFit*
     TextTable::Column used{"used", {}};
     for (const auto& [norm, fit] : fits) {
         name.cells.push_back(norm);
-        p.cells.push_back(plus_minus(fit->model.p, fit->p_uncertainty()));
-        q.cells.push_back(plus_minus(fit->model.q, fit->q_uncertainty()));
-        a.cells.push_back(scientific(fit->model.a, 3));
-        b.cells.push_back(scientific(fit->model.b, 3));
-        rho.cells.push_back(fixed(fit->model.rho, 2));
+        const TwoTermModel& model = fit->model;
+        const bool in_space = fit->p_determined();
+        const bool in_time = fit->q_determined();
+        p.cells.push_back(order_text(model.a, model.p, in_space, fit->p_uncertainty()));
+        q.cells.push_back(order_text(model.b, model.q, in_time, fit->q_uncertainty()));
+        // A size is one of h^p: without p it has no unit, and ρ is between two terms.
+        a.cells.push_back(in_space ? scientific(model.a, 3) : "");
+        b.cells.push_back(in_time ? scientific(model.b, 3) : "");
+        rho.cells.push_back(in_space && in_time ? fixed(model.rho, 2) : "");
         rms.cells.push_back(scientific(fit->rms, 1));
         used.cells.push_back(fmt::format("{}/{}", fit->used.size(), records));
     }

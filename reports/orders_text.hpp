@@ -9,7 +9,8 @@
 namespace tvbeam {
 
 /// A table of fits of the two-term model that hold, a row each: p, q with what to quote behind ±,
-/// a, b, ρ, rms and how many of the records were used.
+/// a, b, ρ, rms and how many of the records were used. "not seen" is the order of a term whose size
+/// is zero, "not determined" one that the records do not determine; a, b, ρ are blank with it.
 std::string fit_table(const std::vector<std::pair<std::string, const TwoTermFit*>>& fits,
                       std::size_t records);
 

@@ -146,17 +146,20 @@ private:
                 return {"rho", model.rho};
             }
         }();
-        // An order that is known less well than its band is wide says nothing about the band.
-        const double uncertainty = expectation.figure == Figure::p   ? at->fit.p_uncertainty()
-                                   : expectation.figure == Figure::q ? at->fit.q_uncertainty()
-                                                                     : 0.0;
-        const bool known =
-            at->fit.holds() && uncertainty <= expectation.highest - expectation.lowest;
+        // An order that the grid does not determine, or less well than its band is wide, says
+        // nothing about the band.
+        const TwoTermFit& fit = at->fit;
+        const double width = expectation.highest - expectation.lowest;
+        const bool known = fit.holds() &&
+                           (expectation.figure != Figure::p ||
+                            (fit.p_determined() && fit.p_uncertainty() <= width)) &&
+                           (expectation.figure != Figure::q ||
+                            (fit.q_determined() && fit.q_uncertainty() <= width));
         checked_.push_back(held(expectation, "orders." + expectation.norm + ": " + name,
                                 known ? std::optional(figure) : std::nullopt,
-                                at->fit.holds() ? text_of(figure) + " ± " + text_of(uncertainty) +
-                                                      ", not known well enough for this band"
-                                                : at->fit.failure));
+                                fit.holds()
+                                    ? text_of(figure) + ", not determined well enough for this band"
+                                    : fit.failure));
     }
 
     void add_constant(const Expectation& expectation) {

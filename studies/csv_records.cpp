@@ -9,13 +9,18 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <string_view>
+#include <system_error>
 
 namespace tvbeam {
 
 namespace {
+
+constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
 
 /// The fields of a line; quotes are those of RFC 4180, in which "" stands for ".
 std::vector<std::string> fields_of(const std::string& line, const Place& place) {
@@ -38,7 +43,8 @@ struct Columns {
     std::optional<std::size_t> elements;
     std::optional<std::size_t> dt;
     std::optional<std::size_t> seconds;
-    std::size_t error = 0;
+    std::size_t error = 0; ///< or the value's
+    bool has_errors = true;
     std::size_t count = 0;
 };
 
@@ -53,15 +59,25 @@ Columns columns_of(const std::vector<std::string>& names,
                    const std::optional<std::string>& error_column, const Place& place) {
     const auto find = [&](const std::string& name) -> std::optional<std::size_t> {
         const auto at = std::find(names.begin(), names.end(), name);
-        return at == names.end() ? std::nullopt
-                                 : std::optional(static_cast<std::size_t>(at - names.begin()));
+        if (at == names.end())
+            return std::nullopt;
+        if (std::find(at + 1, names.end(), name) != names.end())
+            throw InputError(place, "names the column " + name + " twice; which is meant?");
+        return static_cast<std::size_t>(at - names.begin());
     };
-    Columns columns{find("h"), find("elements"), find("dt"), find("seconds"), 0, names.size()};
+    if (names.size() == 1 && names[0].find_first_of(";\t") != std::string::npos)
+        throw InputError(place, "'" + names[0] + "' is one field; fields are separated by commas");
+    Columns columns{find("h"), find("elements"), find("dt"), find("seconds"), 0,
+                    true,      names.size()};
     if (!columns.h && !columns.elements && !columns.dt)
         throw InputError(place, "no column h, elements or dt among " + listed(names) +
                                     "; name what was refined in the first line");
     const std::string wanted = error_column.value_or("error");
-    const auto error = find(wanted);
+    auto error = find(wanted);
+    if (!error && !error_column) {
+        error = find("value");
+        columns.has_errors = !error;
+    }
     if (!error)
         throw InputError(place, "no column '" + wanted + "'" + did_you_mean(wanted, names) +
                                     " among " + listed(names) +
@@ -74,31 +90,47 @@ Columns columns_of(const std::vector<std::string>& names,
 double number(const std::string& field, const Place& place, const std::string& name) {
     if (field.empty())
         return std::numeric_limits<double>::quiet_NaN();
+    // from_chars takes a minus alone.
+    const bool plus = field.size() > 1 && field[0] == '+' && field[1] != '-';
+    const char* const last = field.data() + field.size();
     double value = 0.0;
-    const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
-    if (error != std::errc() || end != field.data() + field.size())
+    const auto [end, error] = std::from_chars(field.data() + (plus ? 1 : 0), last, value);
+    if (error == std::errc::result_out_of_range && end == last) {
+        // from_chars does not say at which end of the range.
+        if (std::abs(std::strtod(field.c_str(), nullptr)) < 1)
+            return 0.0;
+        throw InputError(place, "'" + field + "' in column " + name + " is too large for a double");
+    }
+    if (error != std::errc() || end != last)
         throw InputError(place, "'" + field + "' in column " + name + " is not a number");
     return value;
 }
 
 } // namespace
 
-std::vector<Refinement> read_records(const std::string& file,
-                                     const std::optional<std::string>& error_column) {
+RecordFile read_records(const std::string& file, const std::optional<std::string>& error_column) {
     std::ifstream stream(file);
     if (!stream || std::filesystem::is_directory(file))
         throw InputError({file}, "cannot be read; check the path and its permissions");
+    int number_of_line = 0;
     std::string line;
-    if (!std::getline(stream, line))
+    const auto next_line = [&] {
+        while (std::getline(stream, line)) {
+            if (++number_of_line == 1 && line.starts_with(byte_order_mark))
+                line.erase(0, byte_order_mark.size());
+            if (!line.starts_with('#') && !boost::algorithm::trim_copy(line).empty())
+                return true;
+        }
+        return false;
+    };
+    if (!next_line())
         throw InputError({file},
                          "is empty; its first line must name the columns, e.g. h,dt,error,seconds");
-    const std::vector<std::string> names = fields_of(line, {file, 1});
-    const Columns columns = columns_of(names, error_column, {file, 1});
+    const std::vector<std::string> names = fields_of(line, {file, number_of_line});
+    const Columns columns = columns_of(names, error_column, {file, number_of_line});
 
-    std::vector<Refinement> records;
-    for (int number_of_line = 2; std::getline(stream, line); ++number_of_line) {
-        if (boost::algorithm::trim_copy(line).empty())
-            continue;
+    RecordFile result;
+    while (next_line()) {
         const Place place{file, number_of_line};
         const auto fields = fields_of(line, place);
         if (fields.size() != columns.count)
@@ -124,12 +156,16 @@ std::vector<Refinement> read_records(const std::string& file,
             record.dt = width(*columns.dt);
         if (columns.seconds)
             record.seconds = value(*columns.seconds);
-        record.error = value(columns.error);
-        records.push_back(record);
+        if (columns.has_errors)
+            record.error = value(columns.error);
+        else
+            result.values.push_back(
+                {std::isnan(record.h) ? record.dt : record.h, value(columns.error)});
+        result.records.push_back(record);
     }
-    if (records.empty())
+    if (result.records.empty())
         throw InputError({file}, "has no records below its first line");
-    return records;
+    return result;
 }
 
 } // namespace tvbeam

@@ -74,7 +74,7 @@ std::optional<FitWindow> concentrated(const TwoTermPoints& points, Members half)
     }
     if (!fit)
         return std::nullopt;
-    return FitWindow{std::move(half), std::move(*fit)};
+    return FitWindow{.members = std::move(half), .fit = std::move(*fit)};
 }
 
 /// The half to begin with: the finest in both widths, in one, or another corner of the grid.
@@ -152,7 +152,7 @@ std::optional<FitWindow> grown_window(const TwoTermPoints& points) {
         auto refit = two_term_regression(points.subset(grown), window->fit.theta);
         if (!refit)
             break;
-        window = FitWindow{std::move(grown), std::move(*refit)};
+        window = FitWindow{.members = std::move(grown), .fit = std::move(*refit)};
     }
     if (window->members.size() == static_cast<std::size_t>(points.size())) {
         // A warm start may have stayed in a valley of its own.
@@ -191,7 +191,7 @@ std::optional<FitWindow> without_edge(const TwoTermPoints& points, const FitWind
     auto fit = two_term_regression(points.subset(finer), window.fit.theta);
     if (!fit)
         return std::nullopt;
-    return FitWindow{std::move(finer), std::move(*fit)};
+    return FitWindow{.members = std::move(finer), .fit = std::move(*fit)};
 }
 
 /// Higher-order terms bend a whole coarse edge a little, and no single record of it stands out. The
@@ -220,7 +220,7 @@ FitWindow trimmed_window(const TwoTermPoints& points, FitWindow window) {
 /// What the next terms say of the bias of p and q, where the data ask for next terms (F test). They
 /// are sought in the window before its edges were taken off, for there they show: one or two powers
 /// further, as in a Taylor series with all terms or with every other.
-void set_drift(const TwoTermPoints& points, const FitWindow& grown, FitWindow& window) {
+void seek_next_terms(const TwoTermPoints& points, const FitWindow& grown, FitWindow& window) {
     if (grown.fit.scale() < least_scatter)
         return;
     auto part = points.subset(grown.members);
@@ -235,8 +235,8 @@ void set_drift(const TwoTermPoints& points, const FitWindow& grown, FitWindow& w
     if (!longer || !f_test_prefers_larger(grown.fit.chi2, longer->chi2, next_term_parameters,
                                           longer->dof, false_alarm))
         return;
-    window.p_drift = std::abs(window.fit.theta[1] - longer->theta[1]);
-    window.q_drift = std::abs(window.fit.theta[3] - longer->theta[3]);
+    window.p_with_next = longer->theta[1];
+    window.q_with_next = longer->theta[3];
 }
 
 } // namespace
@@ -245,7 +245,7 @@ std::optional<FitWindow> whole_window(const TwoTermPoints& points) {
     auto fit = two_term_regression(points);
     if (!fit)
         return std::nullopt;
-    return FitWindow{all_of(points), std::move(*fit)};
+    return FitWindow{.members = all_of(points), .fit = std::move(*fit)};
 }
 
 std::optional<FitWindow> forward_window(const TwoTermPoints& points) {
@@ -253,7 +253,7 @@ std::optional<FitWindow> forward_window(const TwoTermPoints& points) {
     if (!grown)
         return std::nullopt;
     auto window = trimmed_window(points, *grown);
-    set_drift(points, *grown, window);
+    seek_next_terms(points, *grown, window);
     return window;
 }
 

@@ -13,9 +13,9 @@ namespace tvbeam {
 struct FitWindow {
     std::vector<Eigen::Index> members; ///< ascending
     LeastSquares fit;
-    /// how far p and q lie from a fit that has the next terms too, where the data ask for those
-    double p_drift = 0;
-    double q_drift = 0;
+    /// p and q of a fit that has the next terms too, where the data ask for those
+    std::optional<double> p_with_next = std::nullopt;
+    std::optional<double> q_with_next = std::nullopt;
 };
 
 /// All points, judged by nobody.

@@ -7,8 +7,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <map>
 #include <set>
 #include <stdexcept>
+#include <utility>
 
 namespace tvbeam {
 
@@ -152,6 +154,10 @@ void set_errors(TwoTermFit& fit) {
     fit.q_half_width = student_half_width(fit.q_se, fit.dof);
 }
 
+double drift(double size, double order, const std::optional<double>& with_next) {
+    return size > 0 && with_next ? std::abs(order - *with_next) : 0.0;
+}
+
 RejectedRecord explain(std::span<const Refinement> records, const TwoTermFit& fit, std::size_t i) {
     double least = std::numeric_limits<double>::infinity();
     double coarsest_h = 0;
@@ -192,7 +198,59 @@ std::vector<double> residuals_of(std::span<const Refinement> records, const TwoT
     return residuals;
 }
 
+/// Range of ln e of the model over the used records that share the other width, where it is widest.
+double change_by(double Refinement::*width, std::span<const Refinement> records,
+                 const TwoTermFit& fit, const TwoTermOptions& options) {
+    const auto other = width == &Refinement::h ? &Refinement::dt : &Refinement::h;
+    std::map<double, std::pair<double, double>> ranges;
+    double widest = 0;
+    for (const auto i : fit.used) {
+        const double log_error = std::log(error_against(options.reference.value_or(Refinement{}),
+                                                        fit.model, records[i].h, records[i].dt));
+        auto& range = ranges.try_emplace(records[i].*other, log_error, log_error).first->second;
+        range.first = std::min(range.first, log_error);
+        range.second = std::max(range.second, log_error);
+        widest = std::max(widest, range.second - range.first);
+    }
+    return widest;
+}
+
+void set_influence(std::span<const Refinement> records, const TwoTermOptions& options,
+                   TwoTermFit& fit) {
+    fit.change_by_h = change_by(&Refinement::h, records, fit, options);
+    fit.change_by_dt = change_by(&Refinement::dt, records, fit, options);
+    for (const auto i : fit.used) {
+        const double h = records[i].h;
+        const double dt = records[i].dt;
+        const double error = fit.model.error(h, dt);
+        fit.share_of_h = std::max(fit.share_of_h, fit.model.spatial(h) / error);
+        fit.share_of_dt = std::max(fit.share_of_dt, fit.model.temporal(dt) / error);
+    }
+}
+
+struct Influence {
+    double change = 0;
+    double share = 0;
+};
+
+bool determined(double order, double uncertainty, double rms, const Influence& own,
+                const Influence& other) {
+    const double moved = TwoTermFit::least_change * std::max(rms, TwoTermFit::least_scatter);
+    return order > 0 && uncertainty <= TwoTermFit::widest_uncertainty && own.change > moved &&
+           (other.change > moved || other.share <= TwoTermFit::harmless_share);
+}
+
 } // namespace
+
+bool TwoTermFit::p_determined() const {
+    return determined(model.p, p_uncertainty(), rms, {change_by_h, share_of_h},
+                      {change_by_dt, share_of_dt});
+}
+
+bool TwoTermFit::q_determined() const {
+    return determined(model.q, q_uncertainty(), rms, {change_by_dt, share_of_dt},
+                      {change_by_h, share_of_h});
+}
 
 TwoTermFit fit_two_term(std::span<const Refinement> records, const TwoTermOptions& options) {
     require_sound(records, options);
@@ -225,12 +283,15 @@ TwoTermFit fit_two_term(std::span<const Refinement> records, const TwoTermOption
     fit.covariance = two_term_covariance(points, best);
     fit.dof = best.dof;
     fit.rms = best.scale();
-    fit.p_drift = window->p_drift;
-    fit.q_drift = window->q_drift;
     for (const auto k : window->members)
         fit.used.push_back(chosen[static_cast<std::size_t>(k)]);
     prefer_single_term(records, options, fit);
+    // Of the model that is handed out, which need not be the window's: ρ may be held by now, or a
+    // term be gone. A term that is gone has no order, and no bias of one.
+    fit.p_drift = drift(fit.model.a, fit.model.p, window->p_with_next);
+    fit.q_drift = drift(fit.model.b, fit.model.q, window->q_with_next);
     set_errors(fit);
+    set_influence(records, options, fit);
     fit.residuals = residuals_of(records, fit.model, options);
     for (const auto i : chosen)
         if (!std::binary_search(fit.used.begin(), fit.used.end(), i))

@@ -68,9 +68,16 @@ struct TwoTermFit {
 
     /// How far the orders lie from those of a fit that has next terms too, a h^p (1 + c h^k) and b
     /// Δt^q (1 + d Δt^l) with k, l of 1 or 2: a bias that no residual shows. 0 where an F test at
-    /// 0.2 % finds no next terms.
+    /// 0.2 % finds no next terms, and for a term whose size is zero.
     double p_drift = 0;
     double q_drift = 0;
+
+    /// By how much ln e changes over the used h at one Δt, and over the used Δt at one h, where
+    /// that is most; and the greatest part of the error that is a h^p, or b Δt^q.
+    double change_by_h = 0;
+    double change_by_dt = 0;
+    double share_of_h = 0;
+    double share_of_dt = 0;
 
     int dof = 0;
     double rms = 0; ///< sqrt(χ² / dof), of the records used
@@ -82,6 +89,22 @@ struct TwoTermFit {
     /// What to quote behind ±: sampling error and bias, one on top of the other.
     double p_uncertainty() const { return p_half_width + p_drift; }
     double q_uncertainty() const { return q_half_width + q_drift; }
+
+    /// Do the records determine the order? It is positive and known to ±0.5 or better, and
+    ///   – its width moves the errors: ln e changes by more than 10 max(rms, 0.002). A term that
+    ///     hardly changes along its own width is fitted to what the other term leaves over, its
+    ///     next term above all, and the interval, which takes the model for true, does not know of
+    ///     it;
+    ///   – the other term, where it does not move the errors either way, is less than a twentieth
+    ///   of
+    ///     them. A larger one stands in for a next term of this one, and this order bends with it.
+    /// An order that is not determined is not to be quoted as a number.
+    bool p_determined() const;
+    bool q_determined() const;
+    static constexpr double widest_uncertainty = 0.5;
+    static constexpr double least_change = 10;    ///< in units of the scatter
+    static constexpr double least_scatter = 2e-3; ///< what next terms bend even a smooth fit by
+    static constexpr double harmless_share = 0.05;
 
     bool holds() const { return failure.empty(); }
 };

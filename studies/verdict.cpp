@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <utility>
 
 namespace tvbeam {
 
@@ -91,25 +92,6 @@ std::optional<Run> run_ending_at(const Usable& usable, std::size_t last,
     return Run{first, last, mean_order(usable, first, last)};
 }
 
-std::optional<Run> asymptotic_run(const Usable& usable, const VerdictOptions& options) {
-    std::vector<Run> runs; // finest first
-    for (std::size_t last = usable.size(); last-- > 1;)
-        if (const auto run = run_ending_at(usable, last, options)) {
-            runs.push_back(*run);
-            last = run->first + 1;
-        }
-    for (std::size_t k = 0; k < runs.size(); ++k) {
-        const bool floor_in_disguise = std::any_of(
-            runs.begin() + static_cast<std::ptrdiff_t>(k) + 1, runs.end(), [&](const Run& coarser) {
-                return coarser.orders() >= runs[k].orders() &&
-                       coarser.order > much_larger * runs[k].order;
-            });
-        if (!floor_in_disguise)
-            return runs[k];
-    }
-    return std::nullopt;
-}
-
 /// A dip: steeper than the window's order into the row, flatter or back up out of it.
 bool is_dip(const Usable& usable, std::size_t i, const Run& run, double tolerance) {
     return i + 1 < usable.size() && usable.orders[i] && usable.orders[i + 1] &&
@@ -178,6 +160,55 @@ std::vector<RowVerdict> with_window(const Usable& usable, const Run& run,
     }
     lead_into_floor(usable, run, options, verdicts);
     return verdicts;
+}
+
+/// The orders of the window already run towards that of the finest row, by this part of the step
+/// that is left: a drift, and no kink that one row shows.
+constexpr double drift_part = 0.1;
+
+/// Do finer rows contradict the window? A floor, a dip and a divergence past it are events of their
+/// own; any other order is what the window's would have to be. The finest row alone is not
+/// confirmed by another, so that its kink stands beside the window, unless the window drifts there.
+bool is_refuted(const Usable& usable, const Run& run, const std::vector<RowVerdict>& verdicts) {
+    for (std::size_t i = run.last + 1; i < usable.size(); ++i) {
+        if (verdicts[i].verdict != Verdict::pre_asymptotic || !usable.orders[i])
+            continue;
+        if (i != run.last + 1 || i + 1 != usable.size())
+            return true;
+        const double step = *usable.orders[i] - *usable.orders[run.last];
+        const double drift = *usable.orders[run.last] - *usable.orders[run.first + 1];
+        if (drift * step > drift_part * step * step)
+            return true;
+    }
+    return false;
+}
+
+/// The finest window that holds, and the verdicts it leads to.
+struct Judged {
+    Run run;
+    std::vector<RowVerdict> verdicts;
+};
+
+std::optional<Judged> asymptotic_run(const Usable& usable, const VerdictOptions& options) {
+    std::vector<Run> runs; // finest first
+    for (std::size_t last = usable.size(); last-- > 1;)
+        if (const auto run = run_ending_at(usable, last, options)) {
+            runs.push_back(*run);
+            last = run->first + 1;
+        }
+    for (std::size_t k = 0; k < runs.size(); ++k) {
+        const bool floor_in_disguise = std::any_of(
+            runs.begin() + static_cast<std::ptrdiff_t>(k) + 1, runs.end(), [&](const Run& coarser) {
+                return coarser.orders() >= runs[k].orders() &&
+                       coarser.order > much_larger * runs[k].order;
+            });
+        if (floor_in_disguise)
+            continue;
+        auto verdicts = with_window(usable, runs[k], options);
+        if (!is_refuted(usable, runs[k], verdicts))
+            return Judged{runs[k], std::move(verdicts)};
+    }
+    return std::nullopt;
 }
 
 RowVerdict alone(double order, bool only_order, const VerdictOptions& options) {
@@ -278,10 +309,11 @@ LadderVerdict judge(std::span<const Refinement> ladder, const VerdictOptions& op
     const auto usable = usable_rows(ladder);
     if (usable.size() == 0)
         return result;
-    const auto run = asymptotic_run(usable, options);
-    auto verdicts = run ? with_window(usable, *run, options) : without_window(usable, options);
-    if (run)
-        result.window = {usable.rows[run->first], usable.rows[run->last], run->order};
+    auto judged = asymptotic_run(usable, options);
+    auto verdicts = judged ? std::move(judged->verdicts) : without_window(usable, options);
+    if (judged)
+        result.window = {usable.rows[judged->run.first], usable.rows[judged->run.last],
+                         judged->run.order};
     if (options.model != nullptr)
         prefer_model(usable, options, verdicts);
     for (std::size_t i = 0; i < usable.size(); ++i)

@@ -2,7 +2,9 @@
 ///
 /// The rows run from coarse to fine. Without a model the judgement rests on the pairwise orders
 /// alone: the asymptotic window is the finest run of rows whose orders are positive and agree with
-/// each other. One order is never enough for that, so a ladder of two rows is not asymptotic,
+/// each other, and are not refuted by finer rows: past the window there is nothing, a floor, a dip
+/// or a divergence, or one last row whose other order nothing confirms and towards which the window
+/// does not drift. One order is never enough for that, so a ladder of two rows is not asymptotic,
 /// unless the expected order is given and met. With a two-term model of the same norm, rows that
 /// the model describes are judged by it: it knows the order that the ladder will show in the end,
 /// and a cancellation from an order.

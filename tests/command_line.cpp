@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <fstream>
 #include <limits>
 #include <sstream>
 
@@ -295,6 +296,27 @@ BOOST_AUTO_TEST_CASE(analyse_reads_any_solver_s_errors) {
     BOOST_TEST(call(directory, small + " --csv " + csv).exit == 0);
     BOOST_TEST(has(call(directory, "analyse " + csv + " --error theta_L2L2_sq").output, "order"));
     BOOST_TEST(call(directory, "analyse " + directory.write("bad.csv", "a,b\n1,2\n")).exit == 2);
+}
+
+BOOST_AUTO_TEST_CASE(the_examples_of_the_readme_run_as_they_stand) {
+    // Its first three TOML blocks are the solution, the scene and the expectations.
+    std::ostringstream readme;
+    readme << std::ifstream(TVBEAM_README).rdbuf();
+    const std::string text = readme.str();
+    std::vector<std::string> blocks;
+    const std::string fence = "```toml\n";
+    for (auto at = text.find(fence); at != std::string::npos; at = text.find(fence, at)) {
+        at += fence.size();
+        blocks.push_back(text.substr(at, text.find("```", at) - at));
+    }
+    BOOST_REQUIRE(blocks.size() >= 3u);
+    const TemporaryDirectory directory;
+    directory.write("mine.toml", blocks[0]);
+    const std::string scene = directory.write("my-scene.toml", blocks[1] + blocks[2]);
+    for (const std::string form : {"", " --short"}) {
+        const Called called = call(directory, "check " + scene + form);
+        BOOST_TEST(called.exit == 0, called.output + called.errors);
+    }
 }
 
 BOOST_AUTO_TEST_CASE(derive_prints_formulas_for_a_scene_and_a_solution) {

@@ -232,6 +232,80 @@ BOOST_AUTO_TEST_CASE(a_term_that_is_not_there_gets_no_order) {
     BOOST_TEST(std::isinf(in_time.p_half_width));
 }
 
+BOOST_AUTO_TEST_CASE(an_order_is_determined_where_it_is_positive_and_known_to_a_half) {
+    TwoTermFit fit;
+    BOOST_TEST(!fit.p_determined());
+    fit.model.p = fit.model.q = 2;
+    fit.change_by_h = fit.change_by_dt = 1;
+    fit.p_half_width = 0.3;
+    fit.q_half_width = 0.3;
+    BOOST_TEST(fit.p_determined());
+    BOOST_TEST(fit.q_determined());
+    fit.p_drift = 0.3; // bias counts
+    BOOST_TEST(!fit.p_determined());
+    fit.model.q = -0.3;
+    BOOST_TEST(!fit.q_determined());
+    BOOST_TEST(fit_two_term(grid([](double h, double) { return 3 * h * h; })).p_determined());
+    BOOST_TEST(!fit_two_term(grid([](double h, double) { return 3 * h * h; })).q_determined());
+}
+
+// A next term in h, a scatter of one per cent and no term in Δt at all: the longer fit has an order
+// in Δt, of a term that the model handed out does not have.
+BOOST_AUTO_TEST_CASE(a_term_that_is_gone_has_no_drift) {
+    int gone = 0;
+    int longer = 0;
+    for (const double in_h : {6.0, 20.0, 40.0})
+        for (int pattern = 0; pattern < 20; ++pattern) {
+            int record = 0;
+            const auto fit = fit_two_term(grid([&](double h, double) {
+                return 3 * h * h * (1 + in_h * h * h) *
+                       (1 + 0.01 * std::sin(13.0 * ++record + 7.0 * pattern));
+            }));
+            if (fit.model.b > 0)
+                continue;
+            ++gone;
+            longer += fit.p_drift > 0 ? 1 : 0;
+            BOOST_TEST(fit.q_drift == 0.0);
+            BOOST_TEST(!fit.q_determined());
+        }
+    BOOST_TEST(gone > 0);
+    BOOST_TEST(longer > 0);
+}
+
+// 300 to one of Δt on the finest of four Δt that go down from 0.5, with a next term of 15 % in Δt
+// at the coarsest: h changes the errors by less than the next term does, and what is fitted as a
+// h^p is the next term's. The records hold no order in h, and the one in Δt bends with the term.
+BOOST_AUTO_TEST_CASE(a_term_far_below_the_other_s_next_term_is_not_determined) {
+    for (const double rho : {-0.9, 0.0, 0.5})
+        for (const double next : {0.3, 1.0, -0.5}) {
+            std::vector<Refinement> records;
+            const double a = 0.01 * 0.0625 * 40 * 40;
+            for (const double elements : {40, 60, 80, 120})
+                for (const double dt : {0.5, 0.25, 0.125, 0.0625}) {
+                    const double in_space = a / (elements * elements);
+                    const double in_time = dt * (1 + next * dt);
+                    records.push_back(
+                        {.h = 1 / elements,
+                         .dt = dt,
+                         .error = std::sqrt(in_space * in_space + 2 * rho * in_space * in_time +
+                                            in_time * in_time)});
+                }
+            const auto fit = fit_two_term(records);
+            BOOST_TEST_CONTEXT("rho " << rho << ", 1 + " << next << " dt: p " << fit.model.p
+                                      << " ± " << fit.p_uncertainty() << ", q " << fit.model.q
+                                      << " ± " << fit.q_uncertainty()) {
+                BOOST_TEST(
+                    (!fit.p_determined() || std::abs(fit.model.p - 2) <= fit.p_uncertainty()));
+                BOOST_TEST(
+                    (!fit.q_determined() || std::abs(fit.model.q - 1) <= fit.q_uncertainty()));
+            }
+        }
+    const auto clear =
+        fit_two_term(grid([](double h, double dt) { return cancelling.error(h, dt); }));
+    BOOST_TEST(clear.p_determined());
+    BOOST_TEST(clear.q_determined());
+}
+
 BOOST_AUTO_TEST_CASE(too_little_data_are_no_fit) {
     auto records = grid([](double h, double dt) { return cancelling.error(h, dt); });
     // Six records, although in five h and five Δt: one degree of freedom is no judge of a window.

@@ -160,6 +160,28 @@ BOOST_AUTO_TEST_CASE(past_a_kink_the_finer_order_counts) {
     BOOST_TEST(word(with_orders({2, 2, 2, 1})) == "AAAAp");
 }
 
+// h² + 0.01 h: the order runs from 1.99 down towards 1, which is the true one, and passes every
+// value between. Neighbours that agree to a tenth on the way are no window while finer rows go on
+// falling, wherever the ladder ends on that way.
+BOOST_AUTO_TEST_CASE(a_drifting_order_is_not_asymptotic) {
+    const auto drifting = [](int rows) {
+        std::vector<Refinement> ladder;
+        for (int i = 0; i < rows; ++i) {
+            const double h = std::exp2(-i);
+            ladder.push_back({.h = h, .error = h * h + 0.01 * h});
+        }
+        return ladder;
+    };
+    BOOST_TEST(word(drifting(10)) == "pppppppppp");
+    BOOST_TEST(!judge(drifting(10)).window.has_value());
+    BOOST_TEST(word(drifting(9)) == "ppppppppp");
+    // Far enough down it shows the order that it has.
+    const auto resolved = judge(drifting(16));
+    BOOST_REQUIRE(resolved.window.has_value());
+    BOOST_TEST(resolved.window->last == 15u);
+    BOOST_TEST(resolved.window->order == 1.0, boost::test_tools::tolerance(0.05));
+}
+
 // Errors about a sign change: 1/4 of the row before, then almost nothing, then back on a line.
 BOOST_AUTO_TEST_CASE(a_dip_is_a_cancellation) {
     BOOST_TEST(word(with_orders({2, 2, 12, -9})) == "AAAcc");
