@@ -59,6 +59,7 @@ void add_ratios(std::vector<Expectation>& expectations, TableReader& table, cons
 /// The names by which a study's norms stand in [expect].
 std::vector<std::string> names_of(const std::vector<Norm>& norms, bool roots) {
     std::vector<std::string> names;
+    names.reserve(norms.size());
     for (const auto& norm : norms)
         names.push_back(roots ? norm.root() : norm.name);
     return names;
@@ -87,17 +88,20 @@ void for_each_norm(TableReader& expect, const char* study, const std::vector<std
 
 std::vector<Expectation> read_expectations(TableReader table, const LadderBlock* ladder,
                                            const OrdersBlock* orders) {
+    // A study that the scene does not run measures no norm.
+    const LadderBlock no_ladder;
+    const OrdersBlock no_orders;
+    const LadderBlock& rungs = ladder != nullptr ? *ladder : no_ladder;
+    const OrdersBlock& grid = orders != nullptr ? *orders : no_orders;
     std::vector<Expectation> expectations;
-    for_each_norm(table, "ladder",
-                  ladder != nullptr ? names_of(ladder->norms, false) : std::vector<std::string>{},
+    for_each_norm(table, "ladder", names_of(rungs.norms, false),
                   [&](TableReader& norm_table, const std::string& norm) {
                       add(expectations, norm_table, "orders", Figure::order, norm);
-                      add_ratios(expectations, norm_table, norm, *ladder);
-                      add_errors(expectations, norm_table, norm, ladder->rungs.size());
+                      add_ratios(expectations, norm_table, norm, rungs);
+                      add_errors(expectations, norm_table, norm, rungs.rungs.size());
                       add(expectations, norm_table, "predicted", Figure::predicted, norm);
                   });
-    for_each_norm(table, "orders",
-                  orders != nullptr ? names_of(orders->norms, true) : std::vector<std::string>{},
+    for_each_norm(table, "orders", names_of(grid.norms, true),
                   [&](TableReader& norm_table, const std::string& norm) {
                       add(expectations, norm_table, "p", Figure::p, norm);
                       add(expectations, norm_table, "q", Figure::q, norm);

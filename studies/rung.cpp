@@ -27,6 +27,7 @@ RungResult run_rung(const Scene& scene, const std::vector<Norm>& norms, double f
 
 std::vector<Refinement> records_of(const std::vector<RungResult>& rungs, std::size_t k) {
     std::vector<Refinement> records;
+    records.reserve(rungs.size());
     for (const auto& rung : rungs)
         records.push_back({.h = 1.0 / static_cast<double>(rung.rung.elements),
                            .dt = rung.rung.dt,

@@ -15,7 +15,7 @@ std::filesystem::path directory(Shipped kind) {
     std::error_code error;
     const auto binary = std::filesystem::read_symlink("/proc/self/exe", error);
     if (!error) {
-        const auto installed = binary.parent_path().parent_path() / "share/tvbeam" / inside;
+        auto installed = binary.parent_path().parent_path() / "share/tvbeam" / inside;
         if (std::filesystem::is_directory(installed, error))
             return installed;
     }
@@ -39,7 +39,7 @@ std::filesystem::path find_file(Shipped kind, const std::string& name,
                                 const std::filesystem::path& beside, const Place& place) {
     const std::string word = kind == Shipped::scene ? "scene" : "solution";
     if (name.find('/') != std::string::npos || name.ends_with(".toml")) {
-        const auto path = beside / name;
+        auto path = beside / name;
         if (std::error_code error; !std::filesystem::exists(path, error))
             throw InputError(place, "there is no " + word + " file '" + path.string() + "'");
         return path;
