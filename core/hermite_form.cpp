@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <new>
 #include <sstream>
 #include <stdexcept>
 
@@ -57,8 +58,9 @@ Eigen::VectorXd cubic_loads(const Mesh& mesh, const SpaceFunction& g, int deriva
 
 HermiteForm::HermiteForm(const Beam& beam, const ProblemData& data, const Mesh& mesh,
                          const Scheme& scheme, double dt)
-    : beam_(beam), data_(data), mesh_(mesh), dt_(dt), tolerance_(scheme.tolerance) {
+    : Solver(scheme.time, dt), beam_(beam), data_(data), mesh_(mesh), tolerance_(scheme.tolerance) {
     assemble(scheme.thermal_mass);
+    factor(scheme.time.at_step(1).stages.front().leading / dt);
     const Eigen::Index inner = mesh_.elements() - 1;
     loads_.resize(data_.profiles.size());
     for (std::size_t r = 0; r < loads_.size(); ++r) {
@@ -80,7 +82,6 @@ HermiteForm::HermiteForm(const Beam& beam, const ProblemData& data, const Mesh& 
 void HermiteForm::assemble(ThermalMass mass) {
     const Eigen::Index s = mesh_.elements();
     mass_ = thermal_mass_matrix(mesh_, mass);
-    heat_ = TridiagonalFactor(mass_ + stiffness_matrix(mesh_) * dt_);
 
     // Entries in closed form, not by quadrature: the rows of B then annihilate rigid motions as
     // well as floating point allows, and the round-off of the method is no larger than it must be.
@@ -116,14 +117,22 @@ void HermiteForm::assemble(ThermalMass mass) {
         throw std::domain_error(
             "the matrix B of the Hermite cubics is not positive definite in "
             "floating point: its condition grows like h^-4; use the direct algorithm");
+}
 
-    Eigen::VectorXd tip = Eigen::VectorXd::Zero(2 * s);
-    tip(2 * s - 2) = dt_ / (dt_ + beam_.zeta);
+/// What depends on the coefficient c of a solve.
+void HermiteForm::factor(double c) {
+    dt_ = 1.0 / c;
+    heat_ = TridiagonalFactor(mass_ + stiffness_matrix(mesh_) * dt_);
+    Eigen::VectorXd tip = Eigen::VectorXd::Zero(2 * mesh_.elements());
+    tip(tip.size() - 2) = dt_ / (dt_ + beam_.zeta);
     tip_response_ = bending_factor_.solve(tip);
 }
 
 void HermiteForm::project_initial_state() {
     const Eigen::Index s = mesh_.elements();
+    state_ = Eigen::VectorXd::Zero(3 * s + 1);
+    new (&theta_) Eigen::Map<Eigen::VectorXd>(state_.data(), s + 1);
+    new (&deflection_) Eigen::Map<Eigen::VectorXd>(state_.data() + s + 1, 2 * s);
     theta_ =
         (values(data_, data_.theta_initial, mesh_.nodes, 0.0) - beam_.theta_A * (1.0 - mesh_.nodes))
             .matrix();
@@ -173,11 +182,13 @@ Eigen::VectorXd HermiteForm::beam_load(double t,
     return load;
 }
 
-std::string HermiteForm::step(double t, const Eigen::Ref<const Eigen::VectorXd>& amplitudes) {
+std::string HermiteForm::solve(double c, double t,
+                               const Eigen::Ref<const Eigen::VectorXd>& amplitudes) {
+    if (c != 1.0 / dt_)
+        factor(c);
     const Eigen::Index s = mesh_.elements();
     const Eigen::Index inner = s - 1;
     const Eigen::Index tip = 2 * s - 2;
-    ++counters_.steps;
 
     const Eigen::VectorXd deflection_before = deflection_;
     const Eigen::VectorXd heat_constant =
@@ -220,11 +231,8 @@ std::string HermiteForm::step(double t, const Eigen::Ref<const Eigen::VectorXd>&
         if (!std::isfinite(theta.sum()) || !std::isfinite(next.sum()))
             return "the fixed-point iteration diverges: not finite after " +
                    std::to_string(iteration) + " iterations";
-        if (!coupled || change <= tolerance_) {
-            if (stress_ != 0.0)
-                ++counters_.contact_steps;
+        if (!coupled || change <= tolerance_)
             return {};
-        }
     }
     std::ostringstream reason;
     reason << "the fixed-point iteration does not reach its tolerance " << tolerance_ << ": after "

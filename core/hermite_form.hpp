@@ -23,20 +23,18 @@ namespace tvbeam {
 ///
 /// until no nodal value changes by more than the tolerance (absolute; the paper does not say what
 /// it measures). The variational inequality concerns the tip value alone and is solved exactly in
-/// each iteration. The iteration contracts by about α²Δt / ((Δt + ζ)(1 + π²Δt)); the round-off of B
-/// grows like h⁻⁴. With an end temperature, θ̃_x = θ_x − θ_A adds −αθ_A (1, η') to the loads.
+/// each iteration. For the other time schemes Δt stands for 1/c and the state before for y*
+/// (Stage). The iteration contracts by about α²Δt / ((Δt + ζ)(1 + π²Δt)); the round-off of B grows
+/// like h⁻⁴. With an end temperature, θ̃_x = θ_x − θ_A adds −αθ_A (1, η') to the loads.
 class HermiteForm final : public Solver {
 public:
     /// data must outlive the solver. Throws std::domain_error when a matrix cannot be factored.
     HermiteForm(const Beam& beam, const ProblemData& data, const Mesh& mesh, const Scheme& scheme,
                 double dt);
 
-    std::string step(double t, const Eigen::Ref<const Eigen::VectorXd>& amplitudes) override;
-    [[nodiscard]] const Eigen::VectorXd& temperature() const override { return theta_; }
+    [[nodiscard]] Eigen::Ref<const Eigen::VectorXd> temperature() const override { return theta_; }
     [[nodiscard]] DiscontinuousLinear curvature() const override;
-    [[nodiscard]] double contact_stress() const override { return stress_; }
     [[nodiscard]] double tip_displacement() const override;
-    [[nodiscard]] const Counters& counters() const override { return counters_; }
 
     /// The nodal values themselves.
     [[nodiscard]] Deflection nodal_deflection() const;
@@ -45,7 +43,11 @@ public:
     static constexpr int iteration_limit = 1000;
 
 private:
+    std::string solve(double c, double t,
+                      const Eigen::Ref<const Eigen::VectorXd>& amplitudes) override;
+
     void assemble(ThermalMass mass);
+    void factor(double c);
     void project_initial_state();
     [[nodiscard]] Eigen::VectorXd heat_load(double t,
                                             const Eigen::Ref<const Eigen::VectorXd>& amplitudes);
@@ -55,8 +57,8 @@ private:
     Beam beam_;
     const ProblemData& data_;
     Mesh mesh_;
-    double dt_;
     double tolerance_;
+    double dt_ = 0.0; // 1/c, of which the factors are now
 
     Tridiagonal mass_;                     // M
     TridiagonalFactor heat_;               // M + ΔtK
@@ -73,10 +75,9 @@ private:
     };
     std::vector<ProfileLoads> loads_;
 
-    Eigen::VectorXd theta_;      // c with the two zeros at the ends
-    Eigen::VectorXd deflection_; // d: U_1, U_1', U_2, U_2', …; shape: 2s
-    double stress_ = 0.0;
-    Counters counters_;
+    Eigen::Map<Eigen::VectorXd> theta_{nullptr, 0}; // these two are the parts of state_: c with the
+                                                    // two zeros at the ends,
+    Eigen::Map<Eigen::VectorXd> deflection_{nullptr, 0}; // d: U_1, U_1', U_2, U_2', …; shape: 2s
 };
 
 } // namespace tvbeam

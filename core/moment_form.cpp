@@ -4,41 +4,50 @@
 
 #include <algorithm>
 #include <cmath>
+#include <new>
 
 namespace tvbeam {
 
 MomentForm::MomentForm(const Beam& beam, const ProblemData& data, const Mesh& mesh,
-                       ThermalMass mass, double dt, const Needs& needs)
-    : beam_(beam), data_(data), mesh_(mesh), heat_(needs.temperature || beam.alpha != 0.0),
+                       const Scheme& scheme, double dt, const Needs& needs)
+    : Solver(scheme.time, dt), beam_(beam), data_(data), mesh_(mesh),
+      heat_(needs.temperature || beam.alpha != 0.0),
       bending_(needs.deflection || beam.alpha != 0.0), coupled_(beam.alpha != 0.0),
-      stops_(bending_ && beam.stops.exist()), leading_(1.0 / dt),
-      kappa_(1.0 / (1.0 + beam.zeta * leading_)) {
+      stops_(bending_ && beam.stops.exist()), mass_(scheme.thermal_mass) {
     if (heat_) {
-        Tridiagonal matrix = thermal_mass_matrix(mesh_, mass) * leading_ + stiffness_matrix(mesh_);
-        if (coupled_)
-            matrix = matrix + thermal_mass_matrix(mesh_, ThermalMass::consistent) *
-                                  (beam_.alpha * beam_.alpha * leading_ * kappa_);
-        factor_ = TridiagonalFactor(matrix);
         inverse_lengths_ = mesh_.lengths.inverse();
         increment_ = Eigen::VectorXd::Zero(mesh_.elements() - 1);
     }
-    load_initial_state(needs);
+    lay_out_state();
+    load_initial_state();
     load_profiles();
-    if (stops_)
-        find_contact_response();
+    eliminate(scheme.time.at_step(1).stages.front().leading / dt);
     if (needs.curvature && bending_)
         for (const auto& profile : data_.profiles)
             projections_.push_back(project(mesh_, profile));
     counters_.doubles_allocated =
         static_cast<std::int64_t>(projections_.size()) * 2 * mesh_.elements() +
         2 * factor_.order() + inverse_lengths_.size() + loads_.size() + lever_load_.size() +
-        response_.size() + theta_.size() + w_.nodal.size() + w_.rest.size() + increment_.size() +
-        balance_.size();
+        response_.size() + state_.size() + increment_.size() + balance_.size();
 }
 
-void MomentForm::load_initial_state(const Needs& needs) {
+void MomentForm::lay_out_state() {
     const Eigen::Index s = mesh_.elements();
-    const auto profiles = static_cast<Eigen::Index>(data_.profiles.size());
+    const Eigen::Index theta = heat_ ? s + 1 : 0;
+    const Eigen::Index nodal = coupled_ ? s + 1 : 0;
+    const Eigen::Index weights =
+        bending_ ? static_cast<Eigen::Index>(data_.profiles.size()) + 1 : 0;
+    const Eigen::Index rest =
+        bending_ && (data_.curvature_initial.rest || data_.moment_load.rest) ? s : 0;
+    state_ = Eigen::VectorXd::Zero(theta + nodal + weights + 2 * rest);
+    double* place = state_.data();
+    new (&theta_) SplitCurvature::Vector(place, theta);
+    new (&w_.nodal) SplitCurvature::Vector(place += theta, nodal);
+    new (&w_.weights) SplitCurvature::Vector(place += nodal, weights);
+    new (&w_.rest) Eigen::Map<DiscontinuousLinear>(place + weights, 2, rest);
+}
+
+void MomentForm::load_initial_state() {
     Eigen::VectorXd amplitudes;
     if (data_.amplitude_count > 0)
         amplitudes = data_.amplitudes(Eigen::ArrayXd::Zero(1)).col(0).matrix();
@@ -47,25 +56,16 @@ void MomentForm::load_initial_state(const Needs& needs) {
                   beam_.theta_A * (1.0 - mesh_.nodes))
                      .matrix();
         theta_(0) = 0.0;
-        theta_(s) = 0.0;
+        theta_(mesh_.elements()) = 0.0;
     }
     if (bending_) {
-        w_.weights = Eigen::VectorXd::Zero(profiles + 1);
-        weight_changes_ = w_.weights;
         for (const auto& term : data_.curvature_initial.terms)
             w_.weights(term.profile) += amplitudes(term.amplitude);
-        const auto& rest = data_.curvature_initial.rest;
-        if (rest)
+        if (const auto& rest = data_.curvature_initial.rest)
             w_.rest = project(mesh_, [&](const Eigen::ArrayXd& x) { return rest(x, 0.0); });
-        else if (data_.moment_load.rest)
-            w_.rest = DiscontinuousLinear::Zero(2, s);
     }
-    if (coupled_) {
-        w_.nodal = Eigen::VectorXd::Zero(s + 1);
-        balance_ = Eigen::VectorXd::Zero(s + 1);
-    }
-    if (!needs.temperature && !coupled_)
-        theta_.resize(0);
+    if (coupled_)
+        balance_ = Eigen::VectorXd::Zero(mesh_.elements() + 1);
 }
 
 void MomentForm::load_profiles() {
@@ -99,6 +99,21 @@ void MomentForm::load_profiles() {
         loads_.col(static_cast<Eigen::Index>(k)) = loads[k];
 }
 
+/// The matrix of a solve with the coefficient c, factored, and what answers λ = 1.
+void MomentForm::eliminate(double c) {
+    leading_ = c;
+    kappa_ = 1.0 / (1.0 + beam_.zeta * leading_);
+    if (heat_) {
+        Tridiagonal matrix = thermal_mass_matrix(mesh_, mass_) * leading_ + stiffness_matrix(mesh_);
+        if (coupled_)
+            matrix = matrix + thermal_mass_matrix(mesh_, ThermalMass::consistent) *
+                                  (beam_.alpha * beam_.alpha * leading_ * kappa_);
+        factor_ = TridiagonalFactor(matrix);
+    }
+    if (stops_)
+        find_contact_response();
+}
+
 void MomentForm::find_contact_response() {
     compliance_ = kappa_ / 3.0; // ∫ (1 − x)² dx = 1/3
     if (!coupled_)
@@ -110,8 +125,10 @@ void MomentForm::find_contact_response() {
     compliance_ -= kappa_ * beam_.alpha * response_.dot(lever_load_);
 }
 
-std::string MomentForm::step(double t, const Eigen::Ref<const Eigen::VectorXd>& amplitudes) {
-    ++counters_.steps;
+std::string MomentForm::solve(double c, double t,
+                              const Eigen::Ref<const Eigen::VectorXd>& amplitudes) {
+    if (c != leading_)
+        eliminate(c);
     DiscontinuousLinear rest_change;
     if (bending_) {
         // −κ (w* + Πμ), part by part; the nodal part follows with the temperature.
@@ -221,13 +238,16 @@ double MomentForm::tip_displacement() const {
 
 DiscontinuousLinear MomentForm::curvature() const {
     const Eigen::Index s = mesh_.elements();
-    DiscontinuousLinear w = w_.rest.size() > 0 ? w_.rest : DiscontinuousLinear::Zero(2, s).eval();
+    DiscontinuousLinear w = DiscontinuousLinear::Zero(2, s);
+    if (w_.rest.size() > 0)
+        w = w_.rest;
     for (std::size_t r = 0; r < data_.profiles.size(); ++r)
         if (const double weight = w_.weights(static_cast<Eigen::Index>(r)); weight != 0.0)
             w += weight *
                  (projections_.empty() ? project(mesh_, data_.profiles[r]) : projections_[r]);
-    const Eigen::VectorXd continuous = (coupled_ ? w_.nodal : Eigen::VectorXd::Zero(s + 1).eval()) +
-                                       w_.weights.tail<1>()(0) * (1.0 - mesh_.nodes).matrix();
+    Eigen::VectorXd continuous = w_.weights.tail<1>()(0) * (1.0 - mesh_.nodes).matrix();
+    if (coupled_)
+        continuous += w_.nodal;
     w.row(0) += continuous.head(s).transpose().array();
     w.row(1) += continuous.tail(s).transpose().array();
     return w;

@@ -18,9 +18,12 @@ namespace tvbeam {
 /// a is continuous and piecewise linear with a(0) = a(1) = 0, Π the L² projection on P1disc, p in
 /// P1disc.
 struct SplitCurvature {
-    Eigen::VectorXd nodal;    ///< a at the nodes; shape: s + 1, or empty: zero (alpha = 0)
-    Eigen::VectorXd weights;  ///< c_r for every profile of ProblemData, then c_lever; shape: R + 1
-    DiscontinuousLinear rest; ///< p; shape: 2 × s, or empty: zero (every moment load separates)
+    using Vector = Eigen::Map<Eigen::VectorXd>;
+    Vector nodal{nullptr, 0}; ///< a at the nodes; shape: s + 1, or empty: zero (alpha = 0)
+    Vector weights{nullptr,
+                   0}; ///< c_r for every profile of ProblemData, then c_lever; shape: R + 1
+    Eigen::Map<DiscontinuousLinear> rest{
+        nullptr, 2, 0}; ///< p; shape: 2 × s, or empty: zero (every moment load separates)
 };
 
 /// (24)–(25) written for the curvature w = U_xx, which turns the matrix B of the cubics into an L²
@@ -38,25 +41,26 @@ struct SplitCurvature {
 /// added. This solves the variational inequality of the coupled step exactly.
 class MomentForm final : public Solver {
 public:
-    /// dt: the step of implicit Euler (c = 1/dt, y* the previous state). data must outlive the
-    /// solver. Throws std::domain_error when the matrix of the step is not positive definite in
-    /// floating point.
-    MomentForm(const Beam& beam, const ProblemData& data, const Mesh& mesh, ThermalMass mass,
+    /// data must outlive the solver. Throws std::domain_error when the matrix of the first solve is
+    /// not positive definite in floating point; that of a later one ends the step with that reason.
+    MomentForm(const Beam& beam, const ProblemData& data, const Mesh& mesh, const Scheme& scheme,
                double dt, const Needs& needs);
 
-    std::string step(double t, const Eigen::Ref<const Eigen::VectorXd>& amplitudes) override;
-    [[nodiscard]] const Eigen::VectorXd& temperature() const override { return theta_; }
+    [[nodiscard]] Eigen::Ref<const Eigen::VectorXd> temperature() const override { return theta_; }
     [[nodiscard]] DiscontinuousLinear curvature() const override;
-    [[nodiscard]] double contact_stress() const override { return stress_; }
     [[nodiscard]] double tip_displacement() const override;
-    [[nodiscard]] const Counters& counters() const override { return counters_; }
 
     /// The curvature without assembling it: error norms use the parts.
     [[nodiscard]] const SplitCurvature& split_curvature() const { return w_; }
 
 private:
-    void load_initial_state(const Needs& needs);
+    std::string solve(double c, double t,
+                      const Eigen::Ref<const Eigen::VectorXd>& amplitudes) override;
+
+    void lay_out_state();
+    void load_initial_state();
     void load_profiles();
+    void eliminate(double c);
     void find_contact_response();
     void solve_heat(double t, const Eigen::Ref<const Eigen::VectorXd>& amplitudes,
                     const DiscontinuousLinear& rest_increment);
@@ -65,13 +69,14 @@ private:
     Beam beam_;
     const ProblemData& data_;
     Mesh mesh_;
-    bool heat_;      // the temperature is solved for
-    bool bending_;   // the curvature is solved for
-    bool coupled_;   // alpha ≠ 0: each acts on the other
-    bool stops_;     // the tip is tested against the stops
-    double leading_; // c
-    double kappa_;   // κ
+    bool heat_;    // the temperature is solved for
+    bool bending_; // the curvature is solved for
+    bool coupled_; // alpha ≠ 0: each acts on the other
+    bool stops_;   // the tip is tested against the stops
+    ThermalMass mass_;
 
+    double leading_ = 0.0; // c, of which the matrix of the step is now
+    double kappa_ = 0.0;   // κ
     TridiagonalFactor factor_;
     Eigen::ArrayXd inverse_lengths_;
     std::vector<Eigen::Index>
@@ -82,9 +87,8 @@ private:
     Eigen::VectorXd response_;    // Θ that answers λ = 1
     double compliance_ = 0.0;     // u(1) that answers λ = 1
 
-    Eigen::VectorXd theta_;
+    SplitCurvature::Vector theta_{nullptr, 0}; // these two are parts of state_
     SplitCurvature w_;
-    double stress_ = 0.0;
 
     Eigen::VectorXd increment_;      // D at inner nodes
     Eigen::VectorXd balance_;        // a + αΘ
@@ -92,7 +96,6 @@ private:
     Eigen::VectorXd load_weights_;   // what each profile adds to the heat equation
     std::vector<DiscontinuousLinear>
         projections_; // Πφ_r, where the curvature is read in every step
-    Counters counters_;
 };
 
 } // namespace tvbeam

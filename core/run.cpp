@@ -3,6 +3,7 @@
 #include "core/error_norms.hpp"
 #include "core/hermite_form.hpp"
 #include "core/moment_form.hpp"
+#include "core/time_levels.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -14,40 +15,6 @@
 namespace tvbeam {
 
 namespace {
-
-/// The amplitudes at t_1 … t_N, evaluated a block of levels at a time.
-class AmplitudeBlocks {
-public:
-    AmplitudeBlocks(const ProblemData& data, double final_time, std::int64_t steps)
-        : data_(data), final_time_(final_time), steps_(steps) {}
-
-    [[nodiscard]] double time(std::int64_t n) const {
-        return final_time_ * static_cast<double>(n) / static_cast<double>(steps_);
-    }
-
-    /// Valid until the next call.
-    Eigen::Map<const Eigen::VectorXd> at(std::int64_t n) {
-        if (data_.amplitude_count == 0)
-            return {nullptr, 0};
-        if (n >= first_ + values_.cols()) {
-            const std::int64_t count = std::min<std::int64_t>(block, steps_ - n + 1);
-            Eigen::ArrayXd times(count);
-            for (std::int64_t k = 0; k < count; ++k)
-                times(k) = time(n + k);
-            values_ = data_.amplitudes(times);
-            first_ = n;
-        }
-        return {values_.col(n - first_).data(), values_.rows()};
-    }
-
-private:
-    static constexpr std::int64_t block = 256;
-    const ProblemData& data_;
-    double final_time_;
-    std::int64_t steps_;
-    std::int64_t first_ = 1;
-    Eigen::ArrayXXd values_;
-};
 
 RunResult failure(RunResult result, const std::string& reason) {
     result.status = RunStatus::failed;
@@ -68,7 +35,7 @@ std::unique_ptr<Solver> make_solver(const Beam& beam, const ProblemData& data, c
                                     const Scheme& scheme, double dt, const Needs& needs) {
     if (scheme.algorithm == Algorithm::fixed_point)
         return std::make_unique<HermiteForm>(beam, data, mesh, scheme, dt);
-    return std::make_unique<MomentForm>(beam, data, mesh, scheme.thermal_mass, dt, needs);
+    return std::make_unique<MomentForm>(beam, data, mesh, scheme, dt, needs);
 }
 
 RunResult run(const RunRequest& request, const ProblemData& data) {
@@ -83,17 +50,18 @@ RunResult run(const RunRequest& request, const ProblemData& data) {
             norms.emplace(request.beam, data, request.mesh, request.norms,
                           dynamic_cast<const MomentForm*>(solver.get()));
 
-        AmplitudeBlocks amplitudes(data, request.final_time, request.steps);
+        TimeLevels levels(data, request.scheme.time, request.final_time, request.steps);
         for (std::int64_t n = 1; n <= request.steps; ++n) {
-            const double t = amplitudes.time(n);
-            const auto now = amplitudes.at(n);
-            const std::string reason = solver->step(t, now);
+            const StepSources sources = levels.at(n);
+            const std::string reason = solver->step(sources);
             if (!reason.empty()) {
                 result.counters = solver->counters();
-                return failure(result, located(reason, n, request.steps, t));
+                return failure(result, located(reason, n, request.steps, levels.time(n)));
             }
+            // The last solve of a step is at its end.
             if (norms)
-                norms->add(t, dt, *solver, now);
+                norms->add(levels.time(n), dt, *solver,
+                           sources.amplitudes.col(sources.amplitudes.cols() - 1));
         }
         result.counters = solver->counters();
         if (norms) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "core/linear_elements.hpp"
+#include "core/time_scheme.hpp"
 
 namespace tvbeam {
 
@@ -10,12 +11,20 @@ enum class Algorithm {
     fixed_point ///< the paper's: Hermite nodal basis, iteration between temperature and deflection
 };
 
+/// In which unknowns the direct algorithm marches; both give the same result to round-off.
+enum class Basis {
+    automatic, ///< sine coefficients where mesh, data and norms allow, else nodal values
+    nodal
+};
+
 /// The discretisation that a run uses, besides mesh and step.
 struct Scheme {
     Algorithm algorithm = Algorithm::direct;
     ThermalMass thermal_mass = ThermalMass::consistent;
     double tolerance = 1e-7; ///< fixed point only: largest change of a nodal value of θ and u in
                              ///< the last iteration
+    TimeScheme time = TimeScheme::named("euler");
+    Basis basis = Basis::automatic;
 };
 
 } // namespace tvbeam

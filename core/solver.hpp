@@ -1,11 +1,14 @@
 #pragma once
 
 #include "core/linear_elements.hpp"
+#include "core/time_levels.hpp"
+#include "core/time_scheme.hpp"
 
 #include <Eigen/Core>
 
 #include <cstdint>
 #include <string>
+#include <utility>
 
 namespace tvbeam {
 
@@ -15,7 +18,7 @@ struct Counters {
     std::int64_t heat_solves = 0;      ///< tridiagonal solves of the heat equation
     std::int64_t beam_solves = 0;      ///< updates of the curvature, or solves with the paper's B
     std::int64_t coupling_updates = 0; ///< exchanges between heat and beam; alpha = 0: none
-    std::int64_t load_updates = 0;     ///< steps in which a heat source or a moment load was added
+    std::int64_t load_updates = 0;     ///< solves in which a heat source or a moment load was added
     std::int64_t source_evaluations =
         0; ///< sources evaluated on arrays of points: those that do not separate
     std::int64_t tip_evaluations = 0;        ///< tests of the tip against the stops; no stops: none
@@ -33,33 +36,52 @@ struct Needs {
     bool curvature = false; ///< Solver::curvature() is called in every step
 };
 
-/// One time stepper for (24)–(25) on one mesh, started at t = 0.
+/// One time stepper for (24)–(25) on one mesh, started at t = 0: the stages of a time scheme, each
+/// a solve in space that the derived class makes.
 class Solver {
 public:
-    Solver() = default;
     Solver(const Solver&) = delete;
     Solver& operator=(const Solver&) = delete;
     Solver(Solver&&) = delete;
     Solver& operator=(Solver&&) = delete;
     virtual ~Solver() = default;
 
-    /// One step to t; amplitudes: those of ProblemData at t. Returns an empty text, or why the step
-    /// failed (not finite, fixed point without convergence); the state is then meaningless.
-    virtual std::string step(double t, const Eigen::Ref<const Eigen::VectorXd>& amplitudes) = 0;
+    /// The next step; sources: at the times of its solves (TimeLevels). Returns an empty text, or
+    /// why the step failed (not finite, fixed point without convergence); the state is then
+    /// meaningless.
+    std::string step(const StepSources& sources);
 
     /// Θ^n = Θ̃^n − θ_A (1 − x) at the nodes; shape: s + 1, zero at both ends. Empty when left out.
-    [[nodiscard]] virtual const Eigen::VectorXd& temperature() const = 0;
+    [[nodiscard]] virtual Eigen::Ref<const Eigen::VectorXd> temperature() const = 0;
 
     /// U^n_xx at the ends of each element.
     [[nodiscard]] virtual DiscontinuousLinear curvature() const = 0;
 
-    /// Contact stress σ̃ of the last step: ≥ 0 at g1, ≤ 0 at g2, 0 between (7)(8). Unit: force.
-    [[nodiscard]] virtual double contact_stress() const = 0;
+    /// Contact stress σ̃ of the last solve: ≥ 0 at g1, ≤ 0 at g2, 0 between (7)(8). Unit: force.
+    [[nodiscard]] double contact_stress() const { return stress_; }
 
     /// u(1, t) of the state, integrated from it.
     [[nodiscard]] virtual double tip_displacement() const = 0;
 
-    [[nodiscard]] virtual const Counters& counters() const = 0;
+    [[nodiscard]] const Counters& counters() const { return counters_; }
+
+protected:
+    Solver(TimeScheme time, double dt) : time_(std::move(time)), dt_(dt) {}
+
+    /// Solves the discrete equations at time t, with y_t replaced by c (y − y*): reads y* from
+    /// state_ and leaves y there, and its contact stress in stress_.
+    virtual std::string solve(double c, double t,
+                              const Eigen::Ref<const Eigen::VectorXd>& amplitudes) = 0;
+
+    Eigen::VectorXd state_; ///< all that the time derivative acts on; laid out by the derived class
+    double stress_ = 0.0;
+    Counters counters_;
+
+private:
+    TimeScheme time_;
+    double dt_;
+    Eigen::VectorXd before_;     // y^{n−1}; empty where no stage reads an increment
+    Eigen::MatrixXd increments_; // one column each, in the order of Stage::weights
 };
 
 } // namespace tvbeam

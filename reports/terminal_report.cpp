@@ -30,11 +30,20 @@ std::string problem_line(const Scene& scene) {
     return line;
 }
 
+std::string time_scheme_text(const TimeScheme& scheme) {
+    if (scheme.name == "euler")
+        return "implicit Euler";
+    std::string text = scheme.name;
+    std::transform(text.begin(), text.end(), text.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+    return text;
+}
+
 std::string scheme_line(const Scheme& scheme) {
     std::string line = scheme.algorithm == Algorithm::direct
                            ? "direct algorithm"
                            : "fixed-point algorithm, tolerance " + shortest(scheme.tolerance);
-    return line + ", implicit Euler, " +
+    return line + ", " + time_scheme_text(scheme.time) + ", " +
            (scheme.thermal_mass == ThermalMass::lumped ? "lumped" : "consistent") +
            " heat mass matrix";
 }

@@ -2,6 +2,7 @@
 
 #include "core/error_norms.hpp"
 #include "core/run.hpp"
+#include "core/time_levels.hpp"
 #include "studies/piecewise_polynomial.hpp"
 #include "studies/rung.hpp"
 
@@ -135,15 +136,14 @@ private:
         const double dt = dt_ * static_cast<double>(in_dt);
         try {
             const auto solver = make_solver(scene.beam, data, mesh, scene.scheme, dt, needs_);
+            const std::int64_t steps = steps_ / in_dt;
+            TimeLevels times(data, scene.scheme.time, dt * static_cast<double>(steps), steps);
             auto next = levels_.begin();
-            for (std::int64_t level = in_dt; next != levels_.end(); level += in_dt) {
-                const double t = dt_ * static_cast<double>(level);
-                VectorXd amplitudes;
-                if (data.amplitude_count > 0)
-                    amplitudes = data.amplitudes(ArrayXd::Constant(1, t)).col(0).matrix();
-                if (const std::string reason = solver->step(t, amplitudes); !reason.empty()) {
+            for (std::int64_t n = 1; next != levels_.end(); ++n) {
+                const std::int64_t level = n * in_dt;
+                if (const std::string reason = solver->step(times.at(n)); !reason.empty()) {
                     std::ostringstream text;
-                    text << reason << " at t = " << t << " with " << mesh.elements()
+                    text << reason << " at t = " << times.time(n) << " with " << mesh.elements()
                          << " elements, dt = " << dt;
                     return text.str();
                 }

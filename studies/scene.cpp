@@ -72,7 +72,9 @@ Scheme read_scheme(TableReader table) {
     Scheme scheme;
     if (const auto algorithm = table.choice("algorithm", {"direct", "fixed-point"}))
         scheme.algorithm = *algorithm == 0 ? Algorithm::direct : Algorithm::fixed_point;
-    table.choice("time", {"euler"});
+    const auto times = TimeScheme::names();
+    if (const auto time = table.choice("time", times))
+        scheme.time = TimeScheme::named(times[*time]);
     if (const auto mass = table.choice("thermal_mass", {"consistent", "lumped"}))
         scheme.thermal_mass = *mass == 0 ? ThermalMass::consistent : ThermalMass::lumped;
     if (const auto tolerance = table.number("tolerance")) {
@@ -86,6 +88,13 @@ Scheme read_scheme(TableReader table) {
                                                            text_of(*tolerance) +
                                                            "; it must be > 0");
         scheme.tolerance = *tolerance;
+    }
+    if (const auto basis = table.choice("basis", {"automatic", "nodal"})) {
+        if (scheme.algorithm != Algorithm::direct)
+            throw InputError(table.place("basis"),
+                             table.full("basis") + " belongs to algorithm = \"direct\"; the "
+                                                   "paper's has its nodal values only: remove it");
+        scheme.basis = *basis == 0 ? Basis::automatic : Basis::nodal;
     }
     table.finish();
     return scheme;

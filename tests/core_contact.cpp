@@ -57,7 +57,7 @@ BOOST_DATA_TEST_CASE(complementarity_holds_in_every_step,
     int on_upper = 0;
     int released = 0;
     double previous = 0.0;
-    march(*solver, data, dt, 500, [&](double) {
+    march(*solver, data, scheme.time, dt, 500, [&](double) {
         const DiscontinuousLinear w = solver->curvature();
         const double tip = tip_moment(mesh, w);
         const double stress = solver->contact_stress();

@@ -84,7 +84,10 @@ BOOST_DATA_TEST_CASE(separated_and_general_sources_give_the_same_errors, data::m
     const RunResult general = run(request, problem);
     BOOST_REQUIRE_MESSAGE(general.status == RunStatus::ok, general.reason);
     BOOST_TEST(separated.counters.source_evaluations == 0);
-    BOOST_TEST(general.counters.source_evaluations == 2 * 100);
+    std::int64_t solves = 0;
+    for (std::int64_t n = 1; n <= request.steps; ++n)
+        solves += static_cast<std::int64_t>(scheme.time.at_step(n).stages.size());
+    BOOST_TEST(general.counters.source_evaluations == 2 * solves);
     const double tolerance =
         scheme.algorithm == Algorithm::direct ? 1e-11 : 1e-6; // h⁻⁴ round-off in the Hermite form
     for (std::size_t k = 0; k < request.norms.size(); ++k)

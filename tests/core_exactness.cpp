@@ -90,7 +90,7 @@ BOOST_DATA_TEST_CASE(stationary_heat_is_exact_at_the_nodes,
         manufactured_problem(parse_solution("theta = 'x*(1 - x)'\nu = '0'", "patch"), beam, 1.0);
     const Mesh mesh = Mesh::uniform(elements);
     const auto solver = make_solver(beam, problem, mesh, scheme, 0.05, Needs{});
-    march(*solver, problem, 0.05, 20, [&](double) {
+    march(*solver, problem, scheme.time, 0.05, 20, [&](double) {
         BOOST_TEST(
             (solver->temperature().array() - mesh.nodes * (1.0 - mesh.nodes)).abs().maxCoeff() <=
             1e-15);
@@ -98,7 +98,7 @@ BOOST_DATA_TEST_CASE(stationary_heat_is_exact_at_the_nodes,
 }
 
 BOOST_DATA_TEST_CASE(heat_source_warms_a_mode_as_the_discrete_eigenvalue_says,
-                     data::make(all_schemes), scheme) {
+                     data::make(schemes_of("euler")), scheme) {
     // With f = sin πx and α = 0, Θ stays a multiple of the discrete mode v_i = sin πx_i, an
     // eigenvector of M and K: Kv = k v with k = 2(1 − cos πh)/h, Mv = m v with m = h(2 + cos πh)/3
     // (lumped: h). The load of sin πx is 2(1 − cos πh)/(hπ²) v. One step: (m + Δt k) c¹ = Δt·load.
@@ -117,7 +117,7 @@ BOOST_DATA_TEST_CASE(heat_source_warms_a_mode_as_the_discrete_eigenvalue_says,
     const double load = 2.0 * (1.0 - std::cos(pi * h)) / (h * pi * pi);
     double expected = 0.0;
     const auto solver = make_solver(beam, problem, mesh, scheme, dt, Needs{});
-    march(*solver, problem, dt, 5, [&](double) {
+    march(*solver, problem, scheme.time, dt, 5, [&](double) {
         expected = (m * expected + dt * load) / (m + dt * k);
         BOOST_TEST(
             (solver->temperature().array() - expected * (pi * mesh.nodes).sin()).abs().maxCoeff() <=

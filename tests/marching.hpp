@@ -2,9 +2,12 @@
 
 #include "core/linear_elements.hpp"
 #include "core/run.hpp"
+#include "core/time_levels.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
+#include <iterator>
 #include <ostream>
 #include <stdexcept>
 #include <string>
@@ -13,12 +16,23 @@
 namespace tvbeam {
 
 /// Every way of solving a step: tests of general properties run over all of them.
-inline const std::vector<Scheme> all_schemes{
-    {Algorithm::direct, ThermalMass::consistent, 0.0},
-    {Algorithm::direct, ThermalMass::lumped, 0.0},
-    {Algorithm::fixed_point, ThermalMass::consistent, 1e-13},
-    {Algorithm::fixed_point, ThermalMass::lumped, 1e-13},
-};
+inline const std::vector<Scheme> all_schemes = [] {
+    std::vector<Scheme> all;
+    for (const auto& time : TimeScheme::names())
+        for (const auto mass : {ThermalMass::consistent, ThermalMass::lumped}) {
+            all.push_back({Algorithm::direct, mass, 0.0, TimeScheme::named(time)});
+            all.push_back({Algorithm::fixed_point, mass, 1e-13, TimeScheme::named(time)});
+        }
+    return all;
+}();
+
+/// Those of one time scheme.
+inline std::vector<Scheme> schemes_of(const std::string& time) {
+    std::vector<Scheme> some;
+    std::copy_if(all_schemes.begin(), all_schemes.end(), std::back_inserter(some),
+                 [&](const Scheme& scheme) { return scheme.time.name == time; });
+    return some;
+}
 
 inline std::ostream& operator<<(std::ostream& stream, ThermalMass mass) {
     return stream << (mass == ThermalMass::lumped ? "lumped" : "consistent");
@@ -27,7 +41,7 @@ inline std::ostream& operator<<(std::ostream& stream, ThermalMass mass) {
 /// The name of a scheme in the log of a failing data test.
 inline std::ostream& operator<<(std::ostream& stream, const Scheme& scheme) {
     return stream << (scheme.algorithm == Algorithm::direct ? "direct" : "fixed point") << ", "
-                  << scheme.thermal_mass;
+                  << scheme.time.name << ", " << scheme.thermal_mass;
 }
 
 /// A load with amplitude A(t): the heat source f = A(t) φ(x), or the shear load G = A(t), for which
@@ -66,19 +80,16 @@ inline ProblemData forced_problem(const std::vector<Load>& loads) {
     return data;
 }
 
-/// Steps a solver and visits every time level; fails the program's test by an exception when a step
-/// fails.
-inline void march(Solver& solver, const ProblemData& data, double dt, int steps,
-                  const std::function<void(double t)>& visit) {
+/// Steps a solver of the time scheme given and visits every time level; fails the program's test by
+/// an exception when a step fails.
+inline void march(Solver& solver, const ProblemData& data, const TimeScheme& scheme, double dt,
+                  int steps, const std::function<void(double t)>& visit) {
+    TimeLevels levels(data, scheme, dt * steps, steps);
     for (int n = 1; n <= steps; ++n) {
-        const double t = n * dt;
-        Eigen::VectorXd amplitudes;
-        if (data.amplitude_count > 0)
-            amplitudes = data.amplitudes(Eigen::ArrayXd::Constant(1, t)).col(0).matrix();
-        const std::string reason = solver.step(t, amplitudes);
+        const std::string reason = solver.step(levels.at(n));
         if (!reason.empty())
             throw std::runtime_error(reason);
-        visit(t);
+        visit(levels.time(n));
     }
 }
 
