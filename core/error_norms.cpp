@@ -14,20 +14,6 @@ namespace tvbeam {
 
 namespace {
 
-constexpr std::size_t index(Quantity quantity) {
-    return static_cast<std::size_t>(quantity);
-}
-
-QuantitySet all_quantities(const std::vector<Norm>& norms) {
-    QuantitySet set{};
-    for (const auto& norm : norms) {
-        const QuantitySet more = norm.quantities();
-        for (std::size_t q = 0; q < quantity_count; ++q)
-            set[q] = set[q] || more[q];
-    }
-    return set;
-}
-
 /// Whether ‖U_xx − u_xx‖ can be split: w then has no part that is known on points only.
 bool curvature_splits(const ProblemData& data) {
     return data.exact->u_xx.is_separable() && data.moment_load.is_separable() &&
@@ -186,12 +172,12 @@ public:
                 }
     }
 
-    std::array<double, quantity_count>
-    squares(double t, const Solver& solver, const Eigen::Ref<const Eigen::VectorXd>& amplitudes) {
+    Squares squares(double t, const Solver& solver,
+                    const Eigen::Ref<const Eigen::VectorXd>& amplitudes) {
         const auto exact = fields();
         const Eigen::ArrayXd& xi = rule_.points;
         const Eigen::Index s = mesh_.elements();
-        std::array<double, quantity_count> result{};
+        Squares result{};
         const auto integrate = [&](Quantity quantity, const Eigen::ArrayXXd& discrete) {
             const std::size_t q = index(quantity);
             Eigen::ArrayXXd error = discrete;
@@ -283,21 +269,20 @@ private:
 
 ErrorNorms::ErrorNorms(const Beam& beam, const ProblemData& data, const Mesh& mesh,
                        const std::vector<Norm>& norms, const MomentForm* moment_form)
-    : data_(data), norms_(norms), needed_(all_quantities(norms)), moment_form_(moment_form) {
-    QuantitySet pointwise = needed_;
+    : data_(data), sums_(norms), moment_form_(moment_form) {
+    const QuantitySet& needed = sums_.needed();
+    QuantitySet pointwise = needed;
     pointwise[index(Quantity::stress)] = false;
-    if (needed_[index(Quantity::theta)] && data.exact->theta.is_separable()) {
+    if (needed[index(Quantity::theta)] && data.exact->theta.is_separable()) {
         temperature_ = std::make_unique<SplitTemperature>(beam, data, mesh);
         pointwise[index(Quantity::theta)] = false;
     }
-    if (needed_[index(Quantity::u_xx)] && moment_form != nullptr && curvature_splits(data)) {
+    if (needed[index(Quantity::u_xx)] && moment_form != nullptr && curvature_splits(data)) {
         curvature_ = std::make_unique<SplitCurvatureError>(data, mesh);
         pointwise[index(Quantity::u_xx)] = false;
     }
     if (std::find(pointwise.begin(), pointwise.end(), true) != pointwise.end())
         pointwise_ = std::make_unique<Pointwise>(beam, data, mesh, pointwise);
-    for (const auto& norm : norms_)
-        sums_.emplace_back(norm.parts.size(), 0.0);
 }
 
 ErrorNorms::~ErrorNorms() = default;
@@ -305,7 +290,7 @@ ErrorNorms::~ErrorNorms() = default;
 Needs ErrorNorms::needs(const ProblemData& data, const std::vector<Norm>& norms) {
     if (norms.empty())
         return {};
-    const QuantitySet set = all_quantities(norms);
+    const QuantitySet set = quantities_of(norms);
     const bool integrates = set[index(Quantity::u)] || set[index(Quantity::u_x)];
     const bool bends = integrates || set[index(Quantity::u_xx)];
     return {.temperature = set[index(Quantity::theta)] || set[index(Quantity::theta_x)],
@@ -315,44 +300,19 @@ Needs ErrorNorms::needs(const ProblemData& data, const std::vector<Norm>& norms)
 
 void ErrorNorms::add(double t, double dt, const Solver& solver,
                      const Eigen::Ref<const Eigen::VectorXd>& amplitudes) {
-    std::array<double, quantity_count> squares{};
+    Squares squares{};
     if (pointwise_)
         squares = pointwise_->squares(t, solver, amplitudes);
     if (temperature_)
         squares[index(Quantity::theta)] = temperature_->square(solver, amplitudes);
     if (curvature_)
         squares[index(Quantity::u_xx)] = curvature_->square(*moment_form_, amplitudes);
-    if (needed_[index(Quantity::stress)]) {
+    if (sums_.needed()[index(Quantity::stress)]) {
         const double exact = data_.exact->stress ? amplitudes(*data_.exact->stress) : 0.0;
         const double error = solver.contact_stress() - exact;
         squares[index(Quantity::stress)] = error * error;
     }
-    evaluations_ += std::count(needed_.begin(), needed_.end(), true);
-
-    for (std::size_t k = 0; k < norms_.size(); ++k)
-        for (std::size_t part = 0; part < norms_[k].parts.size(); ++part) {
-            const TimeNorm& norm = norms_[k].parts[part];
-            double square = 0.0;
-            for (std::size_t q = 0; q < quantity_count; ++q)
-                if (norm.quantities[q])
-                    square += squares[q];
-            double& sum = sums_[k][part];
-            if (norm.kind == TimeNorm::Kind::L2)
-                sum += dt * square;
-            else if (!std::isnan(sum) && !(square <= sum)) // once NaN, always NaN
-                sum = square;
-        }
-}
-
-std::vector<double> ErrorNorms::values() const {
-    std::vector<double> values;
-    for (std::size_t k = 0; k < norms_.size(); ++k) {
-        double square = 0.0;
-        for (const double sum : sums_[k])
-            square += sum;
-        values.push_back(norms_[k].squared ? square : std::sqrt(square));
-    }
-    return values;
+    sums_.add(dt, squares);
 }
 
 std::int64_t ErrorNorms::doubles_allocated() const {

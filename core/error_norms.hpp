@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/norms.hpp"
+#include "core/norm_sums.hpp"
 #include "core/problem.hpp"
 #include "core/profile.hpp"
 #include "core/solver.hpp"
@@ -44,10 +44,10 @@ public:
 
     /// The norms so far, in the order in which they were asked for; NaN or infinite when the error
     /// is.
-    [[nodiscard]] std::vector<double> values() const;
+    [[nodiscard]] std::vector<double> values() const { return sums_.values(); }
 
     /// Spatial norms integrated so far.
-    [[nodiscard]] std::int64_t evaluations() const { return evaluations_; }
+    [[nodiscard]] std::int64_t evaluations() const { return sums_.evaluations(); }
 
     /// Doubles held by the tables of this object.
     [[nodiscard]] std::int64_t doubles_allocated() const;
@@ -58,14 +58,11 @@ private:
     class Pointwise;
 
     const ProblemData& data_;
-    std::vector<Norm> norms_;
-    QuantitySet needed_{};
+    NormSums sums_;
     const MomentForm* moment_form_;
     std::unique_ptr<SplitTemperature> temperature_;
     std::unique_ptr<SplitCurvatureError> curvature_;
     std::unique_ptr<Pointwise> pointwise_;
-    std::vector<std::vector<double>> sums_; // one a part of a norm
-    std::int64_t evaluations_ = 0;
 };
 
 } // namespace tvbeam

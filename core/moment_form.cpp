@@ -216,7 +216,6 @@ void MomentForm::make_contact() {
     ++counters_.tip_evaluations;
     if (stress_ == 0.0)
         return;
-    ++counters_.contact_steps;
     w_.weights.tail<1>()(0) += kappa_ * stress_;
     if (coupled_) {
         theta_ += stress_ * response_;

@@ -3,6 +3,7 @@
 #include "core/error_norms.hpp"
 #include "core/hermite_form.hpp"
 #include "core/moment_form.hpp"
+#include "core/sine_form.hpp"
 #include "core/time_levels.hpp"
 
 #include <algorithm>
@@ -21,6 +22,11 @@ RunResult failure(RunResult result, const std::string& reason) {
     result.reason = reason;
     result.errors.clear();
     return result;
+}
+
+bool all_finite(const std::vector<double>& errors) {
+    return std::all_of(errors.begin(), errors.end(),
+                       [](double error) { return std::isfinite(error); });
 }
 
 std::string located(const std::string& reason, std::int64_t step, std::int64_t steps, double t) {
@@ -43,6 +49,19 @@ RunResult run(const RunRequest& request, const ProblemData& data) {
     const double dt = request.final_time / static_cast<double>(request.steps);
     try {
         const Needs needs = ErrorNorms::needs(data, request.norms);
+        if (SineForm::suits(data, request.mesh, request.scheme, request.norms)) {
+            SineForm form(request.beam, data, request.mesh, request.scheme, request.final_time,
+                          request.steps, request.norms, needs);
+            if (form.march()) {
+                result.counters = form.counters();
+                if (!request.norms.empty())
+                    result.errors = form.errors();
+                if (all_finite(result.errors))
+                    return result;
+            }
+            // What is wrong, and where, the general form says.
+            result = {};
+        }
         const auto solver =
             make_solver(request.beam, data, request.mesh, request.scheme, dt, needs);
         std::optional<ErrorNorms> norms;
@@ -68,8 +87,7 @@ RunResult run(const RunRequest& request, const ProblemData& data) {
             result.errors = norms->values();
             result.counters.norm_evaluations = norms->evaluations();
             result.counters.doubles_allocated += norms->doubles_allocated();
-            if (!std::all_of(result.errors.begin(), result.errors.end(),
-                             [](double error) { return std::isfinite(error); }))
+            if (!all_finite(result.errors))
                 return failure(result, "an error norm is not finite at the end of the run");
         }
     } catch (const std::domain_error& error) {

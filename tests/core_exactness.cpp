@@ -66,19 +66,24 @@ BOOST_DATA_TEST_CASE(representable_data_are_reproduced_to_round_off,
     const double final_time = 1.5;
     const ProblemData problem =
         manufactured_problem(parse_solution(patch.text, "patch"), patch.beam, final_time);
-    std::vector<Norm> norms;
-    for (const auto& name : {"theta_LinfL2", "u_LinfL2", "u_LinfH1", "u_LinfH2semi", "sigma_L2"})
-        norms.push_back(*Norm::named(name));
-    const RunResult result =
-        run({patch.beam, Mesh::uniform(elements), scheme, final_time, 30, norms}, problem);
-    BOOST_REQUIRE_MESSAGE(result.status == RunStatus::ok, result.reason);
     // The moment form keeps round-off; the Hermite form multiplies it by the condition of B, h⁻⁴,
     // and by the tolerance of its iteration.
     const double s = elements;
     const double bound =
         scheme.algorithm == Algorithm::direct ? 1e-14 : 1e-14 * s * s * s * s + 1e-11;
-    for (std::size_t k = 0; k < norms.size(); ++k)
-        BOOST_TEST(result.errors[k] <= 20.0 * bound, norms[k].name << " " << result.errors[k]);
+    // The norms of u want nodal values; the others alone are measured in the sine basis.
+    for (const auto& names : {std::vector<std::string>{"u_LinfL2", "u_LinfH1", "theta_LinfL2",
+                                                       "u_LinfH2semi", "sigma_L2"},
+                              {"theta_LinfL2", "u_LinfH2semi", "sigma_L2"}}) {
+        std::vector<Norm> norms;
+        for (const auto& name : names)
+            norms.push_back(*Norm::named(name));
+        const RunResult result =
+            run({patch.beam, Mesh::uniform(elements), scheme, final_time, 30, norms}, problem);
+        BOOST_REQUIRE_MESSAGE(result.status == RunStatus::ok, result.reason);
+        for (std::size_t k = 0; k < norms.size(); ++k)
+            BOOST_TEST(result.errors[k] <= 20.0 * bound, norms[k].name << " " << result.errors[k]);
+    }
 }
 
 BOOST_DATA_TEST_CASE(stationary_heat_is_exact_at_the_nodes,

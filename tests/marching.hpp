@@ -26,6 +26,17 @@ inline const std::vector<Scheme> all_schemes = [] {
     return all;
 }();
 
+/// The same for run(), which has two ways of marching the direct algorithm.
+inline const std::vector<Scheme> all_runs = [] {
+    std::vector<Scheme> all = all_schemes;
+    for (const auto& scheme : all_schemes)
+        if (scheme.algorithm == Algorithm::direct) {
+            all.push_back(scheme);
+            all.back().basis = Basis::nodal;
+        }
+    return all;
+}();
+
 /// Those of one time scheme.
 inline std::vector<Scheme> schemes_of(const std::string& time) {
     std::vector<Scheme> some;
@@ -38,10 +49,14 @@ inline std::ostream& operator<<(std::ostream& stream, ThermalMass mass) {
     return stream << (mass == ThermalMass::lumped ? "lumped" : "consistent");
 }
 
+inline std::ostream& operator<<(std::ostream& stream, Basis basis) {
+    return stream << (basis == Basis::nodal ? "nodal values" : "automatic basis");
+}
+
 /// The name of a scheme in the log of a failing data test.
 inline std::ostream& operator<<(std::ostream& stream, const Scheme& scheme) {
     return stream << (scheme.algorithm == Algorithm::direct ? "direct" : "fixed point") << ", "
-                  << scheme.time.name << ", " << scheme.thermal_mass;
+                  << scheme.time.name << ", " << scheme.thermal_mass << ", " << scheme.basis;
 }
 
 /// A load with amplitude A(t): the heat source f = A(t) φ(x), or the shear load G = A(t), for which
