@@ -39,6 +39,7 @@ struct RunOptions {
     std::vector<std::string> overrides;
     std::string json;
     std::string csv;
+    int jobs = 1;
 };
 
 void report_error(const std::string& message) {
@@ -79,7 +80,7 @@ int run_command(const RunOptions& options) {
     const Scene scene = read_scene(options.scene, options.overrides);
     Destination json(options.json);
     Destination csv(options.csv);
-    const StudyResult result = run_study(scene);
+    const StudyResult result = run_study(scene, options.jobs);
     if (!json.standard_output() && !csv.standard_output())
         write_standard_output(terminal_report(result));
     if (json.wanted())
@@ -101,6 +102,7 @@ struct CheckOptions {
     std::string record;
     std::string baseline;
     double tolerance = 1e-6;
+    int jobs = 1;
 };
 
 /// The first run of a result that failed, in words; empty when none did.
@@ -137,7 +139,7 @@ int check_command(const CheckOptions& options) {
     std::vector<CheckedScene> checked;
     for (const auto& scene : scenes) {
         const auto start = std::chrono::steady_clock::now();
-        results.push_back(run_study(scene));
+        results.push_back(run_study(scene, options.jobs));
         const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
         checked.push_back(
             {scene.name, elapsed.count(), first_failure(results.back()), check(results.back())});
@@ -205,6 +207,17 @@ int list_command() {
     return done;
 }
 
+void add_jobs(CLI::App& command, int& jobs) {
+    constexpr int most = 1024;
+    command
+        .add_option("--jobs", jobs,
+                    "runs at a time: of a ladder, or of the grid of [orders]; the results do not "
+                    "depend on it")
+        ->check(CLI::Range(1, most))
+        ->type_name("N")
+        ->capture_default_str();
+}
+
 int command_line(int argc, char** argv) {
     CLI::App app(
         "Verification and convergence studies for a thermoviscoelastic beam between two stops.\n"
@@ -229,6 +242,7 @@ int command_line(int argc, char** argv) {
     run->add_option("--csv", options.csv,
                     "write the ladder as CSV; -: to standard output, in place of the table")
         ->type_name("FILE|-");
+    add_jobs(*run, options.jobs);
 
     CheckOptions checks;
     auto* check = app.add_subcommand(
@@ -250,6 +264,7 @@ int command_line(int argc, char** argv) {
     check->add_option("--tolerance", checks.tolerance, "relative, both sides, for --baseline")
         ->check(CLI::PositiveNumber)
         ->capture_default_str();
+    add_jobs(*check, checks.jobs);
 
     std::string csv;
     std::string error_column;

@@ -52,10 +52,9 @@ std::vector<RungResult> telling(const Scene& scene, const std::vector<RungResult
 } // namespace
 
 LadderResult run_ladder(const Scene& scene, const LadderBlock& ladder, const ProblemData& data,
-                        const OrdersResult* orders) {
+                        const OrdersResult* orders, int jobs) {
     LadderResult result;
-    for (const auto& rung : ladder.rungs)
-        result.rungs.push_back(run_rung(scene, ladder.norms, ladder.final_time, rung, data));
+    result.rungs = run_rungs(scene, ladder.norms, ladder.final_time, ladder.rungs, data, jobs);
     const auto remarked = telling(scene, result.rungs);
     for (std::size_t k = 0; k < ladder.norms.size(); ++k) {
         const Norm& norm = ladder.norms[k];

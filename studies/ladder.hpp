@@ -27,8 +27,9 @@ struct LadderResult {
 };
 
 /// Runs every rung of the scene's ladder, the others also after one that failed. orders: the grid
-/// study of the same scene, whose models then judge the rungs and predict them; or null.
+/// study of the same scene, whose models then judge the rungs and predict them; or null. jobs: as
+/// in run_rungs.
 LadderResult run_ladder(const Scene& scene, const LadderBlock& ladder, const ProblemData& data,
-                        const OrdersResult* orders);
+                        const OrdersResult* orders, int jobs);
 
 } // namespace tvbeam

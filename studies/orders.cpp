@@ -48,10 +48,10 @@ const TwoTermModel* OrdersResult::model_of(const Norm& norm) const {
     return found != norms.end() && found->fit.holds() ? &found->fit.model : nullptr;
 }
 
-OrdersResult run_orders(const Scene& scene, const OrdersBlock& block, const ProblemData& data) {
+OrdersResult run_orders(const Scene& scene, const OrdersBlock& block, const ProblemData& data,
+                        int jobs) {
     OrdersResult result;
-    for (const auto& rung : block.grid)
-        result.runs.push_back(run_rung(scene, block.norms, block.final_time, rung, data));
+    result.runs = run_rungs(scene, block.norms, block.final_time, block.grid, data, jobs);
     for (std::size_t k = 0; k < block.norms.size(); ++k) {
         const Norm& norm = block.norms[k];
         const auto roots = root_records_of(result.runs, k, norm);

@@ -34,6 +34,8 @@ struct OrdersResult {
     [[nodiscard]] const TwoTermModel* model_of(const Norm& norm) const;
 };
 
-OrdersResult run_orders(const Scene& scene, const OrdersBlock& block, const ProblemData& data);
+/// jobs: as in run_rungs.
+OrdersResult run_orders(const Scene& scene, const OrdersBlock& block, const ProblemData& data,
+                        int jobs);
 
 } // namespace tvbeam

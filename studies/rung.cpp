@@ -1,5 +1,7 @@
 #include "studies/rung.hpp"
 
+#include "studies/parallel.hpp"
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -23,6 +25,20 @@ RungResult run_rung(const Scene& scene, const std::vector<Norm>& norms, double f
     if (scene.reference && scene.reference->is(rung))
         std::fill(result.errors.begin(), result.errors.end(), 0.0);
     return result;
+}
+
+std::vector<RungResult> run_rungs(const Scene& scene, const std::vector<Norm>& norms,
+                                  double final_time, const std::vector<Rung>& rungs,
+                                  const ProblemData& data, int jobs) {
+    std::vector<double> costs;
+    costs.reserve(rungs.size());
+    for (const auto& rung : rungs)
+        costs.push_back(static_cast<double>(rung.elements) * static_cast<double>(rung.steps));
+    std::vector<RungResult> results(rungs.size());
+    for_each_longest_first(costs, jobs, [&](std::size_t i) {
+        results[i] = run_rung(scene, norms, final_time, rungs[i], data);
+    });
+    return results;
 }
 
 std::vector<Refinement> records_of(const std::vector<RungResult>& rungs, std::size_t k) {

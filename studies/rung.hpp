@@ -23,6 +23,12 @@ struct RungResult {
 RungResult run_rung(const Scene& scene, const std::vector<Norm>& norms, double final_time,
                     const Rung& rung, const ProblemData& data);
 
+/// Runs it on every rung, in up to `jobs` threads; the results stand in the order of the rungs and
+/// do not depend on the number of jobs, but for their seconds.
+std::vector<RungResult> run_rungs(const Scene& scene, const std::vector<Norm>& norms,
+                                  double final_time, const std::vector<Rung>& rungs,
+                                  const ProblemData& data, int jobs);
+
 /// The runs as records for an order analysis of norm k; a failed run has a NaN error.
 std::vector<Refinement> records_of(const std::vector<RungResult>& rungs, std::size_t k);
 

@@ -8,7 +8,7 @@ bool StudyResult::failed() const {
     return (orders && any_failed(orders->runs)) || (ladder && any_failed(ladder->rungs));
 }
 
-StudyResult run_study(const Scene& scene) {
+StudyResult run_study(const Scene& scene, int jobs) {
     StudyResult result{.scene = scene, .left_out = {}, .reference = {}, .orders = {}, .ladder = {}};
     // One problem serves all studies: it is admissible up to the longest of their times.
     const double final_time = std::max(scene.ladder ? scene.ladder->final_time : 0.0,
@@ -18,10 +18,10 @@ StudyResult run_study(const Scene& scene) {
         result.reference = measure_against_reference(scene, final_time, data);
     result.left_out = left_out(scene, data);
     if (scene.orders)
-        result.orders = run_orders(scene, *scene.orders, data);
+        result.orders = run_orders(scene, *scene.orders, data, jobs);
     if (scene.ladder)
         result.ladder =
-            run_ladder(scene, *scene.ladder, data, result.orders ? &*result.orders : nullptr);
+            run_ladder(scene, *scene.ladder, data, result.orders ? &*result.orders : nullptr, jobs);
     return result;
 }
 

@@ -22,8 +22,8 @@ struct StudyResult {
     [[nodiscard]] bool failed() const; ///< some run failed
 };
 
-/// Runs the studies of a scene. Throws InputError when its problem is not admissible; nothing has
-/// run then.
-StudyResult run_study(const Scene& scene);
+/// Runs the studies of a scene, their runs in up to `jobs` ≥ 1 threads (run_rungs). Throws
+/// InputError when its problem is not admissible; nothing has run then.
+StudyResult run_study(const Scene& scene, int jobs = 1);
 
 } // namespace tvbeam

@@ -156,6 +156,31 @@ BOOST_AUTO_TEST_CASE(wrong_usage_exits_with_two) {
     }
 }
 
+BOOST_AUTO_TEST_CASE(a_number_of_jobs_that_is_not_one_is_refused) {
+    const TemporaryDirectory directory;
+    for (const std::string command : {"run", "check"})
+        for (const std::string number : {"0", "-1", "two", "1.5", "99999999999999999999", "''"}) {
+            const Called called = call(directory, command + " table1 --jobs " + number);
+            BOOST_TEST(called.exit == 2, number);
+            BOOST_TEST(called.output.empty());
+            BOOST_TEST(has(called.errors, "--jobs"), called.errors);
+        }
+}
+
+BOOST_AUTO_TEST_CASE(jobs_change_nothing_but_the_seconds) {
+    const TemporaryDirectory directory;
+    const auto without_seconds = [&](const std::string& jobs) {
+        auto json =
+            nlohmann::json::parse(call(directory, small + " --json - --jobs " + jobs).output);
+        for (auto& rung : json.at("ladder").at("rungs"))
+            rung.erase("seconds");
+        for (auto& run : json.at("orders").at("runs"))
+            run.erase("seconds");
+        return json;
+    };
+    BOOST_TEST(without_seconds("1") == without_seconds("3"));
+}
+
 BOOST_AUTO_TEST_CASE(help_exits_with_zero_and_shows_an_example) {
     const TemporaryDirectory directory;
     for (const std::string command : {"run", "check", "analyse", "derive", "list"}) {
