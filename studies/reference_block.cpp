@@ -12,18 +12,9 @@ namespace tvbeam {
 
 namespace {
 
-constexpr std::int64_t most_elements = 10'000'000;
-constexpr double most_steps = 1e12;
 /// The cubics of an extrapolated reference go through four nodes, also of the mesh with 2h.
 constexpr std::int64_t fewest_for_richardson = 6;
 constexpr double most_bytes = 1024.0 * 1024.0 * 1024.0;
-
-std::string text_of(double value) {
-    std::ostringstream text;
-    text.precision(12);
-    text << value;
-    return text.str();
-}
 
 /// The studies of a scene, with the names of their blocks.
 struct Study {
@@ -76,7 +67,7 @@ double read_dt(TableReader& table, bool richardson, const std::vector<Study>& st
                              " is missing; give a step that divides every dt of the studies");
     const double dt = *given;
     const auto refuse = [&](const std::string& why) {
-        throw InputError(table.place("dt"), table.full("dt") + " is " + text_of(dt) + why);
+        throw InputError(table.place("dt"), table.full("dt") + " is " + message_text(dt) + why);
     };
     if (!(dt > 0.0))
         refuse("; it must be > 0");
@@ -86,7 +77,7 @@ double read_dt(TableReader& table, bool richardson, const std::vector<Study>& st
                    : "; it must ";
     for (const auto& [name, rungs] : studies)
         for (const auto& rung : *rungs) {
-            const std::string held = text_of(rung.dt) + " of " + name + ".dt";
+            const std::string held = message_text(rung.dt) + " of " + name + ".dt";
             const double ratio = rung.dt / unit;
             const double steps = rung.dt / dt * static_cast<double>(rung.steps);
             std::ostringstream why;
@@ -95,10 +86,11 @@ double read_dt(TableReader& table, bool richardson, const std::vector<Study>& st
             else if (ratio < 1.0 - 1e-9)
                 why << ", coarser than the " << held << "; a reference is at least as fine";
             else if (!(steps <= most_steps))
-                why << ", which makes " << text_of(steps) << " steps; at most 1e12 are possible";
+                why << ", which makes " << message_text(steps)
+                    << " steps; at most 1e12 are possible";
             else if (std::abs(ratio - std::round(ratio)) > 1e-9 * ratio)
                 why << must << "divide the " << held << " into a whole number of steps, not "
-                    << text_of(ratio);
+                    << message_text(ratio);
             if (!why.str().empty())
                 refuse(why.str());
         }
@@ -113,9 +105,10 @@ void require_memory(const TableReader& table, const ReferenceBlock& reference,
             3.0 * sizeof(double) * static_cast<double>(reference.elements) * levels;
         if (bytes > most_bytes)
             throw InputError(table.place("elements"),
-                             "the reference would keep " + text_of(levels) + " time levels of " +
-                                 std::to_string(reference.elements) + " elements, " +
-                                 text_of(std::ceil(bytes / most_bytes * 10.0) / 10.0) +
+                             "the reference would keep " + message_text(levels) +
+                                 " time levels of " + std::to_string(reference.elements) +
+                                 " elements, " +
+                                 message_text(std::ceil(bytes / most_bytes * 10.0) / 10.0) +
                                  " GiB; at most 1 GiB is kept: take fewer elements, or fewer "
                                  "steps in the studies");
     };

@@ -2,29 +2,18 @@
 
 #include "core/error_norms.hpp"
 #include "mms/manufactured_problem.hpp"
-#include "mms/nearest_name.hpp"
-#include "mms/number_expression.hpp"
+#include "studies/scheme_keys.hpp"
 #include "studies/shipped.hpp"
+#include "studies/study_keys.hpp"
 #include "studies/toml_reader.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <sstream>
 
 namespace tvbeam {
 
 namespace {
-
-constexpr std::int64_t most_elements = 10'000'000;
-constexpr double most_steps = 1e12;
-
-std::string text_of(double value) {
-    std::ostringstream text;
-    text.precision(12);
-    text << value;
-    return text.str();
-}
 
 /// A number that must not be below the limit; the rule is put in words by the caller.
 double at_least_zero(TableReader& table, std::string_view key) {
@@ -34,7 +23,7 @@ double at_least_zero(TableReader& table, std::string_view key) {
                          table.full(key) + " is missing; it must be given and be >= 0");
     if (*value < 0.0)
         throw InputError(table.place(key),
-                         table.full(key) + " is " + text_of(*value) + "; it must be >= 0");
+                         table.full(key) + " is " + message_text(*value) + "; it must be >= 0");
     return *value;
 }
 
@@ -52,135 +41,20 @@ Beam read_beam(TableReader table, bool& stops_given) {
         beam.stops = {(*stops)[0], (*stops)[1]};
         if (beam.stops.lower >= beam.stops.upper)
             throw InputError(table.place("stops"), table.full("stops") + " is [" +
-                                                       text_of(beam.stops.lower) + ", " +
-                                                       text_of(beam.stops.upper) +
+                                                       message_text(beam.stops.lower) + ", " +
+                                                       message_text(beam.stops.upper) +
                                                        "]; g1 must be below g2: are they swapped?");
         if (!(beam.stops.lower < 0.0))
             throw InputError(table.place("stops", 0), "g1, the first of " + table.full("stops") +
-                                                          ", is " + text_of(beam.stops.lower) +
+                                                          ", is " + message_text(beam.stops.lower) +
                                                           "; it must be < 0 (-inf: no stop below)");
         if (!(beam.stops.upper > 0.0))
             throw InputError(table.place("stops", 1), "g2, the second of " + table.full("stops") +
-                                                          ", is " + text_of(beam.stops.upper) +
+                                                          ", is " + message_text(beam.stops.upper) +
                                                           "; it must be > 0 (inf: no stop above)");
     }
     table.finish();
     return beam;
-}
-
-Scheme read_scheme(TableReader table) {
-    Scheme scheme;
-    if (const auto algorithm = table.choice("algorithm", {"direct", "fixed-point"}))
-        scheme.algorithm = *algorithm == 0 ? Algorithm::direct : Algorithm::fixed_point;
-    const auto times = TimeScheme::names();
-    if (const auto time = table.choice("time", times))
-        scheme.time = TimeScheme::named(times[*time]);
-    if (const auto mass = table.choice("thermal_mass", {"consistent", "lumped"}))
-        scheme.thermal_mass = *mass == 0 ? ThermalMass::consistent : ThermalMass::lumped;
-    if (const auto tolerance = table.number("tolerance")) {
-        if (scheme.algorithm != Algorithm::fixed_point)
-            throw InputError(table.place("tolerance"),
-                             table.full("tolerance") +
-                                 " belongs to algorithm = \"fixed-point\"; "
-                                 "the direct algorithm does not iterate: remove it");
-        if (!(*tolerance > 0.0))
-            throw InputError(table.place("tolerance"), table.full("tolerance") + " is " +
-                                                           text_of(*tolerance) +
-                                                           "; it must be > 0");
-        scheme.tolerance = *tolerance;
-    }
-    if (const auto basis = table.choice("basis", {"automatic", "nodal"})) {
-        if (scheme.algorithm != Algorithm::direct)
-            throw InputError(table.place("basis"),
-                             table.full("basis") + " belongs to algorithm = \"direct\"; the "
-                                                   "paper's has its nodal values only: remove it");
-        scheme.basis = *basis == 0 ? Basis::automatic : Basis::nodal;
-    }
-    table.finish();
-    return scheme;
-}
-
-std::vector<std::int64_t> read_elements(TableReader& table) {
-    const auto elements = table.integers("elements");
-    if (!elements)
-        throw InputError(table.place("elements"),
-                         table.full("elements") +
-                             " is missing; give the numbers of elements, e.g. [10, 20, 40]");
-    if (elements->empty())
-        throw InputError(table.place("elements"),
-                         table.full("elements") + " is empty; a ladder has at least one rung");
-    for (std::size_t i = 0; i < elements->size(); ++i)
-        if ((*elements)[i] < 1 || (*elements)[i] > most_elements)
-            throw InputError(table.place("elements", i),
-                             table.full("elements") + " holds " + std::to_string((*elements)[i]) +
-                                 "; a mesh has 1 to " + std::to_string(most_elements) +
-                                 " elements");
-    return *elements;
-}
-
-/// dt as a list of one number a rung, or one expression in s.
-std::vector<double> read_dt(TableReader& table, const std::vector<std::int64_t>& elements) {
-    std::vector<double> dt;
-    if (table.is_string("dt")) {
-        const SourceText formula = *table.expression("dt");
-        for (const std::int64_t s : elements)
-            dt.push_back(number_from_expression(formula, {{"s", static_cast<double>(s)}}));
-    } else if (const auto list = table.numbers("dt")) {
-        if (list->size() != elements.size())
-            throw InputError(table.place("dt"),
-                             table.full("dt") + " has " + std::to_string(list->size()) +
-                                 " values, " + table.full("elements") + " has " +
-                                 std::to_string(elements.size()) +
-                                 "; give one dt a rung, or one expression in s, e.g. \"0.01/s\"");
-        dt = *list;
-    } else {
-        throw InputError(table.place("dt"), table.full("dt") +
-                                                " is missing; give one dt a rung, or one "
-                                                "expression in s, e.g. \"0.01/s\"");
-    }
-    return dt;
-}
-
-/// The number of steps of length dt in final_time; they must fill it to 1e-9 of a step.
-std::int64_t steps_of(const TableReader& table, std::size_t rung, double final_time, double dt) {
-    const Place place = table.place("dt", rung);
-    if (!(dt > 0.0))
-        throw InputError(place, table.full("dt") + " is " + text_of(dt) + "; it must be > 0");
-    const double ratio = final_time / dt;
-    const double steps = std::max(1.0, std::round(ratio));
-    if (!(steps <= most_steps))
-        throw InputError(place, table.full("dt") + " is " + text_of(dt) + ", which makes " +
-                                    text_of(ratio) + " steps; at most 1e12 are possible");
-    if (std::abs(ratio - steps) > 1e-9 * steps)
-        throw InputError(place, table.full("dt") + " is " + text_of(dt) + "; it must divide " +
-                                    table.full("final_time") + " = " + text_of(final_time) +
-                                    " into a whole number of steps, not " + text_of(ratio) +
-                                    "; the nearest is " + text_of(final_time / steps));
-    return static_cast<std::int64_t>(steps);
-}
-
-std::vector<Norm> read_norms(TableReader& table) {
-    std::vector<Norm> norms;
-    const auto names = table.texts("norms").value_or(std::vector<std::string>{});
-    for (std::size_t i = 0; i < names.size(); ++i) {
-        const auto norm = Norm::named(names[i]);
-        if (!norm) {
-            std::vector<std::string> known = Norm::names();
-            std::string list;
-            for (const auto& name : known)
-                list += (list.empty() ? "" : ", ") + name;
-            throw InputError(table.place("norms", i),
-                             "unknown norm '" + names[i] + "'" + did_you_mean(names[i], known) +
-                                 "; known: " + list +
-                                 ", and their squares with _sq behind the name");
-        }
-        if (std::any_of(norms.begin(), norms.end(),
-                        [&](const Norm& other) { return other.name == norm->name; }))
-            throw InputError(table.place("norms", i),
-                             table.full("norms") + " names '" + names[i] + "' twice; remove one");
-        norms.push_back(*norm);
-    }
-    return norms;
 }
 
 /// Figures may stand there for norms that are not asked for, e.g. after --set ladder.norms=…
@@ -208,31 +82,16 @@ PrintedFigures read_printed(TableReader table, const LadderBlock& ladder) {
     return printed;
 }
 
-double read_final_time(TableReader& table) {
-    const auto final_time = table.number("final_time");
-    if (!final_time)
-        throw InputError(table.place("final_time"),
-                         table.full("final_time") +
-                             " is missing; give the time at which the run ends");
-    if (!(*final_time > 0.0))
-        throw InputError(table.place("final_time"), table.full("final_time") + " is " +
-                                                        text_of(*final_time) + "; it must be > 0");
-    return *final_time;
+Scheme read_scheme(TableReader table) {
+    Scheme scheme = read_scheme_keys(table, {});
+    table.finish();
+    return scheme;
 }
 
 LadderBlock read_ladder(TableReader table) {
     LadderBlock ladder;
     ladder.final_time = read_final_time(table);
-    const auto elements = read_elements(table);
-    const auto dt = read_dt(table, elements);
-    for (std::size_t i = 1; i < elements.size(); ++i)
-        if (elements[i] < elements[i - 1] || dt[i] > dt[i - 1])
-            throw InputError(
-                table.place(elements[i] < elements[i - 1] ? "elements" : "dt", i),
-                "rung " + std::to_string(i + 1) + " of " + table.full("elements") +
-                    " is coarser than the one before it; a ladder goes from coarse to fine");
-    for (std::size_t i = 0; i < elements.size(); ++i)
-        ladder.rungs.push_back({elements[i], steps_of(table, i, ladder.final_time, dt[i]), dt[i]});
+    ladder.rungs = read_rungs(table, ladder.final_time);
     ladder.norms = read_norms(table);
     if (auto printed = table.table("printed"))
         ladder.printed = read_printed(*std::move(printed), ladder);

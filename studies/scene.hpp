@@ -7,8 +7,8 @@
 #include "mms/solution.hpp"
 #include "studies/expectation.hpp"
 #include "studies/reference_block.hpp"
+#include "studies/study_keys.hpp"
 
-#include <cstdint>
 #include <map>
 #include <optional>
 #include <string>
@@ -16,13 +16,6 @@
 #include <vector>
 
 namespace tvbeam {
-
-/// One run of a ladder: s elements of length 1/s and N steps of length dt.
-struct Rung {
-    std::int64_t elements = 0;
-    std::int64_t steps = 0;
-    double dt = 0.0; ///< as the scene gives it; steps · dt = final_time to rounding
-};
 
 /// Figures to compare with, a list of one figure a rung for each norm.
 struct PrintedFigures {

@@ -133,6 +133,13 @@ void merge_block(TomlDocument& document, std::string_view key) {
     merge(document.table, block);
 }
 
+std::string message_text(double value) {
+    std::ostringstream text;
+    text.precision(12);
+    text << value;
+    return text.str();
+}
+
 TableReader::TableReader(const TomlDocument& document, const toml::table& table, std::string path)
     : document_(&document), table_(&table), path_(std::move(path)) {}
 

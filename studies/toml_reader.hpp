@@ -31,6 +31,9 @@ void override_key(TomlDocument& document, const std::string& assignment);
 /// Takes the table at `key` away and puts its values in place of those of the same path.
 void merge_block(TomlDocument& document, std::string_view key);
 
+/// A number as messages print it: 12 significant digits.
+std::string message_text(double value);
+
 /// One table of a document, read key by key: every reader notes the key as known, and finish()
 /// refuses the others. All readers throw InputError at the value when it has the wrong type or
 /// breaks the rule they are given.

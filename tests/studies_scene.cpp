@@ -90,7 +90,7 @@ const std::vector<Wrong> wrong_scenes{
      "scheme.tolerance is 0; it must be > 0"},
     // The ladder
     {"dt         = [1e-3, 5e-4]", "dt         = [1e-3, 3e-4]", "16:21",
-     "ladder.dt is 0.0003; it must divide ladder.final_time = 2 into a whole number of steps"},
+     "ladder.dt is 0.0003; it must divide final_time = 2 into a whole number of steps"},
     {"dt         = [1e-3, 5e-4]", "dt         = [1e-3]", "16:14",
      "ladder.dt has 1 values, ladder.elements has 2"},
     {"dt         = [1e-3, 5e-4]", "dt         = [1e-3, 0]", "16:21",
