@@ -21,18 +21,12 @@ constexpr const char* schema = "tvbeam-baseline/1";
 /// Every error of a result by the name of its run and norm; NaN: the run failed.
 std::map<std::string, double> errors_of(const StudyResult& result) {
     std::map<std::string, double> errors;
-    const auto add = [&](const std::string& study, const std::vector<RungResult>& runs,
-                         const std::vector<Norm>& norms) {
-        for (const auto& run : runs)
-            for (std::size_t k = 0; k < norms.size(); ++k)
-                errors[fmt::format("{}.{}: error at s = {}, dt = {}", study, norms[k].name,
+    for (const auto& [study, runs, norms] : result.runs())
+        for (const auto& run : *runs)
+            for (std::size_t k = 0; k < norms->size(); ++k)
+                errors[fmt::format("{}.{}: error at s = {}, dt = {}", study, (*norms)[k].name,
                                    run.rung.elements, run.rung.dt)] =
                     run.errors.empty() ? std::nan("") : run.errors[k];
-    };
-    if (result.ladder)
-        add("ladder", result.ladder->rungs, result.scene.ladder->norms);
-    if (result.orders)
-        add("orders", result.orders->runs, result.scene.orders->norms);
     return errors;
 }
 

@@ -81,12 +81,36 @@ std::string grid_csv(const OrdersResult& orders, const std::vector<Norm>& norms)
     return text;
 }
 
+std::string timed_csv(const WorkPrecisionResult& result, const WorkPrecisionBlock& block) {
+    std::string text = "scheme,elements,h,dt,steps,status";
+    for (const auto& norm : block.norms)
+        text += "," + norm.name;
+    text += ",seconds_min,seconds_q1,seconds_median,seconds_q3,runs,node_steps,heat_solves,"
+            "fixed_point_iterations,reason\n";
+    for (std::size_t k = 0; k < block.schemes.size(); ++k)
+        for (std::size_t i = 0; i < result.schemes[k].runs.size(); ++i) {
+            const RungResult& run = result.schemes[k].runs[i];
+            text += quoted(block.schemes[k].name) + "," + run_fields(run);
+            for (std::size_t norm = 0; norm < block.norms.size(); ++norm)
+                text += number_field(error_of(run, norm));
+            const auto& timing = result.schemes[k].timings[i];
+            text += timing ? fmt::format(",{},{},{},{},{}", timing->min, timing->q1, timing->median,
+                                         timing->q3, timing->runs)
+                           : ",,,,,";
+            text += fmt::format(",{},{},{},{}\n", node_steps(run.rung), run.counters.heat_solves,
+                                run.counters.fixed_point_iterations, quoted(run.reason));
+        }
+    return text;
+}
+
 } // namespace
 
 std::string csv_report(const StudyResult& result) {
     if (result.ladder)
         return ladder_csv(*result.ladder, result.scene.ladder->printed);
-    return grid_csv(*result.orders, result.scene.orders->norms);
+    if (result.orders)
+        return grid_csv(*result.orders, result.scene.orders->norms);
+    return timed_csv(*result.work_precision, *result.scene.work_precision);
 }
 
 } // namespace tvbeam

@@ -22,6 +22,16 @@ Json json_of(const Counters& counters) {
             {"doubles_allocated", counters.doubles_allocated}};
 }
 
+Json json_of(const std::optional<Timing>& timing) {
+    if (!timing)
+        return {};
+    return {{"min", timing->min},
+            {"median", timing->median},
+            {"q1", timing->q1},
+            {"q3", timing->q3},
+            {"runs", timing->runs}};
+}
+
 Json json_of(std::optional<double> value) {
     return value ? Json(*value) : Json();
 }
@@ -145,6 +155,61 @@ Json json_of(const OrdersResult& orders, const OrdersBlock& block) {
     return json;
 }
 
+Json rows_of(const SchemeRuns& scheme, const std::vector<Norm>& norms) {
+    Json rows = Json::array();
+    for (std::size_t i = 0; i < scheme.runs.size(); ++i) {
+        const RungResult& run = scheme.runs[i];
+        Json entry = json_of(run);
+        entry.erase("iterations"); // among the counters
+        entry["errors"] = errors_of(run, norms);
+        entry["seconds"] = json_of(scheme.timings[i]);
+        entry["counters"] = json_of(run.counters);
+        entry["counters"]["node_steps"] = node_steps(run.rung);
+        rows.push_back(std::move(entry));
+    }
+    return rows;
+}
+
+Json json_of(const NormCosts& costs, const std::vector<TimedScheme>& schemes) {
+    Json errors = Json::array();
+    for (const auto& reached : costs.errors) {
+        Json seconds = Json::object();
+        for (std::size_t k = 0; k < schemes.size(); ++k)
+            seconds[schemes[k].name] = json_of(reached.times[k]);
+        Json comparisons = Json::array();
+        for (const auto& pair : reached.comparisons)
+            comparisons.push_back({{"faster", schemes[pair.faster].name},
+                                   {"slower", schemes[pair.slower].name},
+                                   {"ratio", pair.times.ratio},
+                                   {"lowest", pair.times.lowest},
+                                   {"highest", pair.times.highest},
+                                   {"told_apart", pair.times.told_apart}});
+        errors.push_back({{"error", reached.error},
+                          {"target", reached.target},
+                          {"seconds", std::move(seconds)},
+                          {"comparisons", std::move(comparisons)}});
+    }
+    return errors;
+}
+
+Json json_of(const WorkPrecisionResult& result, const WorkPrecisionBlock& block) {
+    Json schemes = Json::array();
+    for (std::size_t k = 0; k < block.schemes.size(); ++k)
+        schemes.push_back(
+            {{"name", block.schemes[k].name}, {"rows", rows_of(result.schemes[k], block.norms)}});
+    Json costs = Json::object();
+    Json remarks = Json::array();
+    for (const auto& norm : result.norms) {
+        costs[norm.norm.name] = json_of(norm, block.schemes);
+        for (const auto& remark : norm.remarks)
+            remarks.push_back(remark);
+    }
+    return {{"final_time", block.final_time},
+            {"schemes", std::move(schemes)},
+            {"time_to_reach", std::move(costs)},
+            {"remarks", std::move(remarks)}};
+}
+
 } // namespace
 
 std::string json_report(const StudyResult& result) {
@@ -162,6 +227,8 @@ std::string json_report(const StudyResult& result) {
         json["orders"] = json_of(*result.orders, *result.scene.orders);
     if (result.ladder)
         json["ladder"] = json_of(*result.ladder, *result.scene.ladder);
+    if (result.work_precision)
+        json["work_precision"] = json_of(*result.work_precision, *result.scene.work_precision);
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

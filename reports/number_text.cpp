@@ -47,6 +47,18 @@ std::string shortest(double value) {
     return trimmed.size() < plain.size() && std::stod(trimmed) == value ? trimmed : plain;
 }
 
+std::string with_prefix(double value) {
+    // Rounded before the prefix is chosen: 999.7e-6 is 1.00m. The parts allow for 1e-3 not being a
+    // thousandth exactly.
+    const double rounded = std::stod(fmt::format("{:.2e}", value));
+    for (const auto& [unit, prefix] : {std::pair{1.0, ""}, {1e-3, "m"}, {1e-6, "µ"}, {1e-9, "n"}}) {
+        const double part = rounded / unit;
+        if (part >= 1.0 - 1e-9)
+            return fixed(part, part < 9.999 ? 2 : part < 99.99 ? 1 : 0) + prefix;
+    }
+    return scientific(value, 2);
+}
+
 std::string fixed(std::optional<double> value, int decimals) {
     if (!value)
         return {};

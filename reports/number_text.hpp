@@ -12,6 +12,10 @@ std::string scientific(std::optional<double> value, int decimals);
 /// The shortest of plain and scientific notation that reads back as the same double.
 std::string shortest(double value);
 
+/// Three significant digits and an SI prefix: 11.5µ for 1.15e-5, 278m for 0.278, 2.31; below 1n,
+/// scientific.
+std::string with_prefix(double value);
+
 /// Fixed notation; nothing for a missing value.
 std::string fixed(std::optional<double> value, int decimals);
 

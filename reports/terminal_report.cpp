@@ -2,7 +2,9 @@
 
 #include "reports/number_text.hpp"
 #include "reports/orders_text.hpp"
+#include "reports/scheme_text.hpp"
 #include "reports/text_table.hpp"
+#include "reports/work_precision_text.hpp"
 
 #include <fmt/format.h>
 
@@ -28,24 +30,6 @@ std::string problem_line(const Scene& scene) {
         line += ", stops " + stop_text(scene.beam.stops.lower) + " and " +
                 stop_text(scene.beam.stops.upper);
     return line;
-}
-
-std::string time_scheme_text(const TimeScheme& scheme) {
-    if (scheme.name == "euler")
-        return "implicit Euler";
-    std::string text = scheme.name;
-    std::transform(text.begin(), text.end(), text.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
-    return text;
-}
-
-std::string scheme_line(const Scheme& scheme) {
-    std::string line = scheme.algorithm == Algorithm::direct
-                           ? "direct algorithm"
-                           : "fixed-point algorithm, tolerance " + shortest(scheme.tolerance);
-    return line + ", " + time_scheme_text(scheme.time) + ", " +
-           (scheme.thermal_mass == ThermalMass::lumped ? "lumped" : "consistent") +
-           " heat mass matrix";
 }
 
 /// What errors are measured against, if not the exact solution.
@@ -150,8 +134,9 @@ std::string ladder_report(const LadderResult& ladder, const LadderBlock& block,
 
 std::string terminal_report(const StudyResult& result) {
     const Scene& scene = result.scene;
-    std::string text =
-        wrapped(scene.title) + wrapped(problem_line(scene)) + wrapped(scheme_line(scene.scheme));
+    std::string text = wrapped(scene.title) + wrapped(problem_line(scene));
+    if (result.ladder || result.orders)
+        text += wrapped(scheme_text(scene.scheme));
     if (result.reference)
         text += wrapped(reference_line(scene, *result.reference));
     if (result.ladder)
@@ -159,6 +144,8 @@ std::string terminal_report(const StudyResult& result) {
                 ladder_report(*result.ladder, *scene.ladder, scene.scheme.algorithm);
     if (result.orders)
         text += "\n" + orders_text(*result.orders);
+    if (result.work_precision)
+        text += "\n" + work_precision_text(*result.work_precision, *scene.work_precision);
     if (!result.left_out.empty()) {
         text += "\nLeft out, as the scene does not need it:\n";
         for (const auto& part : result.left_out)

@@ -107,14 +107,11 @@ struct CheckOptions {
 
 /// The first run of a result that failed, in words; empty when none did.
 std::string first_failure(const StudyResult& result) {
-    const auto reason = [](const std::vector<RungResult>& runs) {
-        const auto failed = std::find_if(runs.begin(), runs.end(), [](const RungResult& run) {
-            return run.status != RunStatus::ok;
-        });
-        return failed == runs.end() ? std::string() : failed->reason;
-    };
-    const std::string in_ladder = result.ladder ? reason(result.ladder->rungs) : "";
-    return in_ladder.empty() && result.orders ? reason(result.orders->runs) : in_ladder;
+    for (const auto& study : result.runs())
+        for (const auto& run : *study.runs)
+            if (run.status != RunStatus::ok)
+                return run.reason;
+    return {};
 }
 
 int check_command(const CheckOptions& options) {
@@ -212,7 +209,7 @@ void add_jobs(CLI::App& command, int& jobs) {
     command
         .add_option("--jobs", jobs,
                     "runs at a time: of a ladder, or of the grid of [orders]; the results do not "
-                    "depend on it")
+                    "depend on it. [work_precision] times one run after the other all the same")
         ->check(CLI::Range(1, most))
         ->type_name("N")
         ->capture_default_str();
@@ -239,8 +236,10 @@ int command_line(int argc, char** argv) {
     run->add_option("--json", options.json,
                     "write the result as JSON; -: to standard output, in place of the table")
         ->type_name("FILE|-");
-    run->add_option("--csv", options.csv,
-                    "write the ladder as CSV; -: to standard output, in place of the table")
+    run->add_option(
+           "--csv", options.csv,
+           "write the ladder as CSV, or the grid, or the timed rows of a scene that has no "
+           "other study; -: to standard output, in place of the table")
         ->type_name("FILE|-");
     add_jobs(*run, options.jobs);
 

@@ -52,15 +52,22 @@ bool beyond(const Rung& rung, const std::vector<RungResult>& grid) {
 
 class Checker {
 public:
-    explicit Checker(const StudyResult& result) : result_(result) {}
+    explicit Checker(const StudyResult& result) : result_(result), studies_(result.runs()) {}
 
     void add(const Expectation& expectation) {
         switch (expectation.figure) {
-        case Figure::order:
-        case Figure::ratio:
         case Figure::error:
+            add_figure(expectation, expectation.rung, "error",
+                       error(expectation, expectation.rung));
+            break;
+        case Figure::order:
+            add_orders(expectation);
+            break;
+        case Figure::ratio:
+            add_ratio(expectation);
+            break;
         case Figure::predicted:
-            add_ladder(expectation);
+            add_predicted(expectation);
             break;
         case Figure::constant:
             add_constant(expectation);
@@ -73,49 +80,62 @@ public:
     [[nodiscard]] std::vector<CheckedExpectation> take() { return std::move(checked_); }
 
 private:
-    void add_ladder(const Expectation& expectation) {
-        const LadderResult& ladder = *result_.ladder;
-        const auto at =
-            std::find_if(ladder.norms.begin(), ladder.norms.end(), [&](const LadderNorm& norm) {
-                return norm.norm.name == expectation.norm;
-            });
-        const auto k = static_cast<std::size_t>(at - ladder.norms.begin());
-        const std::string prefix = "ladder." + expectation.norm + ": ";
-        const auto error = [&](std::size_t i) {
-            const auto& errors = ladder.rungs[i].errors;
-            return errors.empty() ? std::optional<double>() : errors[k];
-        };
-        const auto push = [&](std::size_t i, const std::string& name,
-                              std::optional<double> figure) {
-            checked_.push_back(held(expectation,
-                                    prefix + name + " at " + rung_text(ladder.rungs[i]), figure,
-                                    absence_of(ladder.rungs[i], "undefined")));
-        };
-        const std::size_t i = expectation.rung;
-        if (expectation.figure == Figure::error) {
-            push(i, "error", error(i));
-        } else if (expectation.figure == Figure::ratio) {
-            const double printed = result_.scene.ladder->printed->figures.at(expectation.norm)[i];
-            push(i, "ratio to the printed figure",
-                 error(i) ? std::optional(*error(i) / printed) : std::nullopt);
-        } else if (expectation.figure == Figure::order) {
-            for (std::size_t row = 1; row < ladder.rungs.size(); ++row)
-                push(row, "observed order", at->orders[row]);
-        } else {
-            add_predicted(expectation, *at, error, push);
-        }
+    /// The runs that an expectation is about.
+    [[nodiscard]] const MeasuredRuns& measured(const Expectation& expectation) const {
+        return *std::find_if(studies_.begin(), studies_.end(), [&](const MeasuredRuns& study) {
+            return study.study == expectation.study;
+        });
     }
 
-    template <typename Error, typename Push>
-    void add_predicted(const Expectation& expectation, const LadderNorm& norm, const Error& error,
-                       const Push& push) {
+    /// The index of its norm among theirs.
+    [[nodiscard]] std::size_t norm_index(const Expectation& expectation) const {
+        const auto& norms = *measured(expectation).norms;
+        return static_cast<std::size_t>(
+            std::find_if(norms.begin(), norms.end(),
+                         [&](const Norm& norm) { return norm.name == expectation.norm; }) -
+            norms.begin());
+    }
+
+    [[nodiscard]] std::optional<double> error(const Expectation& expectation,
+                                              std::size_t row) const {
+        const auto& errors = (*measured(expectation).runs)[row].errors;
+        return errors.empty() ? std::nullopt : std::optional(errors[norm_index(expectation)]);
+    }
+
+    void add_figure(const Expectation& expectation, std::size_t row, const std::string& name,
+                    std::optional<double> figure) {
+        const RungResult& run = (*measured(expectation).runs)[row];
+        checked_.push_back(
+            held(expectation,
+                 expectation.study + "." + expectation.norm + ": " + name + " at " + rung_text(run),
+                 figure, absence_of(run, "undefined")));
+    }
+
+    void add_orders(const Expectation& expectation) {
+        const auto orders =
+            observed_orders(records_of(*measured(expectation).runs, norm_index(expectation)));
+        for (std::size_t row = 1; row < orders.size(); ++row)
+            add_figure(expectation, row, "observed order", orders[row]);
+    }
+
+    void add_ratio(const Expectation& expectation) {
+        const std::size_t row = expectation.rung;
+        const double printed = result_.scene.ladder->printed->figures.at(expectation.norm)[row];
+        const auto value = error(expectation, row);
+        add_figure(expectation, row, "ratio to the printed figure",
+                   value ? std::optional(*value / printed) : std::nullopt);
+    }
+
+    void add_predicted(const Expectation& expectation) {
+        const LadderNorm& norm = result_.ladder->norms[norm_index(expectation)];
         bool some = false;
         for (std::size_t row = 0; row < norm.predictions.size(); ++row)
             if (beyond(result_.ladder->rungs[row].rung, result_.orders->runs)) {
-                push(row, "ratio to the two-term model's prediction",
-                     error(row)
-                         ? std::optional(of_norm(norm.norm, *error(row) / *norm.predictions[row]))
-                         : std::nullopt);
+                const auto value = error(expectation, row);
+                add_figure(expectation, row, "ratio to the two-term model's prediction",
+                           value
+                               ? std::optional(of_norm(norm.norm, *value / *norm.predictions[row]))
+                               : std::nullopt);
                 some = true;
             }
         if (!some)
@@ -170,6 +190,7 @@ private:
     }
 
     const StudyResult& result_;
+    std::vector<MeasuredRuns> studies_;
     std::vector<CheckedExpectation> checked_;
 };
 

@@ -10,13 +10,14 @@ namespace {
 using Figure = Expectation::Figure;
 
 void add(std::vector<Expectation>& expectations, TableReader& table, const char* key, Figure figure,
-         const std::string& norm) {
+         const std::string& study, const std::string& norm) {
     if (const auto band = table.band(key))
-        expectations.push_back({figure, norm, 0, band->lowest, band->highest, table.place(key)});
+        expectations.push_back(
+            {figure, study, norm, 0, band->lowest, band->highest, table.place(key)});
 }
 
-void add_errors(std::vector<Expectation>& expectations, TableReader& table, const std::string& norm,
-                std::size_t rungs) {
+void add_errors(std::vector<Expectation>& expectations, TableReader& table,
+                const std::string& study, const std::string& norm, std::size_t rungs) {
     const double within = table.number("within").value_or(1e-3);
     if (!(within > 0.0 && within < 1.0))
         throw InputError(table.place("within"),
@@ -29,7 +30,7 @@ void add_errors(std::vector<Expectation>& expectations, TableReader& table, cons
                          table.full("errors") + " has " + std::to_string(errors->size()) +
                              " values for " + std::to_string(rungs) + " rungs; give one a rung");
     for (std::size_t i = 0; i < rungs; ++i)
-        expectations.push_back({Figure::error, norm, i, (*errors)[i] * (1.0 - within),
+        expectations.push_back({Figure::error, study, norm, i, (*errors)[i] * (1.0 - within),
                                 (*errors)[i] * (1.0 + within), table.place("errors", i)});
 }
 
@@ -52,7 +53,7 @@ void add_ratios(std::vector<Expectation>& expectations, TableReader& table, cons
     for (std::size_t i = 0; i < rungs; ++i) {
         const auto& band = (*bands)[bands->size() == 1 ? 0 : i];
         expectations.push_back(
-            {Figure::ratio, norm, i, band.lowest, band.highest, table.place("ratios")});
+            {Figure::ratio, "ladder", norm, i, band.lowest, band.highest, table.place("ratios")});
     }
 }
 
@@ -84,10 +85,31 @@ void for_each_norm(TableReader& expect, const char* study, const std::vector<std
     block->finish();
 }
 
+void add_work_precision(std::vector<Expectation>& expectations, TableReader& expect,
+                        const WorkPrecisionBlock* timed) {
+    auto block = expect.table("work_precision");
+    if (!block)
+        return;
+    if (timed == nullptr)
+        throw InputError(expect.place("work_precision"),
+                         expect.full("work_precision") +
+                             " expects something of a study that the scene does not run: it has no "
+                             "block [work_precision]");
+    for (const auto& scheme : timed->schemes)
+        for_each_norm(*block, scheme.name.c_str(), names_of(timed->norms, false),
+                      [&](TableReader& table, const std::string& norm) {
+                          const std::string study = "work_precision." + scheme.name;
+                          add(expectations, table, "orders", Figure::order, study, norm);
+                          add_errors(expectations, table, study, norm, scheme.rungs.size());
+                      });
+    block->finish();
+}
+
 } // namespace
 
 std::vector<Expectation> read_expectations(TableReader table, const LadderBlock* ladder,
-                                           const OrdersBlock* orders) {
+                                           const OrdersBlock* orders,
+                                           const WorkPrecisionBlock* timed) {
     // A study that the scene does not run measures no norm.
     const LadderBlock no_ladder;
     const OrdersBlock no_orders;
@@ -96,21 +118,25 @@ std::vector<Expectation> read_expectations(TableReader table, const LadderBlock*
     std::vector<Expectation> expectations;
     for_each_norm(table, "ladder", names_of(rungs.norms, false),
                   [&](TableReader& norm_table, const std::string& norm) {
-                      add(expectations, norm_table, "orders", Figure::order, norm);
+                      add(expectations, norm_table, "orders", Figure::order, "ladder", norm);
                       add_ratios(expectations, norm_table, norm, rungs);
-                      add_errors(expectations, norm_table, norm, rungs.rungs.size());
-                      add(expectations, norm_table, "predicted", Figure::predicted, norm);
+                      add_errors(expectations, norm_table, "ladder", norm, rungs.rungs.size());
+                      add(expectations, norm_table, "predicted", Figure::predicted, "ladder", norm);
                   });
     for_each_norm(table, "orders", names_of(grid.norms, true),
                   [&](TableReader& norm_table, const std::string& norm) {
-                      add(expectations, norm_table, "p", Figure::p, norm);
-                      add(expectations, norm_table, "q", Figure::q, norm);
-                      add(expectations, norm_table, "a", Figure::a, norm);
-                      add(expectations, norm_table, "b", Figure::b, norm);
-                      add(expectations, norm_table, "rho", Figure::rho, norm);
+                      const auto add_band = [&](const char* key, Figure figure) {
+                          add(expectations, norm_table, key, figure, "orders", norm);
+                      };
+                      add_band("p", Figure::p);
+                      add_band("q", Figure::q);
+                      add_band("a", Figure::a);
+                      add_band("b", Figure::b);
+                      add_band("rho", Figure::rho);
                       if (norm == "corollary")
-                          add(expectations, norm_table, "constant", Figure::constant, norm);
+                          add_band("constant", Figure::constant);
                   });
+    add_work_precision(expectations, table, timed);
     table.finish();
     return expectations;
 }

@@ -11,7 +11,7 @@ namespace tvbeam {
 /// A two-sided band that a figure of the result must lie in.
 struct Expectation {
     enum class Figure {
-        order,     ///< every observed order of a ladder's norm
+        order,     ///< every observed order of a norm along a ladder
         ratio,     ///< error / printed figure, of one rung
         error,     ///< the error of one rung
         predicted, ///< error / prediction of the two-term model, both of the norm itself, of every
@@ -24,6 +24,7 @@ struct Expectation {
         constant ///< the greatest constant of Corollary 2.2 over the grid
     };
     Figure figure = Figure::order;
+    std::string study; ///< whose runs they are: "ladder", "orders", or as in MeasuredRuns
     std::string norm;
     std::size_t rung = 0; ///< for ratio and error
     double lowest = 0.0;
@@ -33,6 +34,7 @@ struct Expectation {
 
 struct LadderBlock;
 struct OrdersBlock;
+struct WorkPrecisionBlock;
 class TableReader;
 
 /// Reads the block [expect]:
@@ -42,10 +44,12 @@ class TableReader;
 ///                             within = relative half-width of their bands (default 1e-3);
 ///                             predicted = [lo, hi]
 ///     [expect.orders.NORM]    p, q, a, b, rho = [lo, hi]; for corollary also constant = [lo, hi]
+///     [expect.work_precision."SCHEME".NORM]    orders, errors, within as for a ladder
 ///
-/// ladder, orders: the scene's studies, or null. Throws InputError where a band has no width on a
-/// side, a norm is not measured, or a list does not have one value a rung.
+/// ladder, orders, timed: the scene's studies, or null. Throws InputError where a band has no width
+/// on a side, a norm is not measured, or a list does not have one value a rung.
 std::vector<Expectation> read_expectations(TableReader table, const LadderBlock* ladder,
-                                           const OrdersBlock* orders);
+                                           const OrdersBlock* orders,
+                                           const WorkPrecisionBlock* timed);
 
 } // namespace tvbeam

@@ -19,12 +19,12 @@ struct RungResult {
     std::vector<double> errors; ///< one a norm; empty when failed
 };
 
-/// Runs the scene's scheme on one rung.
-RungResult run_rung(const Scene& scene, const std::vector<Norm>& norms, double final_time,
-                    const Rung& rung, const ProblemData& data);
+/// Runs a scheme on one rung.
+RungResult run_rung(const Beam& beam, const Scheme& scheme, const std::vector<Norm>& norms,
+                    double final_time, const Rung& rung, const ProblemData& data);
 
-/// Runs it on every rung, in up to `jobs` threads; the results stand in the order of the rungs and
-/// do not depend on the number of jobs, but for their seconds.
+/// Runs the scene's scheme on every rung, in up to `jobs` threads; the results stand in the order
+/// of the rungs and do not depend on the number of jobs, but for their seconds.
 std::vector<RungResult> run_rungs(const Scene& scene, const std::vector<Norm>& norms,
                                   double final_time, const std::vector<Rung>& rungs,
                                   const ProblemData& data, int jobs);

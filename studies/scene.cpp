@@ -188,12 +188,19 @@ Scene read_scene(const std::string& name_or_file, const std::vector<std::string>
         scene.ladder = read_ladder(*std::move(ladder));
     if (auto orders = root.table("orders"))
         scene.orders = read_orders(*std::move(orders));
-    if (!scene.ladder && !scene.orders)
-        throw InputError({scene.file}, "the scene has no study; add a block [ladder] or [orders]");
+    if (auto timed = root.table("work_precision"))
+        scene.work_precision = read_work_precision(*std::move(timed), scene.scheme);
+    if (!scene.ladder && !scene.orders && !scene.work_precision)
+        throw InputError({scene.file}, "the scene has no study; add a block [ladder], [orders] or "
+                                       "[work_precision]");
     if (auto reference = root.table("reference"))
         scene.reference =
             read_reference(*std::move(reference), scene.ladder ? &*scene.ladder : nullptr,
                            scene.orders ? &*scene.orders : nullptr);
+    if (scene.work_precision && (!scene.has_exact_solution() || scene.reference))
+        throw InputError(root.place("work_precision"),
+                         "work_precision measures errors against an exact solution; give a "
+                         "solution, and no [data] or [reference]");
     if (!scene.has_exact_solution() && !scene.reference &&
         (scene.orders || !scene.ladder->norms.empty()))
         throw InputError(
@@ -203,7 +210,8 @@ Scene read_scene(const std::string& name_or_file, const std::vector<std::string>
     if (auto expect = root.table("expect"); expect && reading.expectations)
         scene.expectations =
             read_expectations(*std::move(expect), scene.ladder ? &*scene.ladder : nullptr,
-                              scene.orders ? &*scene.orders : nullptr);
+                              scene.orders ? &*scene.orders : nullptr,
+                              scene.work_precision ? &*scene.work_precision : nullptr);
     root.table("short"); // what it holds is read in the short form
     root.finish();
     return scene;
@@ -222,9 +230,13 @@ std::vector<std::string> left_out(const Scene& scene, const ProblemData& data) {
         norms = scene.ladder->norms;
     if (scene.orders)
         norms.insert(norms.end(), scene.orders->norms.begin(), scene.orders->norms.end());
+    if (scene.work_precision)
+        norms.insert(norms.end(), scene.work_precision->norms.begin(),
+                     scene.work_precision->norms.end());
     const Needs needs = ErrorNorms::needs(data, norms);
     const bool coupled = scene.beam.alpha != 0.0;
-    const bool direct = scene.scheme.algorithm == Algorithm::direct;
+    // What is timed is the whole problem.
+    const bool direct = scene.scheme.algorithm == Algorithm::direct && !scene.work_precision;
     if (!coupled)
         parts.emplace_back("coupling: alpha = 0, heat and bending are two separate problems");
     if (direct && !coupled && !needs.temperature)

@@ -8,6 +8,7 @@
 #include "studies/expectation.hpp"
 #include "studies/reference_block.hpp"
 #include "studies/study_keys.hpp"
+#include "studies/work_precision_block.hpp"
 
 #include <map>
 #include <optional>
@@ -49,6 +50,7 @@ struct Scene {
     Scheme scheme;
     std::optional<LadderBlock> ladder;
     std::optional<OrdersBlock> orders;
+    std::optional<WorkPrecisionBlock> work_precision;
     std::optional<ReferenceBlock> reference; ///< then errors are measured against it
     std::vector<Expectation> expectations;   ///< empty unless they were asked for
     std::string json;                        ///< the scene with its overrides, as JSON

@@ -5,14 +5,36 @@
 namespace tvbeam {
 
 bool StudyResult::failed() const {
-    return (orders && any_failed(orders->runs)) || (ladder && any_failed(ladder->rungs));
+    const auto all = runs();
+    return std::any_of(all.begin(), all.end(),
+                       [](const MeasuredRuns& study) { return any_failed(*study.runs); });
+}
+
+std::vector<MeasuredRuns> StudyResult::runs() const {
+    std::vector<MeasuredRuns> all;
+    if (ladder)
+        all.push_back({"ladder", &ladder->rungs, &scene.ladder->norms});
+    if (orders)
+        all.push_back({"orders", &orders->runs, &scene.orders->norms});
+    if (work_precision)
+        for (std::size_t k = 0; k < work_precision->schemes.size(); ++k)
+            all.push_back({"work_precision." + scene.work_precision->schemes[k].name,
+                           &work_precision->schemes[k].runs, &scene.work_precision->norms});
+    return all;
 }
 
 StudyResult run_study(const Scene& scene, int jobs) {
-    StudyResult result{.scene = scene, .left_out = {}, .reference = {}, .orders = {}, .ladder = {}};
+    StudyResult result{.scene = scene,
+                       .left_out = {},
+                       .reference = {},
+                       .orders = {},
+                       .ladder = {},
+                       .work_precision = {}};
     // One problem serves all studies: it is admissible up to the longest of their times.
-    const double final_time = std::max(scene.ladder ? scene.ladder->final_time : 0.0,
-                                       scene.orders ? scene.orders->final_time : 0.0);
+    const double final_time =
+        std::max({scene.ladder ? scene.ladder->final_time : 0.0,
+                  scene.orders ? scene.orders->final_time : 0.0,
+                  scene.work_precision ? scene.work_precision->final_time : 0.0});
     ProblemData data = problem_of(scene, final_time);
     if (scene.reference && (scene.orders || !scene.ladder->norms.empty()))
         result.reference = measure_against_reference(scene, final_time, data);
@@ -22,6 +44,8 @@ StudyResult run_study(const Scene& scene, int jobs) {
     if (scene.ladder)
         result.ladder =
             run_ladder(scene, *scene.ladder, data, result.orders ? &*result.orders : nullptr, jobs);
+    if (scene.work_precision)
+        result.work_precision = run_work_precision(scene, *scene.work_precision, data);
     return result;
 }
 

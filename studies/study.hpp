@@ -4,12 +4,20 @@
 #include "studies/orders.hpp"
 #include "studies/reference_solution.hpp"
 #include "studies/scene.hpp"
+#include "studies/work_precision.hpp"
 
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace tvbeam {
+
+/// The runs of one study that share their norms.
+struct MeasuredRuns {
+    std::string study; ///< e.g. "ladder", "work_precision.bdf2, direct"
+    const std::vector<RungResult>* runs;
+    const std::vector<Norm>* norms;
+};
 
 /// Everything that running a scene gave: one record for each study whose block the scene has.
 struct StudyResult {
@@ -18,12 +26,17 @@ struct StudyResult {
     std::optional<ReferenceResult> reference; ///< if errors are measured against one
     std::optional<OrdersResult> orders;
     std::optional<LadderResult> ladder;
+    std::optional<WorkPrecisionResult> work_precision;
+
+    /// The runs of every study whose errors were measured.
+    [[nodiscard]] std::vector<MeasuredRuns> runs() const;
 
     [[nodiscard]] bool failed() const; ///< some run failed
 };
 
-/// Runs the studies of a scene, their runs in up to `jobs` ≥ 1 threads (run_rungs). Throws
-/// InputError when its problem is not admissible; nothing has run then.
+/// Runs the studies of a scene, their runs in up to `jobs` ≥ 1 threads (run_rungs); those that are
+/// timed, of [work_precision], one at a time and after all others. Throws InputError when its
+/// problem is not admissible; nothing has run then.
 StudyResult run_study(const Scene& scene, int jobs = 1);
 
 } // namespace tvbeam

@@ -3,6 +3,7 @@
 #include "mms/nearest_name.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -75,6 +76,25 @@ TomlDocument read_toml(const std::string& file) {
     return document;
 }
 
+namespace {
+
+/// The table of an array whose number stands first in the path, and is taken away from it.
+toml::node& element_of(toml::array& array, const std::string& key, std::string& path,
+                       const Place& place) {
+    const auto dot = std::min(path.find('.'), path.size());
+    const std::string number = path.substr(0, dot);
+    std::size_t index = 0;
+    const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), index);
+    if (error != std::errc() || end != number.data() + number.size() || index >= array.size())
+        throw InputError(place, "'" + key + "' is an array of " + std::to_string(array.size()) +
+                                    " tables; name one by its number, 0 to " +
+                                    std::to_string(array.size() - 1) + ", not '" + number + "'");
+    path.erase(0, dot + 1);
+    return *array.get(index);
+}
+
+} // namespace
+
 void override_key(TomlDocument& document, const std::string& assignment) {
     const Place place{"--set " + assignment};
     const auto equals = assignment.find('=');
@@ -100,12 +120,15 @@ void override_key(TomlDocument& document, const std::string& assignment) {
         toml::node* node = table->get(key);
         if (node == nullptr)
             node = &table->insert_or_assign(key, toml::table{}).first->second;
+        if (toml::array* array = node->as_array(); array != nullptr && array->is_array_of_tables())
+            node = &element_of(*array, key, path, place);
         table = node->as_table();
         if (table == nullptr)
             throw InputError(place, "'" + key + "' is " + type_name(*node) + ", not a table");
     }
     if (path.empty())
-        throw InputError(place, "the key ends in a dot; name the key behind it");
+        throw InputError(
+            place, "the key ends in a dot or in the number of a table; name the key behind it");
     table->insert_or_assign(path, std::move(*parsed.get("value")));
 }
 
@@ -333,6 +356,20 @@ std::optional<TableReader> TableReader::table(std::string_view key) {
     if (inner == nullptr)
         throw wrong_type(key, *node, "a table");
     return TableReader(*document_, *inner, full(key));
+}
+
+std::vector<TableReader> TableReader::tables(std::string_view key) {
+    const toml::node* node = find(key);
+    std::vector<TableReader> tables;
+    if (node == nullptr)
+        return tables;
+    const toml::array* array = node->as_array();
+    if (array == nullptr || !array->is_array_of_tables())
+        throw wrong_type(key, *node, "an array of tables, each headed [[" + full(key) + "]]");
+    for (const auto& element : *array)
+        tables.push_back(TableReader(*document_, *element.as_table(),
+                                     full(key) + "." + std::to_string(tables.size())));
+    return tables;
 }
 
 void TableReader::finish() const {

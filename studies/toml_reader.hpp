@@ -24,8 +24,9 @@ struct TomlDocument {
 TomlDocument read_toml(const std::string& file);
 
 /// Replaces or adds the key `a.b.c` of the document; `assignment` is "a.b.c=value" with a TOML
-/// value, or a text that is taken as a string when it is not one. Throws InputError when it has no
-/// '=' or no key, or when a.b is not a table.
+/// value, or a text that is taken as a string when it is not one. Where a.b is an array of tables,
+/// the key behind it is the number of one, from 0. Throws InputError when it has no '=' or no key,
+/// or when a.b is not a table.
 void override_key(TomlDocument& document, const std::string& assignment);
 
 /// Takes the table at `key` away and puts its values in place of those of the same path.
@@ -66,6 +67,9 @@ public:
                                       const std::vector<std::string>& choices);
     /// A table within this one.
     std::optional<TableReader> table(std::string_view key);
+    /// An array of tables, whose paths end in their number: a.b.0, a.b.1, …; empty when the key is
+    /// missing.
+    std::vector<TableReader> tables(std::string_view key);
 
     [[nodiscard]] bool has(std::string_view key) const { return table_->contains(key); }
     [[nodiscard]] bool is_string(std::string_view key) const;

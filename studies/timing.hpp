@@ -1,0 +1,55 @@
+/// How long runs take, and how long a scheme takes to reach an error.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace tvbeam {
+
+/// The wall clock of repeated runs. Unit: s.
+struct Timing {
+    double min = 0.0;
+    double q1 = 0.0; ///< lower quartile
+    double median = 0.0;
+    double q3 = 0.0; ///< upper quartile
+    int runs = 0;    ///< 1: there are no quartiles to speak of, all four are the same
+};
+
+/// Of one run or more. Quartiles lie between the sorted values as GSL has it: at (n − 1)/4 and
+/// 3(n − 1)/4, counted from 0.
+Timing timing_of(std::vector<double> seconds);
+
+/// What one run of a ladder gave.
+struct TimedError {
+    double error = 0.0; ///< a norm or its square; NaN where the run failed
+    Timing timing;
+};
+
+/// How near to the error of the coarsest or finest row is as good as that error: interpolated times
+/// are no better, and an error may be written down with a few digits.
+inline constexpr double same_error = 0.01;
+
+/// The time that a scheme takes to reach an error, from the rows of its ladder, coarse to fine: on
+/// the straight line between two neighbours in ln error and ln seconds, each of min, q1, median, q3
+/// by itself; runs is the smaller of theirs. None outside the range of the measured errors
+/// (same_error apart): nothing is extrapolated.
+///
+/// Where the error rises along the ladder, it counts as reached only from where no finer row
+/// exceeds it: a dip, by which two errors happen to cancel, is not a scheme's merit. Nothing is
+/// interpolated across a row without an error > 0.
+std::optional<Timing> time_to_reach(std::span<const TimedError> rows, double error);
+
+/// Two times for the same thing.
+struct Comparison {
+    double ratio = 1.0;           ///< median of the slower / median of the faster
+    double lowest = 1.0;          ///< lower quartile of the slower / upper quartile of the faster
+    double highest = 1.0;         ///< upper quartile of the slower / lower quartile of the faster
+    bool first_is_faster = false; ///< by the medians
+    /// The ratio is above 1.2 and the quartiles are disjoint.
+    bool told_apart = false;
+};
+
+Comparison compare(const Timing& first, const Timing& second);
+
+} // namespace tvbeam

@@ -1,0 +1,190 @@
+#include "studies/work_precision.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+namespace tvbeam {
+
+namespace {
+
+/// A run shorter than this finds the caches as other runs left them: one that does not count goes
+/// before each that does. Unit: s.
+constexpr double quick = 1e-3;
+constexpr int first_decade = 2; // 1e-2
+constexpr int last_decade = 9;
+
+/// One rung of one scheme, and its timed runs so far.
+struct Contestant {
+    std::size_t scheme;
+    std::size_t run;
+    double warm_up;
+    std::vector<double> seconds;
+};
+
+class Race {
+public:
+    Race(const Scene& scene, const WorkPrecisionBlock& block, const ProblemData& data,
+         double one_run_above)
+        : scene_(scene), block_(block), data_(data), one_run_above_(one_run_above) {}
+
+    std::vector<SchemeRuns> take() {
+        for (std::size_t k = 0; k < block_.schemes.size(); ++k)
+            enter(k);
+        for (int round = 0; round < block_.runs; ++round)
+            for (auto& contestant : contestants_)
+                if (contestant.warm_up <= one_run_above_)
+                    time(contestant);
+        for (const auto& contestant : contestants_)
+            result_[contestant.scheme].timings[contestant.run] =
+                timing_of(contestant.seconds.empty() ? std::vector<double>{contestant.warm_up}
+                                                     : contestant.seconds);
+        return std::move(result_);
+    }
+
+private:
+    RungResult run(std::size_t scheme, const Rung& rung, const std::vector<Norm>& norms) {
+        return run_rung(scene_.beam, block_.schemes[scheme].scheme, norms, block_.final_time, rung,
+                        data_);
+    }
+
+    void enter(std::size_t scheme) {
+        SchemeRuns& runs = result_.emplace_back();
+        for (const auto& rung : block_.schemes[scheme].rungs) {
+            runs.runs.push_back(run(scheme, rung, block_.norms));
+            runs.timings.emplace_back();
+            RungResult& measured = runs.runs.back();
+            if (measured.status != RunStatus::ok)
+                continue;
+            const RungResult warm_up = run(scheme, rung, {});
+            measured.counters = warm_up.counters;
+            contestants_.push_back({scheme, runs.runs.size() - 1, warm_up.seconds, {}});
+        }
+    }
+
+    void time(Contestant& contestant) {
+        const Rung& rung = result_[contestant.scheme].runs[contestant.run].rung;
+        if (contestant.warm_up < quick)
+            run(contestant.scheme, rung, {});
+        contestant.seconds.push_back(run(contestant.scheme, rung, {}).seconds);
+    }
+
+    const Scene& scene_;
+    const WorkPrecisionBlock& block_;
+    const ProblemData& data_;
+    double one_run_above_;
+    std::vector<SchemeRuns> result_;
+    std::vector<Contestant> contestants_;
+};
+
+/// Norm k along the ladder of one scheme.
+std::vector<TimedError> rows_of(const SchemeRuns& scheme, std::size_t k) {
+    std::vector<TimedError> rows;
+    for (std::size_t i = 0; i < scheme.runs.size(); ++i) {
+        const auto& errors = scheme.runs[i].errors;
+        rows.push_back(
+            {.error = errors.empty() ? std::numeric_limits<double>::quiet_NaN() : errors[k],
+             .timing = scheme.timings[i].value_or(Timing{})});
+    }
+    return rows;
+}
+
+double smallest_error(const std::vector<std::vector<TimedError>>& schemes) {
+    double smallest = std::numeric_limits<double>::infinity();
+    for (const auto& rows : schemes)
+        for (const auto& row : rows)
+            if (row.error > 0.0)
+                smallest = std::min(smallest, row.error);
+    return smallest;
+}
+
+/// The errors at which schemes are compared, from large to small.
+std::vector<ReachedError> errors_to_reach(double smallest, const std::vector<double>& targets) {
+    std::vector<ReachedError> errors;
+    const auto add = [&](double error, bool target) {
+        const auto same = std::find_if(errors.begin(), errors.end(),
+                                       [&](const ReachedError& one) { return one.error == error; });
+        if (same == errors.end())
+            errors.push_back({error, target, {}, {}});
+        else
+            same->target = same->target || target;
+    };
+    for (int decade = first_decade;; ++decade) {
+        const double error = std::pow(10.0, -decade);
+        if (decade > last_decade && !(error >= smallest))
+            break;
+        add(error, false);
+    }
+    for (const double target : targets)
+        add(target, true);
+    std::sort(errors.begin(), errors.end(),
+              [](const ReachedError& a, const ReachedError& b) { return a.error > b.error; });
+    return errors;
+}
+
+void compare_all(ReachedError& reached) {
+    for (std::size_t i = 0; i < reached.times.size(); ++i)
+        for (std::size_t j = i + 1; j < reached.times.size(); ++j)
+            if (reached.times[i] && reached.times[j]) {
+                const Comparison times = compare(*reached.times[i], *reached.times[j]);
+                reached.comparisons.push_back({.faster = times.first_is_faster ? i : j,
+                                               .slower = times.first_is_faster ? j : i,
+                                               .times = times});
+            }
+}
+
+/// A sentence for every pair of neighbouring rows between which the error rises.
+void add_rises(std::vector<std::string>& remarks, const std::string& norm,
+               const TimedScheme& scheme, const std::vector<TimedError>& rows) {
+    for (std::size_t i = 1; i < rows.size(); ++i)
+        if (rows[i].error > rows[i - 1].error) {
+            std::ostringstream text;
+            text << scheme.name << ": " << norm
+                 << " rises from s = " << scheme.rungs[i - 1].elements
+                 << ", dt = " << scheme.rungs[i - 1].dt << " to s = " << scheme.rungs[i].elements
+                 << ", dt = " << scheme.rungs[i].dt
+                 << "; an error counts as reached from where no finer row exceeds it.";
+            remarks.push_back(text.str());
+        }
+}
+
+} // namespace
+
+std::int64_t node_steps(const Rung& rung) {
+    return rung.elements * rung.steps;
+}
+
+WorkPrecisionResult run_work_precision(const Scene& scene, const WorkPrecisionBlock& block,
+                                       const ProblemData& data, double one_run_above) {
+    WorkPrecisionResult result;
+    result.schemes = Race(scene, block, data, one_run_above).take();
+    result.norms = costs_of(block, result.schemes);
+    return result;
+}
+
+std::vector<NormCosts> costs_of(const WorkPrecisionBlock& block,
+                                const std::vector<SchemeRuns>& schemes) {
+    std::vector<NormCosts> all;
+    for (std::size_t k = 0; k < block.norms.size(); ++k) {
+        NormCosts costs{block.norms[k], {}, {}};
+        std::vector<std::vector<TimedError>> ladders;
+        for (std::size_t scheme = 0; scheme < schemes.size(); ++scheme) {
+            ladders.push_back(rows_of(schemes[scheme], k));
+            add_rises(costs.remarks, costs.norm.name, block.schemes[scheme], ladders.back());
+        }
+        const auto targets = block.targets.find(costs.norm.name);
+        costs.errors = errors_to_reach(smallest_error(ladders), targets == block.targets.end()
+                                                                    ? std::vector<double>{}
+                                                                    : targets->second);
+        for (auto& reached : costs.errors) {
+            for (const auto& rows : ladders)
+                reached.times.push_back(time_to_reach(rows, reached.error));
+            compare_all(reached);
+        }
+        all.push_back(std::move(costs));
+    }
+    return all;
+}
+
+} // namespace tvbeam
