@@ -162,7 +162,8 @@ std::string comparisons_text(const ReachedError& error, const NormCosts& costs,
     for (std::size_t k = 0; k < block.schemes.size(); ++k)
         if (error.times[k] && error.comparisons.empty())
             text += wrapped("by " + block.schemes[k].name + " alone", 4);
-        else if (!error.times[k])
+    for (std::size_t k = 0; k < block.schemes.size(); ++k)
+        if (!error.times[k])
             text += wrapped("not, as far as measured, by " + block.schemes[k].name, 4);
     return text;
 }

@@ -61,9 +61,12 @@ std::optional<Timing> time_to_reach(std::span<const TimedError> rows, double err
     if (above == rows.rend())
         return same(first->error, error) ? std::optional(first->timing) : std::nullopt;
     const TimedError& before = *above;
-    const TimedError& after = *std::prev(above);
-    if (!has_error(after))
-        return std::nullopt;
+    const TimedError& after = *std::find_if(above.base(), rows.end(), has_error);
+    if (&after - &before > 1) { // rows without error between them
+        if (same(before.error, error))
+            return before.timing;
+        return same(after.error, error) ? std::optional(after.timing) : std::nullopt;
+    }
     const double weight = std::log(before.error / error) / std::log(before.error / after.error);
     return between(before.timing, after.timing, weight);
 }

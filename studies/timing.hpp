@@ -37,7 +37,7 @@ inline constexpr double same_error = 0.01;
 ///
 /// Where the error rises along the ladder, it counts as reached only from where no finer row
 /// exceeds it: a dip, by which two errors happen to cancel, is not a scheme's merit. Nothing is
-/// interpolated across a row without an error > 0.
+/// interpolated across a row without an error > 0, one that failed say.
 std::optional<Timing> time_to_reach(std::span<const TimedError> rows, double error);
 
 /// Two times for the same thing.

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::int64_t most_runs = 10'000;
 /// In bytes. Names stand in tables of 80 columns.
-constexpr std::size_t longest_name = 24;
+constexpr std::size_t longest_name = 28;
 
 std::string default_name(const Scheme& scheme) {
     return scheme.time.name +

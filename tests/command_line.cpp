@@ -344,6 +344,61 @@ BOOST_AUTO_TEST_CASE(the_examples_of_the_readme_run_as_they_stand) {
     }
 }
 
+BOOST_AUTO_TEST_CASE(a_work_precision_study_has_json_csv_and_a_baseline_of_its_errors) {
+    const TemporaryDirectory directory;
+    const std::string scene =
+        " table1-work-precision --set work_precision.runs=2 --set "
+        "work_precision.scheme.0.elements=[4,8] "
+        "--set work_precision.scheme.1.elements=[4,8] --set work_precision.scheme.2.elements=[4,8] "
+        "--set work_precision.scheme.3.elements=[4,8] --set expect={} ";
+    const auto json = nlohmann::json::parse(call(directory, "run" + scene + "--json -").output);
+    const auto& schemes = json.at("work_precision").at("schemes");
+    BOOST_REQUIRE(schemes.size() == 4u);
+    BOOST_TEST(schemes[2].at("name") == "BDF2");
+    const auto& row = schemes[2].at("rows").at(1);
+    BOOST_TEST(row.at("elements") == 8);
+    BOOST_TEST(row.at("dt") == 0.25);
+    BOOST_TEST(row.at("status") == "ok");
+    BOOST_TEST(row.at("errors").at("theta_L2L2_sq").get<double>() > 0.0);
+    for (const std::string key : {"min", "median", "q1", "q3"})
+        BOOST_TEST(row.at("seconds").at(key).get<double>() > 0.0);
+    BOOST_TEST(row.at("seconds").at("runs") == 2);
+    BOOST_TEST(row.at("counters").at("steps") == 8);
+    BOOST_TEST(row.at("counters").at("node_steps") == 64);
+    BOOST_TEST(row.at("counters").contains("heat_solves"));
+    BOOST_TEST(row.at("counters").contains("fixed_point_iterations"));
+    const auto& reached = json.at("work_precision").at("time_to_reach").at("theta_L2L2_sq");
+    BOOST_TEST(reached.size() == 9u); // 1e-2 … 1e-9 and the target
+    BOOST_TEST(reached[0].at("seconds").at("BDF2").is_object());
+    BOOST_TEST(reached[7].at("seconds").at("BDF2").is_null());
+    BOOST_TEST(reached[0].at("comparisons")[0].at("ratio").get<double>() >= 1.0);
+
+    std::istringstream csv(call(directory, "run" + scene + "--csv -").output);
+    std::string line;
+    std::getline(csv, line);
+    BOOST_TEST(line == "scheme,elements,h,dt,steps,status,theta_L2L2_sq,u_LinfH2semi_sq,"
+                       "seconds_min,seconds_q1,seconds_median,seconds_q3,runs,node_steps,"
+                       "heat_solves,fixed_point_iterations,reason");
+    std::getline(csv, line);
+    BOOST_TEST(line.starts_with("\"Euler, fixed point\",4,0.25,0.0025,800,ok,"), line);
+
+    const Called printed = call(directory, "run" + scene);
+    BOOST_TEST(has(printed.output, "Seconds to reach an error"));
+    BOOST_TEST(
+        !has(printed.output, "direct algorithm, implicit Euler, lumped heat mass matrix\n\nWork"));
+
+    const std::string file = (directory.path() / "base.json").string();
+    BOOST_TEST(call(directory, "check" + scene + "--record " + file).exit == 0);
+    const std::string recorded = directory.read("base.json");
+    BOOST_TEST(has(recorded, "work_precision.BDF2.theta_L2L2_sq: error at s = 8, dt = 0.25"));
+    BOOST_TEST(!has(recorded, "seconds"));
+    BOOST_TEST(call(directory, "check" + scene + "--baseline " + file).exit == 0);
+    const Called failing =
+        call(directory, "check" + scene + "--set beam.alpha=1e200 --baseline " + file);
+    BOOST_TEST(failing.exit == 3);
+    BOOST_TEST(has(failing.output, "a run failed: "));
+}
+
 BOOST_AUTO_TEST_CASE(derive_prints_formulas_for_a_scene_and_a_solution) {
     const TemporaryDirectory directory;
     const Called scene = call(directory, "derive table1");
