@@ -15,8 +15,8 @@ class TableReader;
 struct ReferenceBlock {
     std::int64_t elements = 0; ///< a multiple of the elements of every rung
     double dt = 0.0;           ///< divides the dt of every rung into whole steps
-    /// The reference is extrapolated, with the orders 2 in h and 1 in Δt, from the three runs with
-    /// (h, Δt), (2h, Δt) and (h, 2Δt).
+    /// The reference is extrapolated, with the order 2 in h and that of the time scheme in Δt, from
+    /// the three runs with (h, Δt), (2h, Δt) and (h, 2Δt).
     bool richardson = false;
 
     /// How many steps of the reference make one of the rung.

@@ -22,9 +22,8 @@ using Eigen::VectorXd;
 
 namespace {
 
-/// The orders that an extrapolated reference assumes, of the linear elements and of implicit Euler.
+/// The order that an extrapolated reference assumes, of the linear elements.
 constexpr double order_in_h = 2.0;
-constexpr double order_in_dt = 1.0;
 
 /// The mean of the two values at every inner node. There the error of an L² projection on P1disc
 /// is an expansion in even powers of h, as extrapolation wants it.
@@ -87,7 +86,7 @@ public:
         if (!block_.richardson)
             return add_run(scene, data, 1, 1, 1.0);
         const double in_h = 1.0 / (std::exp2(order_in_h) - 1.0);
-        const double in_dt = 1.0 / (std::exp2(order_in_dt) - 1.0);
+        const double in_dt = 1.0 / (std::exp2(scene.scheme.time.order) - 1.0);
         // y + (y − y_2h) in_h + (y − y_2Δt) in_dt
         std::string failure = add_run(scene, data, 1, 1, 1.0 + in_h + in_dt);
         if (failure.empty())
@@ -98,35 +97,44 @@ public:
     }
 
     [[nodiscard]] PiecewisePolynomial theta(double t) const {
-        const VectorXd nodal = theta_.col(slot(t));
+        const VectorXd nodal = theta_.col(level_at(t));
         return block_.richardson ? PiecewisePolynomial::cubic(nodal)
                                  : PiecewisePolynomial::linear(nodal);
     }
 
     [[nodiscard]] PiecewisePolynomial curvature(double t) const {
-        const VectorXd values = curvature_.col(slot(t));
+        const VectorXd values = curvature_.col(level_at(t));
         return block_.richardson ? PiecewisePolynomial::cubic(values)
                                  : PiecewisePolynomial::linear(
                                        DiscontinuousLinear(values.reshaped(2, values.size() / 2)));
     }
 
-    /// Initial data are read from amplitudes at t = 0 too, where no norm looks at the stress.
-    [[nodiscard]] double stress(double t) const { return t == 0.0 ? 0.0 : stress_(slot(t)); }
+    /// All amplitudes of a problem are evaluated together, also at t = 0 and at the stages inside a
+    /// step, where no norm looks at the stress.
+    [[nodiscard]] double stress(double t) const {
+        const auto at = slot(t);
+        return at ? stress_(*at) : 0.0;
+    }
 
 private:
-    /// The place of a time among the levels.
-    [[nodiscard]] Index slot(double t) const {
+    /// The place of a time among the levels; none where it is not kept.
+    [[nodiscard]] std::optional<Index> slot(double t) const {
         const double steps = t / dt_;
         const auto level = static_cast<std::int64_t>(std::llround(steps));
         const auto at = std::lower_bound(levels_.begin(), levels_.end(), level);
         // The time of a rung is the level's to the rounding of its dt in the scene.
         if (at == levels_.end() || *at != level ||
-            std::abs(steps - static_cast<double>(level)) > 0.1) {
-            std::ostringstream text;
-            text << "the reference solution is not kept at t = " << t;
-            throw std::logic_error(text.str());
-        }
+            std::abs(steps - static_cast<double>(level)) > 0.1)
+            return std::nullopt;
         return at - levels_.begin();
+    }
+
+    [[nodiscard]] Index level_at(double t) const {
+        if (const auto at = slot(t))
+            return *at;
+        std::ostringstream text;
+        text << "the reference solution is not kept at t = " << t;
+        throw std::logic_error(text.str());
     }
 
     /// Adds weight times the solution of a run, coarser by the given factors, to all kept levels.

@@ -134,19 +134,25 @@ void compare_all(ReachedError& reached) {
             }
 }
 
-/// A sentence for every pair of neighbouring rows between which the error rises.
+std::string text_of(const Rung& rung) {
+    std::ostringstream text;
+    text << "s = " << rung.elements << ", dt = " << rung.dt;
+    return text.str();
+}
+
+/// A sentence for every row whose error is larger than that of the row before it.
 void add_rises(std::vector<std::string>& remarks, const std::string& norm,
                const TimedScheme& scheme, const std::vector<TimedError>& rows) {
-    for (std::size_t i = 1; i < rows.size(); ++i)
-        if (rows[i].error > rows[i - 1].error) {
-            std::ostringstream text;
-            text << scheme.name << ": " << norm
-                 << " rises from s = " << scheme.rungs[i - 1].elements
-                 << ", dt = " << scheme.rungs[i - 1].dt << " to s = " << scheme.rungs[i].elements
-                 << ", dt = " << scheme.rungs[i].dt
-                 << "; an error counts as reached from where no finer row exceeds it.";
-            remarks.push_back(text.str());
-        }
+    std::optional<std::size_t> before; // the last row that has an error
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        if (std::isnan(rows[i].error))
+            continue;
+        if (before && rows[i].error > rows[*before].error)
+            remarks.push_back(scheme.name + ": " + norm + " rises from " +
+                              text_of(scheme.rungs[*before]) + " to " + text_of(scheme.rungs[i]) +
+                              "; an error counts as reached from where no finer row exceeds it.");
+        before = i;
+    }
 }
 
 } // namespace

@@ -225,6 +225,23 @@ norms = ["sigma_L2"]
     }
 }
 
+BOOST_DATA_TEST_CASE(a_reference_serves_every_time_scheme, data::make(TimeScheme::names()), time) {
+    // The reference's own error is (1/8)² of the finer rung's in h, and in Δt as little or less;
+    // that of the extrapolated one is of higher order.
+    const std::string measured = free_beam + "[scheme]\ntime = '" + time + "'\n" +
+                                 "[ladder]\nfinal_time = 1\nelements = [8, 16]\n"
+                                 "dt = [0.1, 0.05]\nnorms = ['theta_L2L2', 'u_LinfH2semi']\n";
+    const LadderResult exact = *study_of(measured).ladder;
+    for (const auto& block : {reference(128, "7.8125e-4"), reference(64, "6.25e-3", true)}) {
+        const LadderResult found = *study_of(measured + block).ladder;
+        for (std::size_t i = 0; i < 2; ++i)
+            for (std::size_t k = 0; k < 2; ++k) {
+                const double ratio = found.rungs[i].errors[k] / exact.rungs[i].errors[k];
+                BOOST_TEST(std::abs(ratio - 1.0) < 0.03, ratio);
+            }
+    }
+}
+
 BOOST_AUTO_TEST_CASE(predictions_are_of_what_is_measured_against_the_reference) {
     const std::string ladder = R"([ladder]
 final_time = 1

@@ -323,7 +323,9 @@ BOOST_AUTO_TEST_CASE(an_error_that_rises_along_its_ladder_is_remarked) {
     const auto norms = costs_of(block_for(schemes), schemes);
     BOOST_REQUIRE(norms[0].remarks.size() == 1u);
     BOOST_TEST(norms[0].remarks[0].starts_with("scheme 0: theta_L2L2 rises from s = 10, dt = 0.1"));
-    const std::vector<SchemeRuns> falling{made_up({1e-1, failed, 1e-3}, 1.0)};
+    const std::vector<SchemeRuns> across{made_up({1e-3, failed, 1e-2}, 1.0)};
+    BOOST_TEST(costs_of(block_for(across), across)[0].remarks.size() == 1u);
+    const std::vector<SchemeRuns> falling{made_up({1e-1, 1e-2, failed, 1e-3}, 1.0)};
     BOOST_TEST(costs_of(block_for(falling), falling)[0].remarks.empty());
 }
 
