@@ -9,7 +9,8 @@ namespace tvbeam {
 ///
 /// Returns the λ of the variational inequality (25): 0 when the free tip is admissible; otherwise
 /// the one that puts the tip on the stop it passed, λ > 0 at g1 and λ < 0 at g2. No iteration: in
-/// one unknown the projection is the exact solution. NaN in, NaN out.
+/// one unknown the projection is the exact solution. A penalised stop is passed by −ελ, so that ε
+/// adds to the compliance of the beam. NaN in, NaN out.
 double contact_stress(const Stops& stops, double free_tip, double compliance);
 
 } // namespace tvbeam

@@ -19,4 +19,28 @@ Mesh Mesh::uniform(Eigen::Index elements) {
     return mesh;
 }
 
+Mesh MeshFamily::with(Eigen::Index elements) const {
+    Mesh mesh = Mesh::uniform(elements);
+    if (is_uniform())
+        return mesh;
+    if (nodes.empty()) {
+        mesh.nodes = mesh.nodes.pow(grading);
+    } else {
+        const auto intervals = static_cast<Eigen::Index>(nodes.size()) - 1;
+        if (elements % intervals != 0)
+            throw std::invalid_argument(std::to_string(elements) +
+                                        " elements cannot be shared by " +
+                                        std::to_string(intervals) + " intervals");
+        const Eigen::Index parts = elements / intervals;
+        for (Eigen::Index j = 0; j < elements; ++j) {
+            const auto interval = static_cast<std::size_t>(j / parts);
+            const double left = nodes[interval];
+            mesh.nodes(j) = left + (nodes[interval + 1] - left) * static_cast<double>(j % parts) /
+                                       static_cast<double>(parts);
+        }
+    }
+    mesh.lengths = mesh.nodes.tail(elements) - mesh.nodes.head(elements);
+    return mesh;
+}
+
 } // namespace tvbeam

@@ -2,6 +2,8 @@
 
 #include <Eigen/Core>
 
+#include <vector>
+
 namespace tvbeam {
 
 /// A partition 0 = x_0 < x_1 < … < x_s = 1 of the beam; s ≥ 1.
@@ -13,6 +15,21 @@ struct Mesh {
 
     /// s elements of length 1/s. Throws std::invalid_argument when s < 1.
     static Mesh uniform(Eigen::Index elements);
+};
+
+/// A family of meshes that a ladder refines.
+struct MeshFamily {
+    /// x_j = (j/s)^grading: 1 is uniform, larger ones refine towards the clamped end; > 0.
+    double grading = 1.0;
+
+    /// Or nodes that every mesh has, 0 = X_0 < … < X_m = 1: each interval is cut into s/m equal
+    /// elements. Empty: none.
+    std::vector<double> nodes;
+
+    [[nodiscard]] bool is_uniform() const { return grading == 1.0 && nodes.empty(); }
+
+    /// The mesh of s elements. Throws std::invalid_argument when s < 1 or no multiple of m.
+    [[nodiscard]] Mesh with(Eigen::Index elements) const;
 };
 
 } // namespace tvbeam

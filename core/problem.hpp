@@ -9,11 +9,16 @@
 
 namespace tvbeam {
 
-/// The two rigid stops of the tip: g1 ≤ u(1,t) ≤ g2 (6). An infinite value: no stop on that side.
-/// Unit: length.
+/// The two stops of the tip. Rigid ones (6): g1 ≤ u(1,t) ≤ g2. Penalised ones, the law of the
+/// paper's reference [1], yield to the contact stress:
+///
+///     σ̃(1,t) = −((u − g2)⁺ − (g1 − u)⁺) / ε
+///
+/// An infinite value: no stop on that side. Unit: length.
 struct Stops {
     double lower = -std::numeric_limits<double>::infinity(); ///< g1 < 0
     double upper = std::numeric_limits<double>::infinity();  ///< g2 > 0
+    double epsilon = 0.0; ///< ε ≥ 0; 0: rigid. Unit: length per force
 
     [[nodiscard]] bool exist() const;
 };

@@ -29,6 +29,12 @@ std::string problem_line(const Scene& scene) {
     if (scene.beam.stops.exist())
         line += ", stops " + stop_text(scene.beam.stops.lower) + " and " +
                 stop_text(scene.beam.stops.upper);
+    if (scene.beam.stops.epsilon != 0.0)
+        line += ", penalised with epsilon = " + shortest(scene.beam.stops.epsilon);
+    if (!scene.mesh.nodes.empty())
+        line += "; nodes of every mesh: " + std::to_string(scene.mesh.nodes.size());
+    else if (!scene.mesh.is_uniform())
+        line += "; meshes graded by " + shortest(scene.mesh.grading);
     return line;
 }
 

@@ -9,11 +9,11 @@
 
 namespace tvbeam {
 
-RungResult run_rung(const Beam& beam, const Scheme& scheme, const std::vector<Norm>& norms,
+RungResult run_rung(const Scene& scene, const Scheme& scheme, const std::vector<Norm>& norms,
                     double final_time, const Rung& rung, const ProblemData& data) {
     const auto start = std::chrono::steady_clock::now();
-    const RunResult run = tvbeam::run({.beam = beam,
-                                       .mesh = Mesh::uniform(rung.elements),
+    const RunResult run = tvbeam::run({.beam = scene.beam,
+                                       .mesh = scene.mesh.with(rung.elements),
                                        .scheme = scheme,
                                        .final_time = final_time,
                                        .steps = rung.steps,
@@ -32,7 +32,7 @@ std::vector<RungResult> run_rungs(const Scene& scene, const std::vector<Norm>& n
         costs.push_back(static_cast<double>(rung.elements) * static_cast<double>(rung.steps));
     std::vector<RungResult> results(rungs.size());
     for_each_longest_first(costs, jobs, [&](std::size_t i) {
-        results[i] = run_rung(scene.beam, scene.scheme, norms, final_time, rungs[i], data);
+        results[i] = run_rung(scene, scene.scheme, norms, final_time, rungs[i], data);
         // What the norms show of the reference against itself is the rounding of its evaluation.
         if (scene.reference && scene.reference->is(rungs[i]))
             std::fill(results[i].errors.begin(), results[i].errors.end(), 0.0);

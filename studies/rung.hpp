@@ -19,8 +19,8 @@ struct RungResult {
     std::vector<double> errors; ///< one a norm; empty when failed
 };
 
-/// Runs a scheme on one rung.
-RungResult run_rung(const Beam& beam, const Scheme& scheme, const std::vector<Norm>& norms,
+/// Runs a scheme on one rung of the scene's beam and meshes.
+RungResult run_rung(const Scene& scene, const Scheme& scheme, const std::vector<Norm>& norms,
                     double final_time, const Rung& rung, const ProblemData& data);
 
 /// Runs the scene's scheme on every rung, in up to `jobs` threads; the results stand in the order

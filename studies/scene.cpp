@@ -2,6 +2,7 @@
 
 #include "core/error_norms.hpp"
 #include "mms/manufactured_problem.hpp"
+#include "studies/model_keys.hpp"
 #include "studies/scheme_keys.hpp"
 #include "studies/shipped.hpp"
 #include "studies/study_keys.hpp"
@@ -14,48 +15,6 @@
 namespace tvbeam {
 
 namespace {
-
-/// A number that must not be below the limit; the rule is put in words by the caller.
-double at_least_zero(TableReader& table, std::string_view key) {
-    const auto value = table.number(key);
-    if (!value)
-        throw InputError(table.place(key),
-                         table.full(key) + " is missing; it must be given and be >= 0");
-    if (*value < 0.0)
-        throw InputError(table.place(key),
-                         table.full(key) + " is " + message_text(*value) + "; it must be >= 0");
-    return *value;
-}
-
-Beam read_beam(TableReader table, bool& stops_given) {
-    Beam beam;
-    beam.alpha = at_least_zero(table, "alpha");
-    beam.zeta = at_least_zero(table, "zeta");
-    beam.theta_A = table.number("theta_A").value_or(0.0);
-    if (const auto stops = table.numbers("stops", TableReader::Infinity::allowed)) {
-        stops_given = true;
-        if (stops->size() != 2)
-            throw InputError(table.place("stops"), table.full("stops") + " has " +
-                                                       std::to_string(stops->size()) +
-                                                       " values; it must be [g1, g2]");
-        beam.stops = {(*stops)[0], (*stops)[1]};
-        if (beam.stops.lower >= beam.stops.upper)
-            throw InputError(table.place("stops"), table.full("stops") + " is [" +
-                                                       message_text(beam.stops.lower) + ", " +
-                                                       message_text(beam.stops.upper) +
-                                                       "]; g1 must be below g2: are they swapped?");
-        if (!(beam.stops.lower < 0.0))
-            throw InputError(table.place("stops", 0), "g1, the first of " + table.full("stops") +
-                                                          ", is " + message_text(beam.stops.lower) +
-                                                          "; it must be < 0 (-inf: no stop below)");
-        if (!(beam.stops.upper > 0.0))
-            throw InputError(table.place("stops", 1), "g2, the second of " + table.full("stops") +
-                                                          ", is " + message_text(beam.stops.upper) +
-                                                          "; it must be > 0 (inf: no stop above)");
-    }
-    table.finish();
-    return beam;
-}
 
 /// Figures may stand there for norms that are not asked for, e.g. after --set ladder.norms=…
 PrintedFigures read_printed(TableReader table, const LadderBlock& ladder) {
@@ -141,6 +100,30 @@ Solution read_scene_solution(TableReader& root, const std::filesystem::path& bes
         find_file(Shipped::solution, *root.text("solution"), beside, root.place("solution")));
 }
 
+/// Meshes that the studies of the scene cannot have.
+void check_meshes(const Scene& scene, const TableReader& root) {
+    if (scene.reference && !scene.mesh.is_uniform())
+        throw InputError(root.place("mesh"),
+                         "a block [reference] wants uniform meshes, whose nodes are all nodes of "
+                         "the reference; remove the block [mesh]");
+    const auto intervals = static_cast<std::int64_t>(scene.mesh.nodes.size()) - 1;
+    const auto check = [&](const std::vector<Rung>& rungs) {
+        for (const Rung& rung : rungs)
+            if (intervals > 0 && rung.elements % intervals != 0)
+                throw InputError(root.place("mesh"),
+                                 "mesh.nodes has " + std::to_string(intervals) +
+                                     " intervals, and a run has " + std::to_string(rung.elements) +
+                                     " elements; every interval must get the same number");
+    };
+    if (scene.ladder)
+        check(scene.ladder->rungs);
+    if (scene.orders)
+        check(scene.orders->grid);
+    if (scene.work_precision)
+        for (const auto& scheme : scene.work_precision->schemes)
+            check(scheme.rungs);
+}
+
 std::string json_of(const toml::table& table) {
     std::ostringstream text;
     text << toml::json_formatter{table, toml::format_flags::quote_infinities_and_nans};
@@ -169,7 +152,9 @@ Scene read_scene(const std::string& name_or_file, const std::vector<std::string>
     if (!beam)
         throw InputError({scene.file},
                          "the block [beam] is missing; it holds alpha, zeta and the stops");
-    scene.beam = read_beam(*std::move(beam), scene.stops_given);
+    scene.beam = read_beam(*std::move(beam));
+    if (auto mesh = root.table("mesh"))
+        scene.mesh = read_mesh(*std::move(mesh));
     if (auto scheme = root.table("scheme"))
         scene.scheme = read_scheme(*std::move(scheme));
 
@@ -207,6 +192,7 @@ Scene read_scene(const std::string& name_or_file, const std::vector<std::string>
             root.place(scene.orders ? "orders" : "ladder"),
             "the norms ask for errors, but the scene has no exact solution; remove them, or give "
             "a solution or a block [reference]");
+    check_meshes(scene, root);
     if (auto expect = root.table("expect"); expect && reading.expectations)
         scene.expectations =
             read_expectations(*std::move(expect), scene.ladder ? &*scene.ladder : nullptr,

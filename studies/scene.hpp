@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/mesh.hpp"
 #include "core/norms.hpp"
 #include "core/problem.hpp"
 #include "core/scheme.hpp"
@@ -45,7 +46,7 @@ struct Scene {
     std::string name;  ///< the file's name without .toml
     std::string title; ///< the name where the scene has none
     Beam beam;
-    bool stops_given = false;
+    MeshFamily mesh;
     std::variant<Solution, GivenData> problem;
     Scheme scheme;
     std::optional<LadderBlock> ladder;

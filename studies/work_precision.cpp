@@ -45,7 +45,7 @@ public:
 
 private:
     RungResult run(std::size_t scheme, const Rung& rung, const std::vector<Norm>& norms) {
-        return run_rung(scene_.beam, block_.schemes[scheme].scheme, norms, block_.final_time, rung,
+        return run_rung(scene_, block_.schemes[scheme].scheme, norms, block_.final_time, rung,
                         data_);
     }
 
