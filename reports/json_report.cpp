@@ -199,6 +199,8 @@ Json json_of(const WorkPrecisionResult& result, const WorkPrecisionBlock& block)
             {{"name", block.schemes[k].name}, {"rows", rows_of(result.schemes[k], block.norms)}});
     Json costs = Json::object();
     Json remarks = Json::array();
+    if (!result.busy_remark.empty())
+        remarks.push_back(result.busy_remark);
     for (const auto& norm : result.norms) {
         costs[norm.norm.name] = json_of(norm, block.schemes);
         for (const auto& remark : norm.remarks)

@@ -211,6 +211,8 @@ std::string work_precision_text(const WorkPrecisionResult& result,
                 wrapped("Seconds to reach an error, on the log-log line between two rows; blank: "
                         "not within what was measured") +
                 tables;
+    if (!result.busy_remark.empty())
+        words += "\n" + wrapped(result.busy_remark);
     return text + words;
 }
 

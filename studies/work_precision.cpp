@@ -1,7 +1,9 @@
 #include "studies/work_precision.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <ctime>
 #include <limits>
 #include <sstream>
 
@@ -12,6 +14,8 @@ namespace {
 /// A run shorter than this finds the caches as other runs left them: one that does not count goes
 /// before each that does. Unit: s.
 constexpr double quick = 1e-3;
+/// Of a core, for times that can be compared.
+constexpr double least_share = 0.9;
 constexpr int first_decade = 2; // 1e-2
 constexpr int last_decade = 9;
 
@@ -157,6 +161,15 @@ void add_rises(std::vector<std::string>& remarks, const std::string& norm,
 
 } // namespace
 
+std::string busy_remark(double processor_seconds, double wall_clock_seconds) {
+    const double share = processor_seconds / wall_clock_seconds;
+    if (share >= least_share)
+        return {};
+    return "The machine was busy: the runs had " + std::to_string(std::lround(100.0 * share)) +
+           " % of a core. Long runs lose more to other programs than short ones, so that these "
+           "ratios are not to be trusted: time it again on an idle machine.";
+}
+
 std::int64_t node_steps(const Rung& rung) {
     return rung.elements * rung.steps;
 }
@@ -164,7 +177,12 @@ std::int64_t node_steps(const Rung& rung) {
 WorkPrecisionResult run_work_precision(const Scene& scene, const WorkPrecisionBlock& block,
                                        const ProblemData& data, double one_run_above) {
     WorkPrecisionResult result;
+    const std::clock_t processor = std::clock();
+    const auto start = std::chrono::steady_clock::now();
     result.schemes = Race(scene, block, data, one_run_above).take();
+    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+    result.busy_remark = busy_remark(static_cast<double>(std::clock() - processor) / CLOCKS_PER_SEC,
+                                     elapsed.count());
     result.norms = costs_of(block, result.schemes);
     return result;
 }

@@ -45,7 +45,13 @@ struct NormCosts {
 struct WorkPrecisionResult {
     std::vector<SchemeRuns> schemes; ///< in the order of the block
     std::vector<NormCosts> norms;    ///< in the order of the block
+    std::string busy_remark;         ///< see busy_remark
 };
+
+/// A sentence where the runs had less than nine tenths of a core: a run that is shorter than the
+/// turn that the system gives a program is then timed right, a longer one with the turns of others,
+/// which no quartile shows. Empty otherwise.
+std::string busy_remark(double processor_seconds, double wall_clock_seconds);
 
 /// Elements times steps: the size of a run, whatever the algorithm makes of it.
 std::int64_t node_steps(const Rung& rung);

@@ -142,6 +142,16 @@ BOOST_AUTO_TEST_CASE(one_run_is_marked_and_has_no_quartiles) {
     BOOST_TEST(!has(many.text(), "*"));
 }
 
+BOOST_AUTO_TEST_CASE(a_busy_machine_is_said_behind_the_ratios) {
+    Study two = study({"theta_L2L2"});
+    two.add("Euler", {{1e-2, 1.0}, {1e-4, 62.0}});
+    two.add("BDF2", {{1e-2, 0.1}, {1e-4, 1.0}});
+    two.result.busy_remark = busy_remark(1.0, 8.0);
+    const std::string text = two.text();
+    BOOST_TEST(text.find("The machine was busy") > text.find("times sooner"), text);
+    BOOST_TEST(has(text, "The machine was busy"));
+}
+
 BOOST_AUTO_TEST_CASE(a_failed_run_stays_in_the_table_with_its_reason) {
     Study failing = study({"theta_L2L2"});
     failing.add("paper's", {{std::nullopt, 0.0}, {1e-4, 3.0}});

@@ -329,6 +329,11 @@ BOOST_AUTO_TEST_CASE(an_error_that_rises_along_its_ladder_is_remarked) {
     BOOST_TEST(costs_of(block_for(falling), falling)[0].remarks.empty());
 }
 
+BOOST_AUTO_TEST_CASE(a_busy_machine_is_remarked) {
+    BOOST_TEST(busy_remark(9.5, 10.0).empty());
+    BOOST_TEST(busy_remark(1.3, 10.0).find("had 13 % of a core") != std::string::npos);
+}
+
 BOOST_AUTO_TEST_CASE(errors_and_orders_of_a_scheme_are_expected_by_its_name) {
     const Scene scene = scene_of(good);
     const double error = timed(scene).schemes[1].runs[1].errors[0];
