@@ -86,18 +86,6 @@ double starting_order(const Ladder& ladder) {
            (ladder.log_width[coarsest] - ladder.log_width[finest]);
 }
 
-std::optional<LeastSquares> best_of(const Ladder& ladder, std::optional<double> reference,
-                                    const std::vector<Eigen::VectorXd>& starts) {
-    std::optional<LeastSquares> best;
-    for (const auto& start : starts) {
-        auto fit =
-            least_squares(model_of(ladder, reference), ladder.log_error, ladder.weights, start);
-        if (fit && (!best || fit->chi2 < best->chi2))
-            best = std::move(fit);
-    }
-    return best;
-}
-
 std::optional<LeastSquares> fit_without_floor(const Ladder& ladder,
                                               std::optional<double> reference) {
     const double level = ladder.log_error.mean();
@@ -105,7 +93,7 @@ std::optional<LeastSquares> fit_without_floor(const Ladder& ladder,
     if (reference)
         for (const double p : {0.5, 1.0, 2.0, 4.0})
             starts.emplace_back(Eigen::Vector2d(level, p));
-    return best_of(ladder, reference, starts);
+    return least_squares(model_of(ladder, reference), ladder.log_error, ladder.weights, starts);
 }
 
 std::optional<LeastSquares> fit_with_floor(const Ladder& ladder, std::optional<double> reference) {
@@ -116,7 +104,7 @@ std::optional<LeastSquares> fit_with_floor(const Ladder& ladder, std::optional<d
         for (const double order : {1.0, 1.5, 2.0, 4.0})
             starts.emplace_back(Eigen::Vector3d(level, order * std::abs(starting_order(ladder)),
                                                 lowest + std::log(part)));
-    return best_of(ladder, reference, starts);
+    return least_squares(model_of(ladder, reference), ladder.log_error, ladder.weights, starts);
 }
 
 double scatter_of_pairs(const Ladder& ladder, const PowerLawFit& fit) {

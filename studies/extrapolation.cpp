@@ -151,12 +151,10 @@ std::optional<LimitFit> fit_limit(std::span<const GridValue> grids) {
         jacobian->col(1) = power;
         jacobian->col(2) = theta[1] * power.cwiseProduct(log_h);
     };
-    std::optional<LeastSquares> best;
-    for (const double p : {0.5, 1.0, 2.0, 4.0}) {
-        auto fit = least_squares(model, y, weights, Eigen::Vector3d(0.0, y[0], p));
-        if (fit && (!best || fit->chi2 < best->chi2))
-            best = std::move(fit);
-    }
+    std::vector<Eigen::VectorXd> starts;
+    for (const double p : {0.5, 1.0, 2.0, 4.0})
+        starts.emplace_back(Eigen::Vector3d(0.0, y[0], p));
+    const auto best = least_squares(model, y, weights, starts);
     if (!best || !(best->theta[2] > 0))
         return std::nullopt;
 

@@ -82,10 +82,10 @@ std::optional<FitWindow> first_half(const TwoTermPoints& points) {
     const auto n = static_cast<std::size_t>(points.size());
     const std::size_t size =
         std::max<std::size_t>(two_term_parameters + 2, (n + two_term_parameters + 1) / 2);
-    const double spread_h = std::max(points.log_h.cwiseAbs().maxCoeff(), 1e-300);
-    const double spread_dt = std::max(points.log_dt.cwiseAbs().maxCoeff(), 1e-300);
-    const Eigen::VectorXd h = points.log_h / spread_h;
-    const Eigen::VectorXd dt = points.log_dt / spread_dt;
+    const double spread_h = std::max(points.log_h.levels.cwiseAbs().maxCoeff(), 1e-300);
+    const double spread_dt = std::max(points.log_dt.levels.cwiseAbs().maxCoeff(), 1e-300);
+    const Eigen::VectorXd h = points.log_h.at_points() / spread_h;
+    const Eigen::VectorXd dt = points.log_dt.at_points() / spread_dt;
     const std::vector<Eigen::VectorXd> corners{h + dt, h, dt, h - dt, dt - h, -h - dt};
     std::optional<FitWindow> best;
     for (const auto& coarseness : corners) {
@@ -166,7 +166,7 @@ std::optional<FitWindow> grown_window(const TwoTermPoints& points) {
 }
 
 /// The coarsest width of the members where more than enough are there to take it off.
-std::optional<double> spare_level(const Members& members, const Eigen::VectorXd& log_width) {
+std::optional<double> spare_level(const Members& members, const LogWidths& log_width) {
     std::set<double> widths;
     for (const auto i : members)
         widths.insert(log_width[i]);

@@ -1,76 +1,175 @@
 #include "studies/least_squares.hpp"
 
 #include <gsl/gsl_cdf.h>
-#include <gsl/gsl_multifit_nlinear.h>
 
+#include <Eigen/Cholesky>
+#include <Eigen/QR>
+
+#include <algorithm>
 #include <cmath>
 #include <limits>
-#include <memory>
+#include <stdexcept>
 
 namespace tvbeam {
 
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr int most_iterations = 200;
+/// A search that has an end takes about ten. Where it has none (ρ at its bound, a term that is not
+/// there), more of them only bend the model towards what is out of line.
+constexpr int most_trials = 100;
+constexpr double smallest_step = 1e-10;
+constexpr double smallest_gradient = 1e-10;
 
 /// Below this the columns of J are one to working precision, and (JᵀJ)⁻¹ has no correct digit.
 constexpr double smallest_rcond = 1e-9;
 
-struct Problem {
-    const ModelFunction& model;
-    const Eigen::VectorXd& y;
+/// The model about one θ, and the sum of squares there: r = √w (f − y) and J = √w ∂f/∂θ.
+struct Place {
     Eigen::VectorXd theta;
-    Eigen::VectorXd values;
+    Eigen::VectorXd residuals;
     Eigen::MatrixXd jacobian;
+    double chi2 = 0; ///< not finite where θ is inadmissible
 };
 
-void read(const gsl_vector* from, Eigen::VectorXd& to) {
-    for (Eigen::Index i = 0; i < to.size(); ++i)
-        to[i] = gsl_vector_get(from, static_cast<std::size_t>(i));
+/// s² (JᵀJ)⁻¹
+template <int size>
+Eigen::MatrixXd covariance(const Eigen::MatrixXd& jacobian, double s2, int dof) {
+    using Matrix = Eigen::Matrix<double, size, size>;
+    Eigen::MatrixXd undetermined = Eigen::MatrixXd::Zero(size, size);
+    undetermined.diagonal().setConstant(infinity);
+    if (dof < 1)
+        return undetermined;
+    const Eigen::ColPivHouseholderQR<Eigen::Matrix<double, Eigen::Dynamic, size>> qr(jacobian);
+    const Matrix r = qr.matrixR().topRows(size).template triangularView<Eigen::Upper>();
+    const Matrix inverse = r.template triangularView<Eigen::Upper>().solve(Matrix::Identity());
+    const auto norm = [](const Matrix& matrix) {
+        return matrix.cwiseAbs().colwise().sum().maxCoeff();
+    };
+    if (!(norm(r) * norm(inverse) * smallest_rcond < 1))
+        return undetermined;
+    const Matrix root = qr.colsPermutation() * inverse;
+    return s2 * root * root.transpose();
 }
 
-int residual_callback(const gsl_vector* theta, void* data, gsl_vector* out) {
-    auto& problem = *static_cast<Problem*>(data);
-    read(theta, problem.theta);
-    problem.model(problem.theta, problem.values, nullptr);
-    for (Eigen::Index i = 0; i < problem.y.size(); ++i)
-        gsl_vector_set(out, static_cast<std::size_t>(i), problem.values[i] - problem.y[i]);
-    return GSL_SUCCESS;
-}
+/// The search for `size` parameters. GSL has one, but the fits here are so small that most of its
+/// time goes into algebra for matrices of any size; with the size known at compile time a step
+/// costs hardly more than the model.
+template <int size>
+class Search {
+public:
+    Search(const ModelFunction& model, const Eigen::VectorXd& y, const Eigen::VectorXd& weights)
+        : model_(model), y_(y),
+          root_weights_(weights.cwiseSqrt()), here_{Eigen::VectorXd(size),
+                                                    Eigen::VectorXd(y.size()),
+                                                    Eigen::MatrixXd(y.size(), size), infinity},
+          trial_(here_), best_(here_) {}
 
-int jacobian_callback(const gsl_vector* theta, void* data, gsl_matrix* out) {
-    auto& problem = *static_cast<Problem*>(data);
-    read(theta, problem.theta);
-    problem.model(problem.theta, problem.values, &problem.jacobian);
-    for (Eigen::Index i = 0; i < problem.jacobian.rows(); ++i)
-        for (Eigen::Index k = 0; k < problem.jacobian.cols(); ++k)
-            gsl_matrix_set(out, static_cast<std::size_t>(i), static_cast<std::size_t>(k),
-                           problem.jacobian(i, k));
-    return GSL_SUCCESS;
-}
+    /// Levenberg and Marquardt, with Moré's scaling of the parameters and Nielsen's damping (1999).
+    /// What it comes to is kept if it is the best so far.
+    void descend_from(const Eigen::VectorXd& start) {
+        here_.theta = start;
+        evaluate(here_);
+        if (!std::isfinite(here_.chi2))
+            return;
+        linearise();
+        // Squares; a parameter that moves nothing yet has no scale of its own.
+        Vector scales = (normal_.diagonal().array() > 0).select(normal_.diagonal(), 1.0);
+        double damping = 1e-3;
+        double next_rise = 2;
+        for (int k = 0; k < most_trials && !joins_the_best(); ++k) {
+            Matrix damped = normal_;
+            damped.diagonal() += damping * scales;
+            const Vector step = -damped.llt().solve(gradient_);
+            if (!step.allFinite())
+                break;
+            trial_.theta = here_.theta + step;
+            evaluate(trial_);
+            const bool stands =
+                (step.array().abs() <= smallest_step * (here_.theta.array().abs() + smallest_step))
+                    .all();
+            if (trial_.chi2 < here_.chi2) {
+                // By the model that is linear about here_, with the damping's own share.
+                const double promised = step.dot(damping * scales.cwiseProduct(step) - gradient_);
+                const double kept = 2 * (here_.chi2 - trial_.chi2) / promised - 1;
+                damping *= std::max(1.0 / 3, 1 - kept * kept * kept);
+                next_rise = 2;
+                std::swap(here_, trial_);
+                linearise();
+                scales = scales.cwiseMax(normal_.diagonal());
+            } else {
+                damping *= next_rise;
+                next_rise *= 2;
+            }
+            if (stands || gradient_.template lpNorm<Eigen::Infinity>() <=
+                              smallest_gradient * std::max(1.0, here_.chi2 / 2))
+                break;
+        }
+        if (here_.chi2 < best_.chi2)
+            std::swap(here_, best_);
+    }
 
-using Workspace =
-    std::unique_ptr<gsl_multifit_nlinear_workspace, decltype(&gsl_multifit_nlinear_free)>;
-
-Eigen::MatrixXd covariance(gsl_multifit_nlinear_workspace* workspace, Eigen::Index size, double s2,
-                           int dof) {
-    Eigen::MatrixXd result = Eigen::MatrixXd::Zero(size, size);
-    double rcond = 0;
-    gsl_multifit_nlinear_rcond(&rcond, workspace);
-    if (dof < 1 || !(rcond > smallest_rcond)) {
-        result.diagonal().setConstant(infinity);
+    std::optional<LeastSquares> best() const {
+        if (!std::isfinite(best_.chi2))
+            return std::nullopt;
+        LeastSquares result;
+        result.theta = best_.theta;
+        result.residuals = -best_.residuals.cwiseQuotient(root_weights_);
+        result.chi2 = best_.chi2;
+        result.dof = static_cast<int>(y_.size()) - size;
+        const double s = result.scale();
+        result.covariance = covariance<size>(best_.jacobian, s * s, result.dof);
         return result;
     }
-    const auto n = static_cast<std::size_t>(size);
-    const std::unique_ptr<gsl_matrix, decltype(&gsl_matrix_free)> unscaled(gsl_matrix_alloc(n, n),
-                                                                           gsl_matrix_free);
-    gsl_multifit_nlinear_covar(gsl_multifit_nlinear_jac(workspace), 0.0, unscaled.get());
-    for (Eigen::Index i = 0; i < size; ++i)
-        for (Eigen::Index k = 0; k < size; ++k)
-            result(i, k) = s2 * gsl_matrix_get(unscaled.get(), static_cast<std::size_t>(i),
-                                               static_cast<std::size_t>(k));
-    return result;
+
+private:
+    using Vector = Eigen::Matrix<double, size, 1>;
+    using Matrix = Eigen::Matrix<double, size, size>;
+
+    void evaluate(Place& at) const {
+        model_(at.theta, at.residuals, &at.jacobian);
+        at.residuals = (at.residuals - y_).cwiseProduct(root_weights_);
+        at.jacobian.array().colwise() *= root_weights_.array();
+        at.chi2 = at.residuals.squaredNorm();
+    }
+
+    void linearise() {
+        const Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, size>> jacobian(
+            here_.jacobian.data(), y_.size(), size);
+        // Coefficient by coefficient: Eigen's blocked product is mostly overhead here.
+        normal_ = jacobian.transpose().lazyProduct(jacobian);
+        gradient_ = jacobian.transpose().lazyProduct(here_.residuals);
+    }
+
+    /// A hundredth of a standard error from where an earlier start has ended, this one ends too.
+    bool joins_the_best() const {
+        if (!std::isfinite(best_.chi2))
+            return false;
+        constexpr double close = 1e-4;
+        const Vector apart = here_.theta - best_.theta;
+        return apart.dot(normal_ * apart) * static_cast<double>(y_.size()) <= close * best_.chi2;
+    }
+
+    const ModelFunction& model_;
+    const Eigen::VectorXd& y_;
+    Eigen::VectorXd root_weights_;
+    Place here_;
+    Place trial_;
+    Place best_;
+    Matrix normal_;   ///< JᵀJ, here
+    Vector gradient_; ///< Jᵀr, here
+};
+
+template <int size>
+std::optional<LeastSquares> best_of(const ModelFunction& model, const Eigen::VectorXd& y,
+                                    const Eigen::VectorXd& weights,
+                                    std::span<const Eigen::VectorXd> starts) {
+    if (y.size() < size)
+        return std::nullopt;
+    Search<size> search(model, y, weights);
+    for (const auto& start : starts)
+        search.descend_from(start);
+    return search.best();
 }
 
 } // namespace
@@ -85,53 +184,23 @@ double LeastSquares::standard_error(int k) const {
 
 std::optional<LeastSquares> least_squares(const ModelFunction& model, const Eigen::VectorXd& y,
                                           const Eigen::VectorXd& weights,
-                                          const Eigen::VectorXd& start) {
-    const Eigen::Index observations = y.size();
-    const Eigen::Index parameters = start.size();
-    // GSL would end the process here.
-    if (parameters < 1 || observations < parameters)
+                                          std::span<const Eigen::VectorXd> starts) {
+    if (starts.empty())
         return std::nullopt;
-
-    Problem problem{model, y, start, Eigen::VectorXd(observations),
-                    Eigen::MatrixXd(observations, parameters)};
-    model(start, problem.values, nullptr);
-    if (!problem.values.allFinite())
-        return std::nullopt;
-
-    gsl_multifit_nlinear_fdf functions{};
-    functions.f = residual_callback;
-    functions.df = jacobian_callback;
-    functions.n = static_cast<std::size_t>(observations);
-    functions.p = static_cast<std::size_t>(parameters);
-    functions.params = &problem;
-
-    auto options = gsl_multifit_nlinear_default_parameters();
-    const Workspace workspace(
-        gsl_multifit_nlinear_alloc(gsl_multifit_nlinear_trust, &options, functions.n, functions.p),
-        gsl_multifit_nlinear_free);
-    const auto start_view = gsl_vector_const_view_array(start.data(), functions.p);
-    const auto weight_view = gsl_vector_const_view_array(weights.data(), functions.n);
-    gsl_multifit_nlinear_winit(&start_view.vector, &weight_view.vector, &functions,
-                               workspace.get());
-    // Where no step improves any more the driver reports a failure at the minimum itself (data
-    // without noise do that), so its word is not asked: the caller compares what several starts
-    // have reached.
-    int why = 0;
-    gsl_multifit_nlinear_driver(most_iterations, 1e-10, 1e-10, 0.0, nullptr, nullptr, &why,
-                                workspace.get());
-
-    LeastSquares result;
-    result.theta.resize(parameters);
-    read(gsl_multifit_nlinear_position(workspace.get()), result.theta);
-    model(result.theta, problem.values, nullptr);
-    result.residuals = y - problem.values;
-    result.chi2 = weights.dot(result.residuals.cwiseAbs2());
-    if (!result.theta.allFinite() || !std::isfinite(result.chi2))
-        return std::nullopt;
-    result.dof = static_cast<int>(observations - parameters);
-    const double s = result.scale();
-    result.covariance = covariance(workspace.get(), parameters, s * s, result.dof);
-    return result;
+    switch (starts.front().size()) {
+    case 2:
+        return best_of<2>(model, y, weights, starts);
+    case 3:
+        return best_of<3>(model, y, weights, starts);
+    case 4:
+        return best_of<4>(model, y, weights, starts);
+    case 5:
+        return best_of<5>(model, y, weights, starts);
+    case 7:
+        return best_of<7>(model, y, weights, starts);
+    default:
+        throw std::invalid_argument("no model has so many parameters");
+    }
 }
 
 double student_half_width(double se, int dof, double level) {

@@ -1,4 +1,4 @@
-/// Weighted nonlinear least squares (GSL's trust region), with what an honest interval needs.
+/// Weighted nonlinear least squares, with what an honest interval needs.
 ///
 /// Minimises χ² = Σ_i w_i (y_i − f_i(θ))². The weights are relative: the variance of the data is
 /// estimated from the residuals, s² = χ² / dof with dof = observations − parameters, and
@@ -14,6 +14,7 @@
 
 #include <functional>
 #include <optional>
+#include <span>
 
 namespace tvbeam {
 
@@ -34,11 +35,11 @@ struct LeastSquares {
     double standard_error(int k) const;
 };
 
-/// None where there are fewer observations than parameters, the start is inadmissible, or the
-/// search comes to no finite end.
+/// The best of what the starts lead to; all are of one length, and 2, 3, 4, 5 or 7 are known. None
+/// where there are fewer observations than parameters, or no start is admissible.
 std::optional<LeastSquares> least_squares(const ModelFunction& model, const Eigen::VectorXd& y,
                                           const Eigen::VectorXd& weights,
-                                          const Eigen::VectorXd& start);
+                                          std::span<const Eigen::VectorXd> starts);
 
 /// Half the width of the two-sided Student interval: t_{(1+level)/2, dof} · se. Infinite where dof
 /// < 1.

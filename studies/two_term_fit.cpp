@@ -62,24 +62,28 @@ std::size_t levels(std::span<const Refinement> records, const std::vector<std::s
 TwoTermPoints points_of(std::span<const Refinement> records, const std::vector<std::size_t>& chosen,
                         const TwoTermOptions& options) {
     const auto n = static_cast<Eigen::Index>(chosen.size());
-    TwoTermPoints points{Eigen::VectorXd(n), Eigen::VectorXd(n), Eigen::VectorXd(n),
-                         Eigen::VectorXd::Ones(n)};
+    Eigen::VectorXd log_h(n);
+    Eigen::VectorXd log_dt(n);
+    Eigen::VectorXd log_error(n);
+    Eigen::VectorXd weights = Eigen::VectorXd::Ones(n);
     for (Eigen::Index k = 0; k < n; ++k) {
         const auto i = chosen[static_cast<std::size_t>(k)];
-        points.log_h[k] = std::log(records[i].h);
-        points.log_dt[k] = std::log(records[i].dt);
-        points.log_error[k] = std::log(records[i].error);
+        log_h[k] = std::log(records[i].h);
+        log_dt[k] = std::log(records[i].dt);
+        log_error[k] = std::log(records[i].error);
         if (!options.weights.empty())
-            points.weights[k] = options.weights[i];
+            weights[k] = options.weights[i];
     }
-    if (n == 0)
-        return points;
     // Relative weights: their mean is one, so that χ² / dof is the scatter of ln e itself.
-    points.weights /= points.weights.mean();
-    points.log_h_centre = points.log_h.mean();
-    points.log_dt_centre = points.log_dt.mean();
-    points.log_h.array() -= points.log_h_centre;
-    points.log_dt.array() -= points.log_dt_centre;
+    weights /= weights.mean();
+    const double log_h_centre = log_h.mean();
+    const double log_dt_centre = log_dt.mean();
+    TwoTermPoints points{.log_h = LogWidths::of(log_h.array() - log_h_centre),
+                         .log_dt = LogWidths::of(log_dt.array() - log_dt_centre),
+                         .log_error = std::move(log_error),
+                         .weights = std::move(weights),
+                         .log_h_centre = log_h_centre,
+                         .log_dt_centre = log_dt_centre};
     if (options.reference && !std::isnan(options.reference->h))
         points.reference_log_h = std::log(options.reference->h) - points.log_h_centre;
     if (options.reference && !std::isnan(options.reference->dt))

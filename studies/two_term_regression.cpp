@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <set>
 #include <utility>
 
 namespace tvbeam {
@@ -41,34 +42,49 @@ Term power_at(double order, const Next& next, double x) {
     return {sum, sum * x, further};
 }
 
-/// At distance x from the centre, less what the reference has of it.
-Term term_at(double log_size, double order, const Next& next, double x,
-             const std::optional<double>& reference) {
-    const Term term = power_at(order, next, x);
+/// At every level, less what the reference has of it.
+std::vector<Term> terms_at(const Eigen::VectorXd& levels, const std::optional<double>& reference,
+                           double log_size, double order, const Next& next) {
     const Term less = reference ? power_at(order, next, *reference) : Term{};
     const double size = std::exp(log_size);
-    return {size * (term.value - less.value), size * (term.by_order - less.by_order),
-            size * (term.by_next - less.by_next)};
+    std::vector<Term> terms;
+    terms.reserve(static_cast<std::size_t>(levels.size()));
+    for (const double x : levels) {
+        const Term term = power_at(order, next, x);
+        terms.push_back({size * (term.value - less.value), size * (term.by_order - less.by_order),
+                         size * (term.by_next - less.by_next)});
+    }
+    return terms;
+}
+
+/// A term of size one, over the error, at every point.
+Eigen::ArrayXd unit_term(const TwoTermPoints& points, const LogWidths& widths,
+                         const std::optional<double>& reference, double order) {
+    const auto terms = terms_at(widths.levels, reference, 0, order, {});
+    Eigen::ArrayXd values = (-points.log_error).array().exp();
+    for (Eigen::Index i = 0; i < values.size(); ++i)
+        values[i] *= terms[static_cast<std::size_t>(widths.level_of[i])].value;
+    return values;
 }
 
 /// The least-squares solution of a² A² + 2ρab AB + b² B² = e², every row over e², as a start.
-Eigen::VectorXd start_for(const TwoTermPoints& points, double p, double q) {
-    const Eigen::Index n = points.size();
-    Eigen::MatrixXd rows(n, 3);
-    for (Eigen::Index i = 0; i < n; ++i) {
-        const double in_space = term_at(0, p, {}, points.log_h[i], points.reference_log_h).value;
-        const double in_time = term_at(0, q, {}, points.log_dt[i], points.reference_log_dt).value;
-        const double root_weight = std::sqrt(points.weights[i]);
-        const double inverse = root_weight * std::exp(-2 * points.log_error[i]);
-        rows.row(i) << in_space * in_space * inverse, in_space * in_time * inverse,
-            in_time * in_time * inverse;
-    }
-    const Eigen::VectorXd ones = points.weights.cwiseSqrt();
+/// in_space, in_time: A/e and B/e, for the orders p and q.
+Eigen::VectorXd start_for(const Eigen::ArrayXd& root_weights, double p,
+                          const Eigen::ArrayXd& in_space, double q, const Eigen::ArrayXd& in_time) {
+    Eigen::Matrix<double, Eigen::Dynamic, 3> rows(root_weights.size(), 3);
+    rows.col(0) = root_weights * in_space * in_space;
+    rows.col(1) = root_weights * in_space * in_time;
+    rows.col(2) = root_weights * in_time * in_time;
+    Eigen::Matrix3d normal = rows.transpose().lazyProduct(rows);
+    Eigen::Vector3d right = rows.transpose().lazyProduct(root_weights.matrix());
     // Columns of one length: the two terms may be many powers of ten apart.
-    Eigen::Vector3d lengths = rows.colwise().norm().transpose();
+    Eigen::Vector3d lengths = normal.diagonal().cwiseSqrt();
     lengths = (lengths.array() > 0).select(lengths, 1.0);
-    const Eigen::MatrixXd scaled = rows * lengths.cwiseInverse().asDiagonal();
-    const Eigen::Vector3d solution = scaled.colPivHouseholderQr().solve(ones);
+    normal.array() /= (lengths * lengths.transpose()).array();
+    right.array() /= lengths.array();
+    // Where A is a power of B, as on a ladder, columns may be one: their sizes are then shared.
+    normal.diagonal().array() += 1e-12;
+    const Eigen::Vector3d solution = normal.llt().solve(right);
     // A square that comes out negative: the term is small, not absent.
     constexpr double least = 1e-4;
     const double size = std::max(solution.cwiseAbs().maxCoeff(), 1e-300);
@@ -100,14 +116,20 @@ double cost(const TwoTermPoints& points, const Eigen::VectorXd& theta) {
 
 std::vector<Eigen::VectorXd> starts_for(const TwoTermPoints& points) {
     std::vector<std::pair<double, Eigen::VectorXd>> starts;
-    for (const double p : net)
-        for (const double q : net) {
-            auto theta = start_for(points, p, q);
+    const Eigen::ArrayXd root_weights = points.weights.cwiseSqrt();
+    std::array<Eigen::ArrayXd, net.size()> in_time;
+    for (std::size_t k = 0; k < net.size(); ++k)
+        in_time[k] = unit_term(points, points.log_dt, points.reference_log_dt, net[k]);
+    for (const double p : net) {
+        const auto in_space = unit_term(points, points.log_h, points.reference_log_h, p);
+        for (std::size_t k = 0; k < net.size(); ++k) {
+            auto theta = start_for(root_weights, p, in_space, net[k], in_time[k]);
             const double sum =
                 theta.allFinite() ? cost(points, theta) : std::numeric_limits<double>::infinity();
             if (std::isfinite(sum))
                 starts.emplace_back(sum, std::move(theta));
         }
+    }
     std::sort(starts.begin(), starts.end(),
               [](const auto& left, const auto& right) { return left.first < right.first; });
     starts.resize(std::min(starts.size(), starts_followed));
@@ -120,10 +142,22 @@ std::vector<Eigen::VectorXd> starts_for(const TwoTermPoints& points) {
 
 } // namespace
 
+LogWidths LogWidths::of(const Eigen::VectorXd& log_widths) {
+    const std::set<double> distinct(log_widths.begin(), log_widths.end());
+    LogWidths widths{Eigen::VectorXd(static_cast<Eigen::Index>(distinct.size())),
+                     Eigen::VectorX<Eigen::Index>(log_widths.size())};
+    std::copy(distinct.begin(), distinct.end(), widths.levels.begin());
+    for (Eigen::Index i = 0; i < log_widths.size(); ++i)
+        widths.level_of[i] =
+            std::lower_bound(widths.levels.begin(), widths.levels.end(), log_widths[i]) -
+            widths.levels.begin();
+    return widths;
+}
+
 TwoTermPoints TwoTermPoints::subset(const std::vector<Eigen::Index>& chosen) const {
     TwoTermPoints part = *this;
-    part.log_h = log_h(chosen);
-    part.log_dt = log_dt(chosen);
+    part.log_h.level_of = log_h.level_of(chosen);
+    part.log_dt.level_of = log_dt.level_of(chosen);
     part.log_error = log_error(chosen);
     part.weights = weights(chosen);
     return part;
@@ -139,11 +173,14 @@ void two_term_values(const TwoTermPoints& points, const Eigen::VectorXd& theta,
         c = {theta[next_h], points.next_terms->in_h};
         d = {theta[next_dt], points.next_terms->in_dt};
     }
+    const auto in_h =
+        terms_at(points.log_h.levels, points.reference_log_h, theta[log_a], theta[order_p], c);
+    const auto in_dt =
+        terms_at(points.log_dt.levels, points.reference_log_dt, theta[log_b], theta[order_q], d);
+    const double rho_by_phi = points.fixed_rho ? 0.0 : std::cos(theta[phi]);
     for (Eigen::Index i = 0; i < points.size(); ++i) {
-        const Term in_space =
-            term_at(theta[log_a], theta[order_p], c, points.log_h[i], points.reference_log_h);
-        const Term in_time =
-            term_at(theta[log_b], theta[order_q], d, points.log_dt[i], points.reference_log_dt);
+        const Term& in_space = in_h[static_cast<std::size_t>(points.log_h.level_of[i])];
+        const Term& in_time = in_dt[static_cast<std::size_t>(points.log_dt.level_of[i])];
         // As TwoTermModel::error: no digit of a difference is lost near ρ = ±1.
         const double sum = in_space.value + sign * in_time.value;
         const double square =
@@ -159,7 +196,7 @@ void two_term_values(const TwoTermPoints& points, const Eigen::VectorXd& theta,
         (*jacobian)(i, log_b) = by_time * in_time.value;
         (*jacobian)(i, order_q) = by_time * in_time.by_order;
         if (!points.fixed_rho)
-            (*jacobian)(i, phi) = in_space.value * in_time.value / square * std::cos(theta[phi]);
+            (*jacobian)(i, phi) = in_space.value * in_time.value / square * rho_by_phi;
         if (points.next_terms) {
             (*jacobian)(i, next_h) = by_space * in_space.by_next;
             (*jacobian)(i, next_dt) = by_time * in_time.by_next;
@@ -181,13 +218,7 @@ std::optional<LeastSquares> two_term_regression(const TwoTermPoints& points,
                                           Eigen::MatrixXd* jacobian) {
         two_term_values(points, theta, values, jacobian);
     };
-    std::optional<LeastSquares> best;
-    for (const auto& start : starts) {
-        auto fit = least_squares(model, points.log_error, points.weights, start);
-        if (fit && (!best || fit->chi2 < best->chi2))
-            best = std::move(fit);
-    }
-    return best;
+    return least_squares(model, points.log_error, points.weights, starts);
 }
 
 TwoTermModel two_term_model(const TwoTermPoints& points, const Eigen::VectorXd& theta) {

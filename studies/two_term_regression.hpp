@@ -16,10 +16,21 @@
 
 namespace tvbeam {
 
+/// ln of one width of every point. A grid has fewer widths than points: what depends on one width
+/// alone is computed once for each level.
+struct LogWidths {
+    Eigen::VectorXd levels;                ///< without repetition, ascending
+    Eigen::VectorX<Eigen::Index> level_of; ///< of each point
+
+    static LogWidths of(const Eigen::VectorXd& log_widths);
+    double operator[](Eigen::Index point) const { return levels[level_of[point]]; }
+    Eigen::VectorXd at_points() const { return levels(level_of); }
+};
+
 /// Points as the regression wants them, all of one length.
 struct TwoTermPoints {
-    Eigen::VectorXd log_h;     ///< ln h/h_c
-    Eigen::VectorXd log_dt;    ///< ln Δt/Δt_c
+    LogWidths log_h;           ///< ln h/h_c
+    LogWidths log_dt;          ///< ln Δt/Δt_c
     Eigen::VectorXd log_error; ///< ln e
     Eigen::VectorXd weights;
     double log_h_centre = 0;  ///< ln h_c
