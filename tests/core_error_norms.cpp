@@ -18,13 +18,6 @@ namespace {
 
 const Beam paper_beam{.alpha = 0.017, .zeta = 0.1, .stops = {-0.02, 0.1}};
 
-/// The same field without its separation: the errors are then integrated pointwise.
-Field unseparated(const Field& field, const ProblemData& problem) {
-    Field result;
-    result.rest = [=](const Eigen::ArrayXd& x, double t) { return values(problem, field, x, t); };
-    return result;
-}
-
 std::vector<Norm> all_norms() {
     std::vector<Norm> norms;
     for (const auto& name : Norm::names())

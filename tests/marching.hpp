@@ -95,6 +95,13 @@ inline ProblemData forced_problem(const std::vector<Load>& loads) {
     return data;
 }
 
+/// The same field without its separation: sources and errors are then evaluated pointwise.
+inline Field unseparated(const Field& field, const ProblemData& problem) {
+    Field result;
+    result.rest = [=](const Eigen::ArrayXd& x, double t) { return values(problem, field, x, t); };
+    return result;
+}
+
 /// Steps a solver of the time scheme given and visits every time level; fails the program's test by
 /// an exception when a step fails.
 inline void march(Solver& solver, const ProblemData& data, const TimeScheme& scheme, double dt,

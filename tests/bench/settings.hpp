@@ -1,0 +1,44 @@
+#pragma once
+
+#include "core/run.hpp"
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace tvbeam::bench {
+
+inline constexpr double final_time = 2.0;
+
+/// One march to the final time.
+struct March {
+    Eigen::Index elements;
+    std::int64_t steps;
+};
+
+/// What is marched: all of a run but its mesh and steps.
+struct Setting {
+    Beam beam;
+    std::shared_ptr<const ProblemData> data;
+    Scheme scheme;
+    std::vector<Norm> norms;
+};
+
+/// The scene `table1`: stops, coupling, sources, both norms, a lumped mass, Euler.
+Setting full();
+
+// The same with one thing changed.
+Setting without_coupling(); ///< alpha = 0, with the data that the solution demands then
+Setting without_stops();    ///< the same data, and nothing that holds the tip
+Setting without_norms();
+Setting with_general_sources(); ///< their separation hidden, as if there were none
+Setting by_fixed_point();       ///< the paper's algorithm
+
+Setting in_nodal_basis(Setting setting);
+Setting with_time(Setting setting, const std::string& name);
+Setting with_mass(Setting setting, ThermalMass mass);
+
+RunRequest request(const Setting& setting, const March& march);
+
+} // namespace tvbeam::bench
