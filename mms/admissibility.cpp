@@ -84,6 +84,7 @@ private:
             largest(i, term, source.theta, "a derivative of theta");
         for (const ex& term : phase.u_terms)
             largest(i, term, source.u, "a derivative of u");
+        largest(i, phase.body_force, sigma, "q of (2)");
         largest(i, phase.heat_source, source.theta, "f of (1)");
         largest(i, phase.couple_load, source.u, "G of (3)");
         largest(i, phase.moment_load, source.u, "the integral of G of (3)");
@@ -170,7 +171,7 @@ private:
         const ArrayXd in_time = times(i, time_points);
         const ArrayXd tip = series(at_end(phase.u, 1, source.u, "u"), in_time, source.u, "u(1,t)");
         const ArrayXd stress =
-            series(phase.sigma, in_time, source.sigma ? *source.sigma : source.u, "sigma");
+            series(phase.contact_stress, in_time, source.sigma ? *source.sigma : source.u, "sigma");
         for (Index k = 0; k < in_time.size(); ++k) {
             require_between_stops(in_time(k), tip(k), source.u);
             if (source.sigma)
@@ -198,7 +199,7 @@ private:
         if (std::abs(stress) <= tolerance)
             return;
         const auto fail = [&](const std::string& equation, const std::string& rule) {
-            throw InputError(source.begin(), equation + ": sigma is " + number_text(stress) +
+            throw InputError(source.begin(), equation + ": sigma(1,t) is " + number_text(stress) +
                                                  " at t = " + number_text(t) +
                                                  ", where u(1,t) is " + number_text(tip) +
                                                  "; it must be " + rule);

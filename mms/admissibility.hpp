@@ -10,8 +10,7 @@ namespace tvbeam {
 ///
 ///     (5)       u(0,t) = u_x(0,t) = 0
 ///     (6)       g1 ≤ u(1,t) ≤ g2
-///     (7)(8)    σ̃ = 0 where g1 < u(1,t) < g2 (everywhere, without stops); σ̃ ≥ 0 at g1, ≤ 0 at g2
-///     (2)       σ̃ depends on t only
+///     (7)(8)    σ̃(1,t) = 0 where g1 < u(1,t) < g2 (always, without stops); ≥ 0 at g1, ≤ 0 at g2
 ///     (10)      θ̃(0,t) = θ_A, θ̃(1,t) = 0
 ///
 /// further that θ̃, u and u_xx do not jump between phases, and that θ̃, u, σ̃ and what is derived from

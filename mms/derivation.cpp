@@ -43,6 +43,9 @@ DerivedPhase derive(const PhaseExpressions& phase, const SolutionPhase& source, 
     result.u_x = of_u(phase.u, x);
     result.u_xx = of_u(result.u_x, x);
     result.sigma = phase.sigma;
+    const SourceText& of_sigma = source.sigma ? *source.sigma : source.u;
+    result.contact_stress = at_tip(phase.sigma, of_sigma, "sigma");
+    result.body_force = located(of_sigma, "sigma", [&] { return derivative(phase.sigma, x); });
 
     const ex u_xxx = of_u(result.u_xx, x);
     const ex u_xxt = of_u(result.u_xx, t);
@@ -54,10 +57,13 @@ DerivedPhase derive(const PhaseExpressions& phase, const SolutionPhase& source, 
 
     result.heat_source = result.theta_terms[0] - result.theta_terms[1] - alpha * u_xxt;
     result.couple_load = phase.sigma + u_xxx + zeta * u_xxxt + alpha * result.theta_x;
+    // A body force can be all that drives the beam.
+    if (is_identically_zero(result.couple_load))
+        result.couple_load = 0;
     const ex viscoelastic = result.u_xx + zeta * u_xxt;
     result.end_moment = at_tip(viscoelastic, source.u, "u_xx + zeta*u_xxt");
     const ex theta_at_tip = at_tip(phase.theta, source.theta, "theta");
-    result.moment_load = phase.sigma * (1 - x) - viscoelastic - alpha * phase.theta;
+    result.moment_load = result.contact_stress * (1 - x) - viscoelastic - alpha * phase.theta;
     if (!is_identically_zero(theta_at_tip))
         result.moment_load += alpha * theta_at_tip;
     return result;

@@ -14,10 +14,15 @@ struct DerivedPhase {
     GiNaC::ex theta, theta_x;
     GiNaC::ex u, u_x, u_xx;
     GiNaC::ex sigma;
+    GiNaC::ex contact_stress; ///< σ(1,t)                                               (7)(8)
+    GiNaC::ex body_force; ///< q = σ_x                                                        (2)
     GiNaC::ex heat_source; ///< f = θ_t − θ_xx − α u_xxt                                       (1)
     GiNaC::ex couple_load; ///< G = σ + u_xxx + ζ u_xxxt + α θ_x                                 (3)
     GiNaC::ex end_moment; ///< m = u_xx(1,t) + ζ u_xxt(1,t)                                    (9)
-    GiNaC::ex moment_load; ///< ∫_y^1 G dx − m = σ(1−y) + αθ(1,t) − (u_xx + ζu_xxt + αθ)(y,t)
+
+    /// ∫_y^1 G dx + ∫_y^1 (x − y) q dx − m = σ(1,t)(1−y) + αθ(1,t) − (u_xx + ζu_xxt + αθ)(y,t):
+    /// by parts, ∫_y^1 (x − y) σ_x dx = σ(1,t)(1−y) − ∫_y^1 σ dx.
+    GiNaC::ex moment_load;
 
     /// The further derivatives that f, G, m are made of; those that α = 0 or ζ = 0 takes away are
     /// left out.

@@ -5,6 +5,7 @@
 #include "mms/printing.hpp"
 #include "mms/symbols.hpp"
 
+#include <algorithm>
 #include <map>
 #include <string_view>
 
@@ -67,6 +68,9 @@ std::vector<DerivedFormula> derived_formulas(const Solution& solution) {
         formulas.push_back({symbol, interval, formula_text(readable), formula_latex(readable)});
     };
     const ModelSymbols& s = model_symbols();
+    const bool driven =
+        std::any_of(expressions.phases.begin(), expressions.phases.end(),
+                    [&s](const PhaseExpressions& phase) { return depends_on(phase.sigma, s.x); });
     for (std::size_t i = 0; i < expressions.phases.size(); ++i) {
         const PhaseExpressions& phase = expressions.phases[i];
         const std::string interval =
@@ -74,6 +78,8 @@ std::vector<DerivedFormula> derived_formulas(const Solution& solution) {
         const DerivedPhase derived = derive(phase, solution.phases[i], s.alpha, s.zeta);
         add("f", interval, derived.heat_source);
         add("G", interval, derived.couple_load);
+        if (driven)
+            add("q", interval, derived.body_force);
         add("m", interval, derived.end_moment);
     }
     add("theta0", "t = 0",

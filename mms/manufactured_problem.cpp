@@ -36,6 +36,7 @@ ProblemData built(const DerivedSolution& solution, double final_time) {
     problem.heat_source = field(&DerivedPhase::heat_source);
     problem.moment_load = field(&DerivedPhase::moment_load);
     problem.couple_load = field(&DerivedPhase::couple_load);
+    problem.body_force = field(&DerivedPhase::body_force);
     problem.end_moment = amplitude(&DerivedPhase::end_moment);
 
     ExactSolution exact;
@@ -44,7 +45,7 @@ ProblemData built(const DerivedSolution& solution, double final_time) {
     exact.u = field(&DerivedPhase::u);
     exact.u_x = field(&DerivedPhase::u_x);
     exact.u_xx = field(&DerivedPhase::u_xx);
-    exact.stress = amplitude(&DerivedPhase::sigma);
+    exact.stress = amplitude(&DerivedPhase::contact_stress);
     problem.theta_initial = exact.theta;
     problem.curvature_initial = exact.u_xx;
     problem.exact = std::move(exact);

@@ -5,11 +5,10 @@
 
 namespace tvbeam {
 
-/// The problem that a solution solves on a beam: the sources f and G, the end moment m, the initial
-/// data, and the exact solution itself. The body force is zero. With q = 0 and ∫_y^1 G dx in closed
-/// form,
+/// The problem that a solution solves on a beam: the sources f, G and q, the end moment m, the
+/// initial data, and the exact solution itself. With the integrals of G and q in closed form,
 ///
-///     μ = Ĝ − m = σ̃ (1 − y) + α θ̃(1,t) − (u_xx + ζ u_xxt + α θ̃)(y,t),
+///     μ = Ĝ + q̂ − m = σ̃(1,t) (1 − y) + α θ̃(1,t) − (u_xx + ζ u_xxt + α θ̃)(y,t),
 ///
 /// where θ̃(1,t) = 0 for an admissible solution.
 ///

@@ -16,7 +16,7 @@ struct SolutionPhase {
     std::optional<SourceText> until; ///< a time: an expression of constants and parameters
     SourceText theta;                ///< θ̃(x,t)
     SourceText u;                    ///< u(x,t)
-    std::optional<SourceText> sigma; ///< contact stress σ̃(t); absent: zero
+    std::optional<SourceText> sigma; ///< σ̃(x,t), at x = 1 the contact stress; absent: zero
 };
 
 /// A named number of a solution, its value an expression of constants.
@@ -31,12 +31,15 @@ struct SolutionParameter {
 ///     source = "…"                      # optional: where it was published
 ///     purpose = "…"                     # optional: one line on what it is for
 ///     theta  = "…"                      # θ̃, u and sigma: at the top, for all phases, or in each
-///     [[phase]] [parameters] k = 3                             # a number, or a string with an
-///     expression of numbers and pi
+///     [parameters]
+///     k = 3                             # a number, or a string: an expression of numbers and pi
 ///     [[phase]]
 ///     until = "sqrt(2)"                 # in every phase but the last; positive and increasing
 ///     u     = "…"
-///     sigma = "…"                       # 0 where it is left out
+///     sigma = "…"                       # σ̃(x,t); 0 where it is left out
+///
+/// sigma is the stress σ̃ of (2), (3): at x = 1 it is the contact stress of (7), (8), and where it
+/// depends on x a body force q = σ̃_x drives the beam.
 ///
 /// Expressions know x, t, alpha, zeta, g1, g2, theta_A, pi and the parameters; + - * / ^; sin cos
 /// tan asin acos atan sinh cosh tanh exp log sqrt. Every expression of a Solution that came from

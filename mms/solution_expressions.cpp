@@ -37,14 +37,6 @@ double checked_end(const PhaseExpressions& phase, const SourceText& until) {
     return end;
 }
 
-void require_time_only(const SourceText& sigma, const ex& expression) {
-    if (!depends_on(expression, model_symbols().x))
-        return;
-    throw InputError(first_use(sigma, "x").value_or(sigma.begin()),
-                     "(2): sigma must depend on t only, as the body force is zero; "
-                     "write it without x");
-}
-
 ex on_beam(const ex& expression, const GiNaC::exmap& values, const SourceText& source,
            const std::string& what) {
     try {
@@ -84,10 +76,8 @@ SolutionExpressions expressions_of(const Solution& solution) {
         }
         phase.theta = parse_expression(source.theta, in_formulas);
         phase.u = parse_expression(source.u, in_formulas);
-        if (source.sigma) {
+        if (source.sigma)
             phase.sigma = parse_expression(*source.sigma, in_formulas);
-            require_time_only(*source.sigma, phase.sigma);
-        }
         begin = phase.end;
         begin_value = phase.end_value;
         result.phases.push_back(phase);

@@ -27,7 +27,7 @@ struct SolutionExpressions {
 };
 
 /// Throws InputError at the character at fault: whatever the parser refuses, a parameter or an
-/// `until` that is no finite number, times that do not increase, a sigma that depends on x.
+/// `until` that is no finite number, times that do not increase.
 SolutionExpressions expressions_of(const Solution& solution);
 
 /// The same with the parameters' and the beam's values in the place of their symbols; only x and t

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace tvbeam {
 
 namespace {
@@ -28,9 +30,12 @@ std::string formula_report(const Solution& solution, const std::vector<DerivedFo
     text = solution.name + "\n";
     if (!solution.source.empty())
         text += solution.source + "\n";
+    const bool driven = std::any_of(formulas.begin(), formulas.end(),
+                                    [](const auto& formula) { return formula.symbol == "q"; });
     text += "\ntheta_t - theta_xx = alpha*u_xxt + f\n"
-            "sigma = -u_xxx - zeta*u_xxxt - alpha*theta_x + G\n"
-            "m = u_xx(1,t) + zeta*u_xxt(1,t)\n";
+            "sigma = -u_xxx - zeta*u_xxxt - alpha*theta_x + G\n";
+    text += driven ? "sigma_x = q\n" : "";
+    text += "m = u_xx(1,t) + zeta*u_xxt(1,t)\n";
     for (const auto& formula : formulas)
         text +=
             fmt::format("\n{} for {}\n    {}\n", formula.symbol, formula.interval, formula.text);

@@ -75,7 +75,6 @@ const std::vector<Refused> refused = {
     {good + "[[phase]]\nuntil = \"1 + t\"\n[[phase]]\n", ":4:14", "unknown symbol 't'"},
     {good + "[[phase]]\nuntil = \"exp(1000)\"\n[[phase]]\n", ":4:10", "not a finite number"},
     {good + "[[phase]]\nuntil = true\n[[phase]]\n", ":4:9", "until is a boolean"},
-    {good + "sigma = \"t*x\"\n", ":3:12", "(2): sigma must depend on t only"},
     // Parameters.
     {good + "parameters = 3\n", ":3:14", "parameters is a number"},
     {good + "[parameters]\nalpha = 1\n", ":4:1", "hides a known name"},
