@@ -1,0 +1,153 @@
+// Every shipped solution, by every time scheme: order 2 in h, and in dt the order that the scheme
+// claims. Where a kink, a switch or the spaces leave another order, it stands below with its
+// reason.
+
+#include "studies/shipped.hpp"
+#include "studies/study.hpp"
+
+#include <boost/test/data/monomorphic.hpp>
+#include <boost/test/data/test_case.hpp>
+#include <boost/test/unit_test.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <string>
+#include <variant>
+#include <vector>
+
+using namespace tvbeam;
+namespace data = boost::unit_test::data;
+
+namespace {
+
+std::vector<std::string> solutions() {
+    std::vector<std::string> names;
+    for (const auto& file : shipped_files(Shipped::solution))
+        names.push_back(file.name);
+    return names;
+}
+
+std::vector<std::string> schemes() {
+    // One scheme of two stages exercises all the code; the orders are those of any build.
+    return TVBEAM_SHORT_TESTS ? std::vector<std::string>{"sdirk2"} : TimeScheme::names();
+}
+
+bool is_of(const Scene& scene, const std::string& solution) {
+    const auto* own = std::get_if<Solution>(&scene.problem);
+    return own != nullptr && own->name == solution && scene.scheme.algorithm == Algorithm::direct &&
+           scene.ladder;
+}
+
+/// The scene that studies a solution: that of its name, or else the first that names it.
+Scene scene_of(const std::string& solution) {
+    std::vector<Scene> scenes;
+    for (const auto& file : shipped_files(Shipped::scene)) {
+        Scene scene = read_scene(file.name, {}, {.expectations = true});
+        if (is_of(scene, solution) && !scene.expectations.empty())
+            scenes.push_back(std::move(scene));
+    }
+    BOOST_REQUIRE_MESSAGE(!scenes.empty(), "no scene checks " << solution);
+    const auto own = std::find_if(scenes.begin(), scenes.end(),
+                                  [&](const Scene& scene) { return scene.name == solution; });
+    return own == scenes.end() ? scenes.front() : *own;
+}
+
+const std::vector<std::string> norms{"theta_L2L2", "u_LinfH2semi"};
+
+/// The order of each of the norms between two runs.
+std::vector<double> orders(Scene scene, const Rung& coarse, const Rung& fine) {
+    LadderBlock ladder{.final_time = scene.ladder->final_time,
+                       .rungs = {coarse, fine},
+                       .norms = {},
+                       .printed = {}};
+    for (const auto& name : norms)
+        ladder.norms.push_back(*Norm::named(name));
+    scene.ladder = ladder;
+    scene.orders.reset();
+    const StudyResult result = run_study(scene);
+    std::vector<double> found;
+    for (std::size_t k = 0; k < norms.size(); ++k) {
+        const auto& rungs = result.ladder->rungs;
+        BOOST_REQUIRE_MESSAGE(rungs[0].status == RunStatus::ok && rungs[1].status == RunStatus::ok,
+                              rungs[0].reason << rungs[1].reason);
+        found.push_back(std::log2(rungs[0].errors[k] / rungs[1].errors[k]));
+    }
+    return found;
+}
+
+Rung rung(const Scene& scene, std::int64_t elements, std::int64_t steps) {
+    return {elements, steps, scene.ladder->final_time / static_cast<double>(steps)};
+}
+
+/// What is refined.
+enum class Refined { mesh, step };
+
+std::ostream& operator<<(std::ostream& stream, Refined what) {
+    return stream << (what == Refined::step ? "dt" : "h");
+}
+
+struct Exceptional {
+    std::string solution;
+    std::string scheme; ///< empty: all
+    Refined refined;
+    std::string norm;
+    double least;
+    double greatest;
+    std::string reason;
+};
+
+const std::vector<Exceptional> exceptions = {};
+
+void check_orders(const std::vector<double>& found, double expected, const std::string& solution,
+                  const std::string& scheme, Refined refined) {
+    for (std::size_t k = 0; k < norms.size(); ++k) {
+        const auto exception =
+            std::find_if(exceptions.begin(), exceptions.end(), [&](const Exceptional& e) {
+                return e.solution == solution && (e.scheme.empty() || e.scheme == scheme) &&
+                       e.refined == refined && e.norm == norms[k];
+            });
+        const bool known = exception != exceptions.end();
+        const double least = known ? exception->least : expected - 0.05;
+        const double greatest = known ? exception->greatest : expected + 0.05;
+        BOOST_TEST_MESSAGE(solution << ", " << scheme << ": " << norms[k] << ", order in "
+                                    << refined << ": " << found[k]);
+        BOOST_TEST((found[k] >= least && found[k] <= greatest),
+                   norms[k] << " has the order " << found[k] << " in " << refined << "; expected "
+                            << least << " to " << greatest
+                            << (known ? ": " + exception->reason : ""));
+    }
+}
+
+} // namespace
+
+BOOST_AUTO_TEST_SUITE(shipped_solutions)
+
+// Against the exact solution. dt ~ h^(2/q), so that a time error of the order q falls like h², too.
+BOOST_DATA_TEST_CASE(space_error_has_order_two, data::make(solutions()) * data::make(schemes()),
+                     solution, scheme) {
+    Scene scene = scene_of(solution);
+    scene.scheme.time = TimeScheme::named(scheme);
+    const auto at = [&](std::int64_t s) {
+        return rung(scene, s, scene.scheme.time.order == 1 ? s * s : 8 * s);
+    };
+    check_orders(orders(scene, at(32), at(64)), 2.0, solution, scheme, Refined::mesh);
+}
+
+// On one mesh, against a run with much smaller steps: the space error is in both and drops out. An
+// order q seen against the step dt/r is too high by (2^q − 1) r^(−q)/ln 2: 0.01 for q = 1 and
+// r = 128, 0.004 for q = 2 and r = 32.
+BOOST_DATA_TEST_CASE(time_error_has_the_order_of_the_scheme,
+                     data::make(solutions()) * data::make(schemes()), solution, scheme) {
+    Scene scene = scene_of(solution);
+    scene.scheme.time = TimeScheme::named(scheme);
+    const int order = scene.scheme.time.order;
+    const std::int64_t coarse = order == 1 ? 512 : 256;
+    const std::int64_t finest = coarse * (order == 1 ? 128 : 32);
+    constexpr std::int64_t elements = 32;
+    scene.reference = ReferenceBlock{.elements = elements, .dt = rung(scene, elements, finest).dt};
+    check_orders(orders(scene, rung(scene, elements, coarse), rung(scene, elements, 2 * coarse)),
+                 order, solution, scheme, Refined::step);
+}
+
+BOOST_AUTO_TEST_SUITE_END()
