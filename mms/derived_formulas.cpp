@@ -41,12 +41,23 @@ ex collected(const ex& expression) {
     return result;
 }
 
-std::string interval_text(const PhaseExpressions& phase, bool first, bool last) {
-    const std::string end = last ? std::string() : formula_text(phase.end);
-    if (first)
-        return last ? "t >= 0" : "0 <= t <= " + end;
-    const std::string begin = formula_text(phase.begin);
-    return last ? "t > " + begin : begin + " < t <= " + end;
+/// The times of a phase, as text and in LaTeX.
+struct Interval {
+    std::string text;
+    std::string latex;
+};
+
+Interval interval_of(const PhaseExpressions& phase, bool first, bool last) {
+    const auto written = [&](const auto& formula, const std::string& at_most) -> std::string {
+        const std::string end = last ? std::string() : formula(phase.end);
+        if (first)
+            return last ? "" : "0 " + at_most + " t " + at_most + " " + end;
+        const std::string begin = formula(phase.begin);
+        return last ? "t > " + begin : begin + " < t " + at_most + " " + end;
+    };
+    if (first && last)
+        return {"t >= 0", "t \\ge 0"};
+    return {written(formula_text, "<="), written(formula_latex, "\\le")};
 }
 
 ex at_start(const ex& expression, const SourceText& source) {
@@ -62,10 +73,11 @@ ex at_start(const ex& expression, const SourceText& source) {
 std::vector<DerivedFormula> derived_formulas(const Solution& solution) {
     const SolutionExpressions expressions = expressions_of(solution);
     std::vector<DerivedFormula> formulas;
-    const auto add = [&formulas](const std::string& symbol, const std::string& interval,
+    const auto add = [&formulas](const std::string& symbol, const Interval& interval,
                                  const ex& formula) {
         const ex readable = collected(formula);
-        formulas.push_back({symbol, interval, formula_text(readable), formula_latex(readable)});
+        formulas.push_back({symbol, interval.text, interval.latex, formula_text(readable),
+                            formula_latex(readable)});
     };
     const ModelSymbols& s = model_symbols();
     const bool driven =
@@ -73,8 +85,7 @@ std::vector<DerivedFormula> derived_formulas(const Solution& solution) {
                     [&s](const PhaseExpressions& phase) { return depends_on(phase.sigma, s.x); });
     for (std::size_t i = 0; i < expressions.phases.size(); ++i) {
         const PhaseExpressions& phase = expressions.phases[i];
-        const std::string interval =
-            interval_text(phase, i == 0, i + 1 == expressions.phases.size());
+        const Interval interval = interval_of(phase, i == 0, i + 1 == expressions.phases.size());
         const DerivedPhase derived = derive(phase, solution.phases[i], s.alpha, s.zeta);
         add("f", interval, derived.heat_source);
         add("G", interval, derived.couple_load);
@@ -82,9 +93,10 @@ std::vector<DerivedFormula> derived_formulas(const Solution& solution) {
             add("q", interval, derived.body_force);
         add("m", interval, derived.end_moment);
     }
-    add("theta0", "t = 0",
+    const Interval at_zero{"t = 0", "t = 0"};
+    add("theta0", at_zero,
         at_start(expressions.phases.front().theta, solution.phases.front().theta));
-    add("u0", "t = 0", at_start(expressions.phases.front().u, solution.phases.front().u));
+    add("u0", at_zero, at_start(expressions.phases.front().u, solution.phases.front().u));
     return formulas;
 }
 

@@ -10,9 +10,10 @@ namespace tvbeam {
 /// A formula derived from a solution, with the beam's symbols and the parameters left as symbols.
 struct DerivedFormula {
     std::string symbol;   ///< "f", "G", "q", "m", "theta0" or "u0"
-    std::string interval; ///< the times it holds for, e.g. "0 <= t <= sqrt(2)" or "t > sqrt(2)"; "t
-                          ///< >= 0": always; "t = 0" for the last two
-    std::string text;     ///< reads back with the parser of the solution files
+    std::string interval; ///< the times it holds for, e.g. "0 <= t <= sqrt(2)" or "t > sqrt(2)";
+                          ///< "t >= 0": always; "t = 0" for the last two
+    std::string interval_latex; ///< the same in LaTeX's mathematical mode
+    std::string text;           ///< reads back with the parser of the solution files
     std::string latex;
 };
 

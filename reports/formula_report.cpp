@@ -22,8 +22,8 @@ std::string formula_report(const Solution& solution, const std::vector<DerivedFo
     if (latex) {
         text = fmt::format("% derived from {}\n\\begin{{align*}}\n", solution.name);
         for (std::size_t i = 0; i < formulas.size(); ++i)
-            text += fmt::format("  {} &= {} && \\text{{{}}}{}\n", latex_symbol(formulas[i].symbol),
-                                formulas[i].latex, formulas[i].interval,
+            text += fmt::format("  {} &= {} && {}{}\n", latex_symbol(formulas[i].symbol),
+                                formulas[i].latex, formulas[i].interval_latex,
                                 i + 1 < formulas.size() ? " \\\\" : "");
         return text + "\\end{align*}\n";
     }

@@ -8,11 +8,14 @@
 #include "reports/csv_report.hpp"
 #include "reports/formula_report.hpp"
 #include "reports/json_report.hpp"
+#include "reports/new_solution.hpp"
 #include "reports/output_file.hpp"
+#include "reports/solution_report.hpp"
 #include "reports/terminal_report.hpp"
 #include "reports/text_table.hpp"
 #include "studies/csv_records.hpp"
 #include "studies/shipped.hpp"
+#include "studies/solution_setting.hpp"
 #include "studies/study.hpp"
 #include "studies/toml_reader.hpp"
 
@@ -165,27 +168,20 @@ int analyse_command(const std::string& file, const std::string& error_column) {
     return done;
 }
 
-/// The solution that a name or file means: a scene's own, or a solution itself.
-Solution solution_named(const std::string& name) {
-    const auto is_scene = [](const std::string& file) {
-        return read_toml(file).table.contains("beam");
-    };
-    const bool is_file = name.find('/') != std::string::npos || name.ends_with(".toml");
-    const auto scenes = shipped_files(Shipped::scene);
-    const bool is_shipped_scene = std::any_of(
-        scenes.begin(), scenes.end(), [&](const ShippedFile& file) { return file.name == name; });
-    if (!is_shipped_scene && !(is_file && is_scene(find_file(Shipped::scene, name).string())))
-        return read_solution(find_file(Shipped::solution, name));
-    const Scene scene = read_scene(name);
-    if (!scene.has_exact_solution())
-        throw InputError({scene.file},
-                         "the scene has a [data] block and no exact solution to derive from");
-    return std::get<Solution>(scene.problem);
+int derive_command(const std::string& name, bool latex) {
+    const SolutionSetting setting = solution_setting(name);
+    const Solution& solution = setting.solution;
+    write_standard_output(formula_report(solution, derived_formulas(solution), latex) +
+                          (latex ? "" : solution_report(setting)));
+    return done;
 }
 
-int derive_command(const std::string& name, bool latex) {
-    const Solution solution = solution_named(name);
-    write_standard_output(formula_report(solution, derived_formulas(solution), latex));
+int new_command(const std::string& name) {
+    const auto files = starter_files(name);
+    write_starter_files(files, ".");
+    write_standard_output("wrote " + files[0].name + " (the solution) and " + files[1].name +
+                          " (the scene); now\n  tvbeam run " + files[1].name +
+                          "\n  tvbeam derive " + files[0].name + "\n");
     return done;
 }
 
@@ -278,11 +274,18 @@ int command_line(int argc, char** argv) {
 
     std::string name;
     bool latex = false;
-    auto* derive =
-        app.add_subcommand("derive", "Print the f, G, m, theta0 and u0 that a solution demands.\n"
-                                     "Example: tvbeam derive copetti-fernandez-2011 --latex");
+    auto* derive = app.add_subcommand(
+        "derive", "Print the f, G, m, theta0 and u0 that a solution demands, what of the "
+                  "model it tests, and the orders to expect of it.\n"
+                  "Example: tvbeam derive copetti-fernandez-2011 --latex");
     derive->add_option("name", name, "a shipped scene or solution, or a file")->required();
-    derive->add_flag("--latex", latex, "as LaTeX");
+    derive->add_flag("--latex", latex, "the formulas alone, as LaTeX");
+
+    std::string new_name;
+    auto* make = app.add_subcommand(
+        "new", "Write a solution to start from, NAME.toml, and a scene that runs it, "
+               "NAME-scene.toml, into the current directory.\nExample: tvbeam new my-solution");
+    make->add_option("name", new_name, "letters, digits, - and _")->required()->type_name("NAME");
 
     auto* list =
         app.add_subcommand("list", "List the shipped scenes and solutions.\nExample: tvbeam list");
@@ -308,6 +311,8 @@ int command_line(int argc, char** argv) {
         return analyse_command(csv, error_column);
     if (*derive)
         return derive_command(name, latex);
+    if (*make)
+        return new_command(new_name);
     return *list ? list_command() : bad_input;
 }
 

@@ -5,6 +5,7 @@
 #include <boost/test/unit_test.hpp>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -25,10 +26,12 @@ struct Called {
     std::string errors; ///< standard error
 };
 
-/// Calls tvbeam with arguments as a shell reads them.
-Called call(const TemporaryDirectory& directory, const std::string& arguments) {
+/// Calls tvbeam with arguments as a shell reads them, after what `first` does.
+Called call(const TemporaryDirectory& directory, const std::string& arguments,
+            const std::string& first = "") {
     const std::string errors = (directory.path() / "stderr").string();
-    const std::string command = std::string(TVBEAM_BINARY) + " " + arguments + " 2>" + errors;
+    const std::string command =
+        first + std::string(TVBEAM_BINARY) + " " + arguments + " 2>" + errors;
     Called called;
     FILE* pipe = popen(command.c_str(), "r");
     BOOST_REQUIRE(pipe != nullptr);
@@ -410,6 +413,101 @@ BOOST_AUTO_TEST_CASE(derive_prints_formulas_for_a_scene_and_a_solution) {
     const Called latex = call(directory, "derive copetti-fernandez-2011 --latex");
     BOOST_TEST(has(latex.output, "\\begin{align*}"));
     BOOST_TEST(has(latex.output, "\\sin"));
+    BOOST_TEST(has(latex.output, "&& 0 \\le t \\le \\sqrt{2} \\\\"));
+    BOOST_TEST(!has(latex.output, "\\text{"));
+}
+
+BOOST_AUTO_TEST_CASE(derive_says_what_a_solution_tests_and_what_to_expect) {
+    const TemporaryDirectory directory;
+    const Called called = call(directory, "derive cubic-deflection");
+    BOOST_TEST(called.exit == 0);
+    for (const std::string part :
+         {"On the beam of the scene cubic-deflection", "(1)            a heat source f",
+          "- (8) a force at the stop g2: the tip never reaches g2", "u_LinfH2semi    -",
+          "theta is linear in x: the linear elements hold it exactly"})
+        BOOST_TEST(has(called.output, part), part << " in " << called.output);
+    std::istringstream lines(called.output);
+    for (std::string line; std::getline(lines, line);)
+        BOOST_TEST(line.size() <= 82u, line);
+    // A file has the scene beside it, or else the paper's beam; and there it can be inadmissible.
+    const std::string file = directory.write("mine.toml", "theta = 'x*(1 - x)'\nu = 'x^2*t'\n");
+    const Called alone = call(directory, "derive " + file);
+    BOOST_TEST(alone.exit == 0);
+    BOOST_TEST(has(alone.output, "the paper's beam"));
+    BOOST_TEST(has(alone.output, "not admissible: "));
+    BOOST_TEST(has(alone.output, "(6): u(1,t)"));
+    directory.write("mine-scene.toml", "solution = './mine.toml'\n[beam]\nalpha = 0\nzeta = 0\n"
+                                       "[ladder]\nfinal_time = 1\nelements = [4]\ndt = [1]\n");
+    const Called beside = call(directory, "derive " + file);
+    BOOST_TEST(has(beside.output, "the beam of the scene mine-scene"));
+    BOOST_TEST(has(beside.output, "- (1) alpha*u_xxt: alpha = 0"));
+}
+
+BOOST_AUTO_TEST_CASE(new_writes_a_solution_and_a_scene_that_run_as_they_stand) {
+    const TemporaryDirectory directory;
+    const std::string there = "cd " + directory.path().string() + " && ";
+    const auto in_directory = [&](const std::string& arguments) {
+        return call(directory, arguments, there);
+    };
+    const Called made = in_directory("new warm_beam-2");
+    BOOST_TEST(made.exit == 0, made.errors);
+    BOOST_TEST(directory.count() == 2u);
+    for (const std::string arguments :
+         {"run warm_beam-2-scene.toml", "check warm_beam-2-scene.toml", "derive warm_beam-2.toml",
+          "run warm_beam-2-scene.toml --set scheme.time=bdf2 --set ladder.dt=0.1/s"}) {
+        const Called called = in_directory(arguments);
+        BOOST_TEST(called.exit == 0, called.output + called.errors);
+    }
+    BOOST_TEST(has(in_directory("derive warm_beam-2.toml").output,
+                   "the beam of the scene warm_beam-2-scene"));
+
+    // What is there is not touched, and where one file is in the way the other does not appear.
+    const std::string before = directory.read("warm_beam-2.toml");
+    const Called again = in_directory("new warm_beam-2");
+    BOOST_TEST(again.exit == 2);
+    BOOST_TEST(has(again.errors, "'warm_beam-2.toml' is there already"));
+    directory.write("other-scene.toml", "mine");
+    BOOST_TEST(in_directory("new other").exit == 2);
+    BOOST_TEST(directory.read("other-scene.toml") == "mine");
+    BOOST_TEST(directory.count() == 3u);
+    BOOST_TEST(directory.read("warm_beam-2.toml") == before);
+}
+
+BOOST_AUTO_TEST_CASE(new_refuses_what_is_no_name) {
+    const TemporaryDirectory directory;
+    const std::string there = "cd " + directory.path().string() + " && ";
+    for (const std::string name : {"''", "a/b", "../a", ".hidden", "'two words'", "mine.toml",
+                                   "'a\"b'", "\xC3\xA4", "-- -x"}) {
+        const Called called = call(directory, "new " + name, there);
+        BOOST_TEST(called.exit == 2, name);
+        BOOST_TEST(std::count(called.errors.begin(), called.errors.end(), '\n') == 1,
+                   called.errors);
+    }
+    BOOST_TEST(call(directory, "new " + std::string(65, 'a'), there).exit == 2);
+    BOOST_TEST(directory.count() == 0u);
+}
+
+// Its phases, which are comments, are a solution, too.
+BOOST_AUTO_TEST_CASE(the_phases_that_new_shows_are_admissible) {
+    const TemporaryDirectory directory;
+    const std::string there = "cd " + directory.path().string() + " && ";
+    BOOST_TEST(call(directory, "new mine", there).exit == 0);
+    std::istringstream lines(directory.read("mine.toml"));
+    std::string text;
+    bool in_phases = false;
+    for (std::string line; std::getline(lines, line);) {
+        in_phases = in_phases || line == "# [[phase]]";
+        if (in_phases)
+            text += line.substr(2) + "\n";
+        else if (!line.starts_with("u "))
+            text += line + "\n";
+    }
+    directory.write("mine.toml", text);
+    const Called called =
+        call(directory,
+             "run mine-scene.toml --set ladder.final_time=2 --set 'ladder.elements=[8,16]'", there);
+    BOOST_TEST(called.exit == 0, called.errors);
+    BOOST_TEST(in_phases);
 }
 
 BOOST_AUTO_TEST_CASE(list_names_what_is_shipped) {

@@ -1,0 +1,149 @@
+#include "mms/expected_orders.hpp"
+
+#include "mms/algebra.hpp"
+#include "mms/error_text.hpp"
+#include "mms/piecewise_tape.hpp"
+#include "mms/symbols.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tvbeam {
+
+using Eigen::ArrayXd;
+using GiNaC::ex;
+
+namespace {
+
+constexpr Eigen::Index grid_points = 33;
+constexpr double tolerance = 1e-9; ///< of a jump, relative to what jumps
+
+bool in_all(const DerivedSolution& derived, const auto& holds) {
+    return std::all_of(derived.derived.begin(), derived.derived.end(), holds);
+}
+
+/// Whether the derivative by s, so many times, vanishes in every phase.
+bool vanishes(const DerivedSolution& derived, ex DerivedPhase::*member, const GiNaC::symbol& s,
+              int times) {
+    return in_all(derived, [&](const DerivedPhase& phase) {
+        ex result = phase.*member;
+        for (int i = 0; i < times; ++i)
+            result = derivative(result, s);
+        return is_identically_zero(result);
+    });
+}
+
+std::vector<Switch> switches(const DerivedSolution& derived, double final_time) {
+    const PiecewiseTape tape(derived, [](const DerivedPhase& phase) {
+        return std::vector<ex>{phase.theta_terms[0], derivative(phase.u_xx, model_symbols().t),
+                               phase.contact_stress};
+    });
+    const ArrayXd x = ArrayXd::LinSpaced(grid_points, 0.0, 1.0);
+    std::vector<Switch> result;
+    for (const PhaseExpressions& phase : derived.phases) {
+        if (!(phase.end_value < final_time))
+            break;
+        const Eigen::ArrayXXd before = tape.at(x, phase.end_value);
+        const Eigen::ArrayXXd after = tape.at(x, phase.end_value, true);
+        const ArrayXd sizes = before.abs().max(after.abs()).rowwise().maxCoeff();
+        const ArrayXd jumps = (after - before).abs().rowwise().maxCoeff();
+        const auto jump = [&](Eigen::Index row) {
+            return jumps(row) > tolerance * sizes(row) ? jumps(row) : 0.0;
+        };
+        result.push_back({phase.end_value, jump(0), jump(1), jump(2)});
+    }
+    return result;
+}
+
+std::vector<ExpectedOrder> orders(const ExpectedOrders& known, const Beam& beam) {
+    const bool coupled = beam.alpha != 0.0;
+    const bool kink =
+        std::any_of(known.switches.begin(), known.switches.end(), [](const Switch& change) {
+            return change.theta_t_jump > 0.0 || change.u_xxt_jump > 0.0;
+        });
+    const bool jump = std::any_of(known.switches.begin(), known.switches.end(),
+                                  [](const Switch& change) { return change.stress_jump > 0.0; });
+    const auto of_theta = [&](double order) {
+        return known.theta_is_exact ? std::nullopt : std::optional(order);
+    };
+    const auto of_u = [&](double alone) -> std::optional<double> {
+        const bool through_theta = coupled && !known.theta_is_exact;
+        if (known.u_is_exact && !through_theta)
+            return std::nullopt;
+        return through_theta ? 2.0 : alone;
+    };
+    const double second = kink ? 1.0 : 2.0;
+    const std::optional<double> of_stress =
+        coupled && !known.theta_is_exact ? std::optional(2.0) : std::nullopt;
+    std::vector<ExpectedOrder> result = {
+        {"theta_L2L2", of_theta(2.0), 1.0, second},
+        {"theta_L2H1", of_theta(1.0), 1.0, second},
+        {"u_LinfH2semi", of_u(2.0), 1.0, second},
+        {"u_LinfH1", of_u(coupled ? 2.0 : 3.0), 1.0, second},
+        {"u_LinfL2", of_u(coupled ? 2.0 : 4.0), 1.0, second},
+    };
+    if (beam.stops.exist())
+        result.push_back({"sigma_L2", of_stress, jump ? 0.5 : 1.0, jump ? 0.5 : second});
+    return result;
+}
+
+std::vector<std::string> reasons(const ExpectedOrders& known, const Beam& beam) {
+    const bool coupled = beam.alpha != 0.0;
+    std::vector<std::string> text;
+    if (known.theta_is_exact)
+        text.emplace_back("theta is linear in x: the linear elements hold it exactly, and no order "
+                          "in h is visible in any norm of theta.");
+    if (known.u_is_exact)
+        text.push_back("u is cubic in x: the cubics hold it exactly; " +
+                       std::string(coupled && !known.theta_is_exact
+                                       ? "what order in h is visible in u comes from theta, "
+                                         "through alpha."
+                                       : "no order in h is visible in any norm of u."));
+    if (!coupled)
+        text.emplace_back("alpha = 0: heat and bending do not see each other's errors, and u has "
+                          "higher orders in the weaker norms.");
+    if (known.is_linear_in_time)
+        text.emplace_back("theta and u_xx are linear in t: no scheme has a time error, and no "
+                          "order in dt is visible.");
+    for (const Switch& change : known.switches) {
+        const std::string at = "at t = " + number_text(change.t) + " ";
+        if (change.theta_t_jump > 0.0 || change.u_xxt_jump > 0.0)
+            text.push_back(at +
+                           (change.theta_t_jump > 0.0
+                                ? "theta_t jumps by up to " + number_text(change.theta_t_jump)
+                                : "u_xxt jumps by up to " + number_text(change.u_xxt_jump)) +
+                           ": BDF2 has the order 1 in dt, SDIRK2 too unless the time is a time "
+                           "level.");
+        else
+            text.push_back(at +
+                           "one formula follows another without a jump of theta_t or u_xxt. A run "
+                           "finds a change of contact at an instant of its own, which can take up "
+                           "to one half from the order 2 in norms with a maximum over time.");
+        if (change.stress_jump > 0.0)
+            text.push_back(at + "sigma jumps by " + number_text(change.stress_jump) +
+                           ", at an instant that a run knows to one step: sigma_L2 has the order "
+                           "1/2 in dt.");
+    }
+    return text;
+}
+
+} // namespace
+
+ExpectedOrders expected_orders(const Solution& solution, const Beam& beam, double final_time) {
+    const DerivedSolution derived = derive_on(solution, beam);
+    return located(solution.phases.front().u, "the solution", [&] {
+        const ModelSymbols& s = model_symbols();
+        ExpectedOrders result;
+        result.theta_is_exact = vanishes(derived, &DerivedPhase::theta_x, s.x, 1);
+        result.u_is_exact = vanishes(derived, &DerivedPhase::u_xx, s.x, 2);
+        result.switches = switches(derived, final_time);
+        result.is_linear_in_time = result.switches.empty() &&
+                                   vanishes(derived, &DerivedPhase::theta, s.t, 2) &&
+                                   vanishes(derived, &DerivedPhase::u_xx, s.t, 2);
+        result.orders = orders(result, beam);
+        result.reasons = reasons(result, beam);
+        return result;
+    });
+}
+
+} // namespace tvbeam
