@@ -2,6 +2,9 @@
 
 #include "core/quadrature.hpp"
 
+#include <algorithm>
+#include <utility>
+
 namespace tvbeam {
 
 namespace {
@@ -34,18 +37,30 @@ Eigen::VectorXd gather(const Eigen::Array2Xd& moments) {
 Tridiagonal thermal_mass_matrix(const Mesh& mesh, ThermalMass kind) {
     const Eigen::Index inner = mesh.elements() - 1;
     const auto& h = mesh.lengths;
-    const Eigen::ArrayXd support = h.head(inner) + h.tail(inner);
+    const Eigen::VectorXd support = h.head(inner) + h.tail(inner);
     if (kind == ThermalMass::lumped)
-        return {support / 2.0, Eigen::VectorXd::Zero(std::max<Eigen::Index>(inner - 1, 0))};
-    return {support / 3.0,
-            inner > 1 ? Eigen::VectorXd(h.segment(1, inner - 1) / 6.0) : Eigen::VectorXd(0)};
+        return {support / 2.0, Eigen::VectorXd::Zero(std::max<Eigen::Index>(inner - 1, 0)),
+                support / 2.0};
+    Tridiagonal mass{support / 3.0,
+                     inner > 1 ? Eigen::VectorXd(h.segment(1, inner - 1) / 6.0)
+                               : Eigen::VectorXd(0),
+                     support / 3.0};
+    mass.row_sums.head(mass.coupling.size()) += mass.coupling;
+    mass.row_sums.tail(mass.coupling.size()) += mass.coupling;
+    return mass;
 }
 
 Tridiagonal stiffness_matrix(const Mesh& mesh) {
     const Eigen::Index inner = mesh.elements() - 1;
     const Eigen::ArrayXd slope = mesh.lengths.inverse();
+    Eigen::VectorXd row_sums = Eigen::VectorXd::Zero(inner); // (Σ_j χ_j)' is zero but at the ends
+    if (inner > 0) {
+        row_sums(0) += slope(0);
+        row_sums(inner - 1) += slope(inner);
+    }
     return {slope.head(inner) + slope.tail(inner),
-            inner > 1 ? Eigen::VectorXd(-slope.segment(1, inner - 1)) : Eigen::VectorXd(0)};
+            inner > 1 ? Eigen::VectorXd(-slope.segment(1, inner - 1)) : Eigen::VectorXd(0),
+            std::move(row_sums)};
 }
 
 Eigen::VectorXd hat_loads(const Mesh& mesh, const SpaceFunction& g) {

@@ -7,11 +7,11 @@
 namespace tvbeam {
 
 Tridiagonal Tridiagonal::operator+(const Tridiagonal& other) const {
-    return {diagonal + other.diagonal, coupling + other.coupling};
+    return {diagonal + other.diagonal, coupling + other.coupling, row_sums + other.row_sums};
 }
 
 Tridiagonal Tridiagonal::operator*(double factor) const {
-    return {diagonal * factor, coupling * factor};
+    return {diagonal * factor, coupling * factor, row_sums * factor};
 }
 
 Eigen::VectorXd Tridiagonal::operator*(const Eigen::VectorXd& x) const {
@@ -27,9 +27,11 @@ Eigen::VectorXd Tridiagonal::operator*(const Eigen::VectorXd& x) const {
 TridiagonalFactor::TridiagonalFactor(const Tridiagonal& matrix)
     : multipliers_(matrix.diagonal.size()), inverse_pivots_(matrix.diagonal.size()) {
     double pivot = 0.0;
+    double sum = 0.0; // of the row, of what elimination has left of the matrix
     for (Eigen::Index i = 0; i < order(); ++i) {
         multipliers_(i) = i == 0 ? 0.0 : matrix.coupling(i - 1) / pivot;
-        pivot = matrix.diagonal(i) - (i == 0 ? 0.0 : multipliers_(i) * matrix.coupling(i - 1));
+        sum = matrix.row_sums(i) - multipliers_(i) * sum;
+        pivot = i + 1 < order() ? sum - matrix.coupling(i) : sum;
         if (!std::isfinite(pivot) || !std::isfinite(1.0 / pivot))
             throw std::domain_error(
                 "the matrix of the step is beyond the range of floating point: pivot " +

@@ -8,6 +8,9 @@ namespace tvbeam {
 struct Tridiagonal {
     Eigen::VectorXd diagonal; ///< shape: n
     Eigen::VectorXd coupling; ///< entry (i, i+1) = (i+1, i); shape: n − 1
+    /// Sums of the rows, shape: n. Kept beside the diagonal, because diagonal and couplings of a
+    /// stiffness matrix cancel: what is left of them by subtraction is wrong by ε/h² of the mass.
+    Eigen::VectorXd row_sums;
 
     Tridiagonal operator+(const Tridiagonal& other) const;
     Tridiagonal operator*(double factor) const;
@@ -15,6 +18,8 @@ struct Tridiagonal {
 };
 
 /// A = L D Lᵀ of a symmetric positive definite tridiagonal matrix, by elimination without pivoting.
+/// The pivots follow from row sums and couplings without a subtraction where no coupling is
+/// positive (Alfa, Xue and Ye 2002), so that the solution is accurate whatever the condition.
 class TridiagonalFactor {
 public:
     TridiagonalFactor() = default;
