@@ -201,6 +201,7 @@ std::string HermiteForm::solve(double c, double t,
     // With α = 0 the two problems do not wait for each other: one pass solves both.
     const bool coupled = beam_.alpha != 0.0;
     double change = 0.0;
+    changes_.clear();
     for (int iteration = 1; iteration <= iteration_limit; ++iteration) {
         ++counters_.fixed_point_iterations;
         Eigen::VectorXd theta = heat_constant;
@@ -224,6 +225,7 @@ std::string HermiteForm::solve(double c, double t,
         change = 0.0;
         if (inner > 0)
             change = (theta - theta_.segment(1, inner)).cwiseAbs().maxCoeff();
+        changes_.push_back(change);
         for (Eigen::Index i = 0; i < 2 * s; i += 2)
             change = std::max(change, std::abs(next(i) - deflection_(i)));
         theta_.segment(1, inner) = theta;

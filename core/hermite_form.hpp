@@ -24,8 +24,9 @@ namespace tvbeam {
 /// until no nodal value changes by more than the tolerance (absolute; the paper does not say what
 /// it measures). The variational inequality concerns the tip value alone and is solved exactly in
 /// each iteration. For the other time schemes Δt stands for 1/c and the state before for y*
-/// (Stage). The iteration contracts by about α²Δt / ((Δt + ζ)(1 + π²Δt)); the round-off of B grows
-/// like h⁻⁴. With an end temperature, θ̃_x = θ_x − θ_A adds −αθ_A (1, η') to the loads.
+/// (Stage). The iteration contracts by about α²Δt / ((Δt + ζ)(1 + π²Δt))
+/// (contraction.hpp); the round-off of B grows like h⁻⁴ (round_off.hpp). With an end temperature,
+/// θ̃_x = θ_x − θ_A adds −αθ_A (1, η') to the loads.
 class HermiteForm final : public Solver {
 public:
     /// data must outlive the solver. Throws std::domain_error when a matrix cannot be factored.
@@ -38,6 +39,9 @@ public:
 
     /// The nodal values themselves.
     [[nodiscard]] Deflection nodal_deflection() const;
+
+    /// The largest change of a nodal temperature in each iteration of the last solve.
+    [[nodiscard]] const std::vector<double>& temperature_changes() const { return changes_; }
 
     /// An iteration that has not converged by then is given up.
     static constexpr int iteration_limit = 1000;
@@ -67,6 +71,8 @@ private:
     Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower, Eigen::NaturalOrdering<int>>
         bending_factor_;
     Eigen::VectorXd tip_response_; // B⁻¹ η(1), times Δt/(Δt + ζ): d that answers λ = 1
+
+    std::vector<double> changes_;
 
     struct ProfileLoads {
         Eigen::VectorXd hat;   // (φ, χ_i), inner nodes; empty: not a heat source

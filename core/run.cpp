@@ -1,5 +1,6 @@
 #include "core/run.hpp"
 
+#include "core/contraction.hpp"
 #include "core/error_norms.hpp"
 #include "core/hermite_form.hpp"
 #include "core/moment_form.hpp"
@@ -39,8 +40,17 @@ std::string located(const std::string& reason, std::int64_t step, std::int64_t s
 
 std::unique_ptr<Solver> make_solver(const Beam& beam, const ProblemData& data, const Mesh& mesh,
                                     const Scheme& scheme, double dt, const Needs& needs) {
-    if (scheme.algorithm == Algorithm::fixed_point)
+    if (scheme.algorithm == Algorithm::fixed_point) {
+        if (const double rho = greatest_contraction(beam, mesh, scheme, dt); !(rho < 1.0)) {
+            std::ostringstream reason;
+            reason.precision(3);
+            reason << "the fixed-point iteration would not contract: each of its iterations "
+                      "multiplies the error by "
+                   << rho << ", predicted; use the direct algorithm";
+            throw std::domain_error(reason.str());
+        }
         return std::make_unique<HermiteForm>(beam, data, mesh, scheme, dt);
+    }
     return std::make_unique<MomentForm>(beam, data, mesh, scheme, dt, needs);
 }
 

@@ -28,10 +28,13 @@ std::string Solver::step(const StepSources& sources) {
                 increments_.col(read < scheme.history ? read : first_stage + read - scheme.history);
         }
         const auto column = static_cast<Eigen::Index>(i);
-        std::string reason =
-            solve(stage.leading / dt_, sources.times(column), sources.amplitudes.col(column));
+        const double c = stage.leading / dt_;
+        const Eigen::Ref<const Eigen::VectorXd> amplitudes = sources.amplitudes.col(column);
+        std::string reason = solve(c, sources.times(column), amplitudes);
         if (!reason.empty())
             return reason;
+        if (observer_)
+            observer_({&scheme, i, c, sources.times(column), amplitudes});
         if (i + 1 < stages)
             increments_.col(first_stage + column) = state_ - before_;
     }

@@ -6,7 +6,9 @@
 
 #include <Eigen/Core>
 
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <utility>
 
@@ -36,6 +38,15 @@ struct Needs {
     bool curvature = false; ///< Solver::curvature() is called in every step
 };
 
+/// One solve of a step, as it was asked for: y_t ≈ c (y − y*) at time t.
+struct Solve {
+    const TimeScheme* scheme;                            ///< the running one or its starter
+    std::size_t stage;                                   ///< of the scheme
+    double leading;                                      ///< c
+    double t;                                            ///< where the sources were taken
+    const Eigen::Ref<const Eigen::VectorXd>& amplitudes; ///< of the sources at t
+};
+
 /// One time stepper for (24)–(25) on one mesh, started at t = 0: the stages of a time scheme, each
 /// a solve in space that the derived class makes.
 class Solver {
@@ -50,6 +61,10 @@ public:
     /// why the step failed (not finite, fixed point without convergence); the state is then
     /// meaningless.
     std::string step(const StepSources& sources);
+
+    /// Calls back after every solve that succeeds, the stages within a step included; the results
+    /// below are then those of the solve. An empty function: never.
+    void observe(std::function<void(const Solve&)> observer) { observer_ = std::move(observer); }
 
     /// Θ^n = Θ̃^n − θ_A (1 − x) at the nodes; shape: s + 1, zero at both ends. Empty when left out.
     [[nodiscard]] virtual Eigen::Ref<const Eigen::VectorXd> temperature() const = 0;
@@ -80,6 +95,7 @@ protected:
 private:
     TimeScheme time_;
     double dt_;
+    std::function<void(const Solve&)> observer_;
     Eigen::VectorXd before_;     // y^{n−1}; empty where no stage reads an increment
     Eigen::MatrixXd increments_; // one column each, in the order of Stage::weights
 };

@@ -209,7 +209,7 @@ BOOST_AUTO_TEST_CASE(a_failed_run_exits_with_three_and_keeps_what_was_finished) 
     BOOST_TEST(rungs[1].at("errors").at("theta_L2L2_sq").is_number());
     BOOST_TEST(rungs[0].at("status") == "failed");
     BOOST_TEST(rungs[0].at("errors").at("theta_L2L2_sq").is_null());
-    BOOST_TEST(has(rungs[0].at("reason"), "in step 1 of 2"));
+    BOOST_TEST(has(rungs[0].at("reason"), "predicted; use the direct algorithm"));
     BOOST_TEST(has(called.errors, "a run failed"));
 }
 

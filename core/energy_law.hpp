@@ -1,0 +1,73 @@
+#pragma once
+
+#include "core/solve_record.hpp"
+
+#include <Eigen/Core>
+
+#include <vector>
+
+namespace tvbeam {
+
+/// The Runge–Kutta coefficients of a one-step scheme, from its row: with the increments
+/// E = Y − y of the stages, Δt ẏ = L (I − W) E and so A = (L (I − W))⁻¹.
+struct ButcherTableau {
+    Eigen::MatrixXd a;
+    Eigen::VectorXd b; ///< the last row of a
+
+    static ButcherTableau of(const TimeScheme& scheme);
+
+    /// m_ij = b_i a_ij + b_j a_ji − b_i b_j; positive semidefinite with b ≥ 0: algebraically
+    /// stable.
+    [[nodiscard]] Eigen::MatrixXd algebraic_stability() const;
+};
+
+/// The discrete energy law of a time scheme, as an identity. Each solve is tested with Θ and
+/// ẇ = c (w − w*); with y = (Θ, w) in M × L², b the weights of the step,
+///
+///     E^n − E^{n−1} + N + Δt Σ_i b_i (D_i − W_i) = 0,
+///     D = ΘᵀKΘ + ζ‖ẇ‖²,     W = (f, Θ) − (μ + αθ_A(1 − x), ẇ) + λ (1 − x, ẇ)
+///
+/// - one-step schemes: E = ½‖y‖², N = ½Δt² Σ_ij m_ij (ẏ_i, ẏ_j) with the matrix of algebraic
+///   stability m_ij = b_i a_ij + b_j a_ji − b_i b_j (Burrage and Butcher 1979). N ≥ 0 for Euler,
+///   where it is ½‖y^n − y^{n−1}‖²; Alexander's SDIRK2 has m = diag(−γ², γ²) of both signs and is
+///   not algebraically stable: its energy falls because it is A-stable (von Neumann 1951);
+/// - BDF2: E = ¼(‖y^n‖² + ‖2y^n − y^{n−1}‖²), the G-norm of Dahlquist (1976), and
+///   N = ¼‖y^n − 2y^{n−1} + y^{n−2}‖².
+class EnergyLaw {
+public:
+    /// underflow: in the units of the records, below which floating point is absolute; 0: never.
+    EnergyLaw(const Beam& beam, const Mesh& mesh, ThermalMass mass, double underflow = 0.0);
+
+    /// Adds the power of a solve.
+    void add(const SolveRecord& record);
+
+    /// What the identity leaves over a step, relative to the sum of the sizes of its terms. KΘ
+    /// counts with the fluxes of KΘ*, from which a solve forms the increment; those in ẇ count with
+    /// the terms that w is the sum of, the exchange α(Θ, ẇ) between the two equations, which
+    /// cancels, included. Call before SolveRecorder::end_step.
+    double end_step(const SolveRecorder& recorder, const SolveRecord& last);
+
+    /// E of the last step; unit: the square of the record's.
+    [[nodiscard]] double energy() const { return energy_; }
+
+private:
+    struct Rate { // ẏ
+        Eigen::VectorXd theta;
+        DiscontinuousLinear w;
+    };
+    [[nodiscard]] double product(const Eigen::VectorXd& theta, const DiscontinuousLinear& w,
+                                 const Eigen::VectorXd& other_theta,
+                                 const DiscontinuousLinear& other_w) const;
+    [[nodiscard]] double square(const RecordedState& y) const;
+
+    Beam beam_;
+    Mesh mesh_;
+    Tridiagonal mass_;
+    double underflow_;
+    std::vector<Rate> rates_;      // of the stages of this step
+    std::vector<double> balances_; // D − W of each
+    std::vector<double> sizes_;
+    double energy_ = 0.0;
+};
+
+} // namespace tvbeam

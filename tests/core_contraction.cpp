@@ -1,0 +1,86 @@
+// The contraction of the paper's fixed point, predicted before it runs.
+
+#include "core/contraction.hpp"
+#include "core/hermite_form.hpp"
+#include "tests/marching.hpp"
+
+#include <boost/test/data/monomorphic.hpp>
+#include <boost/test/data/test_case.hpp>
+#include <boost/test/unit_test.hpp>
+
+#include <cmath>
+#include <numbers>
+
+using namespace tvbeam;
+namespace data = boost::unit_test::data;
+
+BOOST_AUTO_TEST_SUITE(fixed_point_contraction)
+
+BOOST_DATA_TEST_CASE(prediction_is_the_closed_form,
+                     data::make({ThermalMass::consistent, ThermalMass::lumped}) *
+                         data::make({2, 3, 20, 400}) * data::make({1e-6, 1e-2, 1e3}),
+                     mass, elements, dt) {
+    // On a uniform mesh sin πx_i is an eigenvector of all matrices: M_c has h (2 + cos πh)/3, the
+    // lumped M has h, K has 2 (1 − cos πh)/h.
+    const Beam beam{.alpha = 0.7, .zeta = 0.03};
+    const double h = 1.0 / elements;
+    const double cosine = std::cos(std::numbers::pi * h);
+    const double consistent = h * (2.0 + cosine) / 3.0;
+    const double stiffness = 4.0 * std::pow(std::sin(std::numbers::pi * h / 2.0), 2) / h;
+    const double m = mass == ThermalMass::lumped ? h : consistent;
+    const double expected = 0.49 * dt / (dt + 0.03) * consistent / (m + dt * stiffness);
+    BOOST_TEST(contraction(beam, Mesh::uniform(elements), mass, 1.0 / dt) == expected,
+               boost::test_tools::tolerance(1e-10));
+    BOOST_TEST(contraction(beam, Mesh::uniform(1), mass, 1.0 / dt) == 0.0);
+}
+
+BOOST_DATA_TEST_CASE(measured_contraction_is_the_predicted_one, data::make(TimeScheme::names()),
+                     time) {
+    // The third change over the second, of a solve with the coefficient of the scheme's first
+    // stage; the mode sin πx is the one that contracts least.
+    ProblemData problem;
+    problem.theta_initial.rest = [](const Eigen::ArrayXd& x, double) -> Eigen::ArrayXd {
+        return (std::numbers::pi * x).sin();
+    };
+    const Mesh mesh = Mesh::uniform(12);
+    for (const double alpha : {0.1, 0.8, 3.0})
+        for (const double dt : {1e-3, 0.1}) {
+            const Beam beam{.alpha = alpha, .zeta = 0.05};
+            const Scheme scheme{Algorithm::fixed_point, ThermalMass::lumped, 1e-14,
+                                TimeScheme::named(time)};
+            HermiteForm form(beam, problem, mesh, scheme, dt);
+            TimeLevels levels(problem, scheme.time, dt, 1);
+            std::vector<double> changes;
+            form.observe([&](const Solve& solve) {
+                if (solve.stage == 0)
+                    changes = form.temperature_changes();
+            });
+            if (!form.step(levels.at(1)).empty())
+                changes = form.temperature_changes();
+            BOOST_REQUIRE(changes.size() >= 3);
+            const double c = scheme.time.at_step(1).stages.front().leading / dt;
+            BOOST_TEST(changes[2] / changes[1] == contraction(beam, mesh, scheme.thermal_mass, c),
+                       boost::test_tools::tolerance(1e-2));
+        }
+}
+
+BOOST_AUTO_TEST_CASE(an_iteration_that_cannot_contract_is_refused_with_the_number) {
+    // α²Δt/((Δt + ζ)(1 + π²Δt)) = 25/1.1/1.1 = 20.7 for α = 5, ζ = 0.001, Δt = 0.01; with Δt/100
+    // it is 25·0.0001/0.0011 = 2.27.
+    const ProblemData problem = forced_problem({{[](double) { return 1.0; }, {}}});
+    for (const auto& [dt, number] : {std::pair{0.01, "20.7"}, {0.0001, "2.27"}}) {
+        const RunResult result = run({{.alpha = 5.0, .zeta = 1e-3},
+                                      Mesh::uniform(40),
+                                      {Algorithm::fixed_point, ThermalMass::consistent, 1e-7},
+                                      dt,
+                                      1,
+                                      {}},
+                                     problem);
+        BOOST_TEST((result.status == RunStatus::failed));
+        BOOST_TEST(result.reason.find(number) != std::string::npos, result.reason);
+        BOOST_TEST(result.reason.find("use the direct algorithm") != std::string::npos);
+        BOOST_TEST(result.counters.steps == 0);
+    }
+}
+
+BOOST_AUTO_TEST_SUITE_END()
