@@ -1,5 +1,7 @@
 #include "reports/csv_report.hpp"
 
+#include "reports/stress_text.hpp"
+
 #include <fmt/format.h>
 
 #include <optional>
@@ -110,7 +112,9 @@ std::string csv_report(const StudyResult& result) {
         return ladder_csv(*result.ladder, result.scene.ladder->printed);
     if (result.orders)
         return grid_csv(*result.orders, result.scene.orders->norms);
-    return timed_csv(*result.work_precision, *result.scene.work_precision);
+    if (result.work_precision)
+        return timed_csv(*result.work_precision, *result.scene.work_precision);
+    return stress_csv(*result.stress);
 }
 
 } // namespace tvbeam

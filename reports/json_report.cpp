@@ -1,5 +1,7 @@
 #include "reports/json_report.hpp"
 
+#include "reports/stress_json.hpp"
+
 #include <nlohmann/json.hpp>
 
 namespace tvbeam {
@@ -231,6 +233,8 @@ std::string json_report(const StudyResult& result) {
         json["ladder"] = json_of(*result.ladder, *result.scene.ladder);
     if (result.work_precision)
         json["work_precision"] = json_of(*result.work_precision, *result.scene.work_precision);
+    if (result.stress)
+        json["stress"] = stress_json(*result.stress);
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

@@ -3,6 +3,7 @@
 #include "reports/number_text.hpp"
 #include "reports/orders_text.hpp"
 #include "reports/scheme_text.hpp"
+#include "reports/stress_text.hpp"
 #include "reports/text_table.hpp"
 #include "reports/work_precision_text.hpp"
 
@@ -140,7 +141,10 @@ std::string ladder_report(const LadderResult& ladder, const LadderBlock& block,
 
 std::string terminal_report(const StudyResult& result) {
     const Scene& scene = result.scene;
-    std::string text = wrapped(scene.title) + wrapped(problem_line(scene));
+    std::string text = wrapped(scene.title);
+    // A stress study has problems of its own.
+    if (!result.runs().empty())
+        text += wrapped(problem_line(scene));
     if (result.ladder || result.orders)
         text += wrapped(scheme_text(scene.scheme));
     if (result.reference)
@@ -152,6 +156,8 @@ std::string terminal_report(const StudyResult& result) {
         text += "\n" + orders_text(*result.orders);
     if (result.work_precision)
         text += "\n" + work_precision_text(*result.work_precision, *scene.work_precision);
+    if (result.stress)
+        text += "\n" + stress_text(*result.stress);
     if (!result.left_out.empty()) {
         text += "\nLeft out, as the scene does not need it:\n";
         for (const auto& part : result.left_out)

@@ -114,6 +114,10 @@ std::string first_failure(const StudyResult& result) {
         for (const auto& run : *study.runs)
             if (run.status != RunStatus::ok)
                 return run.reason;
+    if (result.stress)
+        for (const auto& one : result.stress->cases)
+            if (one.outcome == Outcome::failed)
+                return one.reason;
     return {};
 }
 

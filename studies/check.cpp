@@ -72,6 +72,9 @@ public:
         case Figure::constant:
             add_constant(expectation);
             break;
+        case Figure::stress:
+            add_stress(expectation);
+            break;
         default:
             add_fit(expectation);
         }
@@ -187,6 +190,15 @@ private:
         checked_.push_back(held(expectation, "orders.corollary: greatest constant C",
                                 corollary ? std::optional(corollary->greatest) : std::nullopt,
                                 "no run of the grid has an error"));
+    }
+
+    void add_stress(const Expectation& expectation) {
+        const auto figures = result_.stress->figures();
+        const auto found = figures.find(expectation.norm);
+        checked_.push_back(
+            held(expectation, "stress." + expectation.norm,
+                 found == figures.end() ? std::nullopt : std::optional(found->second),
+                 "the study has no figure of this name"));
     }
 
     const StudyResult& result_;

@@ -109,7 +109,7 @@ void add_work_precision(std::vector<Expectation>& expectations, TableReader& exp
 
 std::vector<Expectation> read_expectations(TableReader table, const LadderBlock* ladder,
                                            const OrdersBlock* orders,
-                                           const WorkPrecisionBlock* timed) {
+                                           const WorkPrecisionBlock* timed, bool stress) {
     // A study that the scene does not run measures no norm.
     const LadderBlock no_ladder;
     const OrdersBlock no_orders;
@@ -137,6 +137,11 @@ std::vector<Expectation> read_expectations(TableReader table, const LadderBlock*
                           add_band("constant", Figure::constant);
                   });
     add_work_precision(expectations, table, timed);
+    if (auto figures = stress ? table.table("stress") : std::nullopt) {
+        for (const auto& name : figures->keys())
+            add(expectations, *figures, name.c_str(), Figure::stress, "stress", name);
+        figures->finish();
+    }
     table.finish();
     return expectations;
 }

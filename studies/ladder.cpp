@@ -2,6 +2,7 @@
 
 #include "studies/order_remarks.hpp"
 #include "studies/reference_solution.hpp"
+#include "studies/round_off_remark.hpp"
 
 #include <algorithm>
 #include <iterator>
@@ -62,6 +63,9 @@ LadderResult run_ladder(const Scene& scene, const LadderBlock& ladder, const Pro
         result.norms.push_back(analysed(norm, result.rungs, k, model, reference_widths(scene)));
         result.norms.back().remarks =
             order_remarks(norm, root_records_of(remarked, k, norm), model);
+        if (auto remark = round_off_remark(scene, data, ladder.final_time, result.rungs, norm, k);
+            !remark.empty())
+            result.norms.back().remarks.push_back(std::move(remark));
     }
     if (!ladder.norms.empty())
         result.reference_remark = reference_remark(scene, result.rungs);

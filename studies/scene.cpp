@@ -148,25 +148,31 @@ Scene read_scene(const std::string& name_or_file, const std::vector<std::string>
     TableReader root(document, document.table, "");
     scene.title = root.text("title").value_or(scene.name);
 
+    if (auto stress = root.table("stress"))
+        scene.stress = read_stress(*std::move(stress));
+    const bool stress_only =
+        scene.stress && !root.has("ladder") && !root.has("orders") && !root.has("work_precision");
+
     auto beam = root.table("beam");
-    if (!beam)
+    if (!beam && !stress_only)
         throw InputError({scene.file},
                          "the block [beam] is missing; it holds alpha, zeta and the stops");
-    scene.beam = read_beam(*std::move(beam));
+    if (beam)
+        scene.beam = read_beam(*std::move(beam));
     if (auto mesh = root.table("mesh"))
         scene.mesh = read_mesh(*std::move(mesh));
     if (auto scheme = root.table("scheme"))
         scene.scheme = read_scheme(*std::move(scheme));
 
     auto data = root.table("data");
-    if (root.has("solution") == data.has_value())
+    if (!stress_only && root.has("solution") == data.has_value())
         throw InputError(
             root.place(data ? "data" : "solution"),
             data ? "the scene has both a solution and a [data] block; remove one"
                  : "the scene has neither a solution nor a [data] block; give one of them");
     if (data)
         scene.problem = read_data(*std::move(data));
-    else
+    else if (root.has("solution"))
         scene.problem = read_scene_solution(root, path.parent_path());
 
     if (auto ladder = root.table("ladder"))
@@ -175,9 +181,9 @@ Scene read_scene(const std::string& name_or_file, const std::vector<std::string>
         scene.orders = read_orders(*std::move(orders));
     if (auto timed = root.table("work_precision"))
         scene.work_precision = read_work_precision(*std::move(timed), scene.scheme);
-    if (!scene.ladder && !scene.orders && !scene.work_precision)
-        throw InputError({scene.file}, "the scene has no study; add a block [ladder], [orders] or "
-                                       "[work_precision]");
+    if (!scene.ladder && !scene.orders && !scene.work_precision && !scene.stress)
+        throw InputError({scene.file}, "the scene has no study; add a block [ladder], [orders], "
+                                       "[work_precision] or [stress]");
     if (auto reference = root.table("reference"))
         scene.reference =
             read_reference(*std::move(reference), scene.ladder ? &*scene.ladder : nullptr,
@@ -186,7 +192,7 @@ Scene read_scene(const std::string& name_or_file, const std::vector<std::string>
         throw InputError(root.place("work_precision"),
                          "work_precision measures errors against an exact solution; give a "
                          "solution, and no [data] or [reference]");
-    if (!scene.has_exact_solution() && !scene.reference &&
+    if (!stress_only && !scene.has_exact_solution() && !scene.reference &&
         (scene.orders || !scene.ladder->norms.empty()))
         throw InputError(
             root.place(scene.orders ? "orders" : "ladder"),
@@ -194,10 +200,10 @@ Scene read_scene(const std::string& name_or_file, const std::vector<std::string>
             "a solution or a block [reference]");
     check_meshes(scene, root);
     if (auto expect = root.table("expect"); expect && reading.expectations)
-        scene.expectations =
-            read_expectations(*std::move(expect), scene.ladder ? &*scene.ladder : nullptr,
-                              scene.orders ? &*scene.orders : nullptr,
-                              scene.work_precision ? &*scene.work_precision : nullptr);
+        scene.expectations = read_expectations(
+            *std::move(expect), scene.ladder ? &*scene.ladder : nullptr,
+            scene.orders ? &*scene.orders : nullptr,
+            scene.work_precision ? &*scene.work_precision : nullptr, scene.stress.has_value());
     root.table("short"); // what it holds is read in the short form
     root.finish();
     return scene;

@@ -8,6 +8,7 @@
 #include "mms/solution.hpp"
 #include "studies/expectation.hpp"
 #include "studies/reference_block.hpp"
+#include "studies/stress_block.hpp"
 #include "studies/study_keys.hpp"
 #include "studies/work_precision_block.hpp"
 
@@ -52,6 +53,7 @@ struct Scene {
     std::optional<LadderBlock> ladder;
     std::optional<OrdersBlock> orders;
     std::optional<WorkPrecisionBlock> work_precision;
+    std::optional<StressBlock> stress;       ///< brings its own beams, schemes and problems
     std::optional<ReferenceBlock> reference; ///< then errors are measured against it
     std::vector<Expectation> expectations;   ///< empty unless they were asked for
     std::string json;                        ///< the scene with its overrides, as JSON

@@ -6,7 +6,8 @@ namespace tvbeam {
 
 bool StudyResult::failed() const {
     const auto all = runs();
-    return std::any_of(all.begin(), all.end(),
+    return (stress && stress->failed()) ||
+           std::any_of(all.begin(), all.end(),
                        [](const MeasuredRuns& study) { return any_failed(*study.runs); });
 }
 
@@ -29,7 +30,12 @@ StudyResult run_study(const Scene& scene, int jobs) {
                        .reference = {},
                        .orders = {},
                        .ladder = {},
-                       .work_precision = {}};
+                       .work_precision = {},
+                       .stress = {}};
+    if (scene.stress)
+        result.stress = run_stress(*scene.stress);
+    if (!scene.ladder && !scene.orders && !scene.work_precision)
+        return result;
     // One problem serves all studies: it is admissible up to the longest of their times.
     const double final_time =
         std::max({scene.ladder ? scene.ladder->final_time : 0.0,

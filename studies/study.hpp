@@ -4,6 +4,7 @@
 #include "studies/orders.hpp"
 #include "studies/reference_solution.hpp"
 #include "studies/scene.hpp"
+#include "studies/stress.hpp"
 #include "studies/work_precision.hpp"
 
 #include <optional>
@@ -27,6 +28,7 @@ struct StudyResult {
     std::optional<OrdersResult> orders;
     std::optional<LadderResult> ladder;
     std::optional<WorkPrecisionResult> work_precision;
+    std::optional<StressResult> stress;
 
     /// The runs of every study whose errors were measured.
     [[nodiscard]] std::vector<MeasuredRuns> runs() const;

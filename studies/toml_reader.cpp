@@ -372,6 +372,13 @@ std::vector<TableReader> TableReader::tables(std::string_view key) {
     return tables;
 }
 
+std::vector<std::string> TableReader::keys() const {
+    std::vector<std::string> keys;
+    for (const auto& [key, node] : *table_)
+        keys.emplace_back(key.str());
+    return keys;
+}
+
 void TableReader::finish() const {
     for (const auto& [key, node] : *table_) {
         if (std::find(known_.begin(), known_.end(), key.str()) != known_.end())

@@ -71,6 +71,9 @@ public:
     /// missing.
     std::vector<TableReader> tables(std::string_view key);
 
+    /// The keys of the table, in their order.
+    [[nodiscard]] std::vector<std::string> keys() const;
+
     [[nodiscard]] bool has(std::string_view key) const { return table_->contains(key); }
     [[nodiscard]] bool is_string(std::string_view key) const;
 

@@ -1,0 +1,315 @@
+#include "reports/stress_text.hpp"
+
+#include "reports/number_text.hpp"
+#include "reports/text_table.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <map>
+
+namespace tvbeam {
+
+namespace {
+
+std::string name_of(ThermalMass mass) {
+    return mass == ThermalMass::lumped ? "lumped" : "consistent";
+}
+
+std::string name_of(Algorithm algorithm) {
+    return algorithm == Algorithm::direct ? "direct" : "fixed-point";
+}
+
+/// The regime of a number by its size: a name that also sorts.
+std::string by_size(double value, double small, double large) {
+    if (value == 0.0)
+        return "= 0";
+    if (value < small)
+        return "< " + shortest(small);
+    return value <= large ? shortest(small) + " to " + shortest(large) : "> " + shortest(large);
+}
+
+double gap_of(const Stops& stops) {
+    return std::min(-stops.lower, stops.upper);
+}
+
+std::string stops_regime(const Stops& stops) {
+    if (!stops.exist())
+        return "none";
+    const bool both = std::isfinite(stops.lower) && std::isfinite(stops.upper);
+    return std::string(both ? "both" : "one") + (gap_of(stops) < 1e-6 ? ", < 1e-6" : ", >= 1e-6");
+}
+
+/// The regimes that a case belongs to, one a line of the table.
+std::vector<std::string> regimes_of(const StressParameters& p) {
+    return {"alpha " + by_size(p.alpha, 1e-2, 10.0),
+            "zeta " + by_size(p.zeta, 1e-3, 1e3),
+            "dt " + by_size(p.dt, 1e-4, 1.0),
+            "s " + (p.elements <= 3      ? "1 to 3"
+                    : p.elements <= 1000 ? "4 to 1000"
+                                         : std::string("> 1000")),
+            "stops " + stops_regime(p.stops),
+            "load " + by_size(p.load, 1e-9, 1e9),
+            "start " + name_of(p.initial),
+            "mass " + name_of(p.thermal_mass),
+            "time " + p.time,
+            "algorithm " + name_of(p.algorithm)};
+}
+
+struct Tally {
+    std::map<Outcome, int> outcomes;
+    StressChecks worst;
+    double path = 0.0; // over its limit
+};
+
+void raise(double& worst, double value) {
+    if (!(value <= worst))
+        worst = value;
+}
+
+std::map<std::pair<std::size_t, std::string>, Tally>
+tallies_of(const std::vector<StressCase>& cases) {
+    std::map<std::pair<std::size_t, std::string>, Tally> tallies;
+    const auto add = [&](std::size_t order, const std::string& regime, const StressCase& one) {
+        Tally& tally = tallies[{order, regime}];
+        ++tally.outcomes[one.outcome];
+        if (!one.checks)
+            return;
+        raise(tally.worst.energy, one.checks->energy);
+        raise(tally.worst.heat_residual,
+              std::max(one.checks->heat_residual, one.checks->beam_residual));
+        raise(tally.worst.penetration, std::max({one.checks->penetration, one.checks->wrong_sign,
+                                                 one.checks->complementarity}));
+        if (one.checks->path)
+            raise(tally.path, *one.checks->path / one.checks->path_limit);
+    };
+    for (const auto& one : cases) {
+        const auto regimes = regimes_of(one.parameters);
+        for (std::size_t k = 0; k < regimes.size(); ++k)
+            add(k, regimes[k], one);
+        add(regimes.size(), "all", one);
+    }
+    return tallies;
+}
+
+std::string regime_table(const std::vector<StressCase>& cases) {
+    TextTable::Group key{"", {{"regime", {}}}};
+    TextTable::Group outcomes{
+        "cases", {{"certified", {}}, {"refused", {}}, {"stopped", {}}, {"failed", {}}}};
+    TextTable::Group worst{"worst",
+                           {{"energy", {}}, {"resid.", {}}, {"contact", {}}, {"path", {}}}};
+    for (auto& [regime, tally] : tallies_of(cases)) {
+        key.columns[0].cells.push_back(regime.second);
+        const auto count = [&outcomes = tally.outcomes](Outcome outcome) {
+            const auto found = outcomes.find(outcome);
+            return std::to_string(found == outcomes.end() ? 0 : found->second);
+        };
+        outcomes.columns[0].cells.push_back(count(Outcome::certified));
+        outcomes.columns[1].cells.push_back(count(Outcome::refused));
+        outcomes.columns[2].cells.push_back(count(Outcome::stopped));
+        outcomes.columns[3].cells.push_back(count(Outcome::failed));
+        worst.columns[0].cells.push_back(scientific(tally.worst.energy, 0));
+        worst.columns[1].cells.push_back(fixed(tally.worst.heat_residual, 1));
+        worst.columns[2].cells.push_back(scientific(tally.worst.penetration, 0));
+        worst.columns[3].cells.push_back(fixed(tally.path, 2));
+    }
+    return TextTable(key, {outcomes, worst}).text() +
+           wrapped("energy: energy law, of its terms (limit 1e-12); resid.: of both equations, in "
+                   "units of round-off (64); contact: penetration, wrong sign or min-residual, of "
+                   "the tip's scale (1e-13); path: sine basis against nodal values, of their limit "
+                   "(1)");
+}
+
+/// The case in words: only what tells it apart.
+std::string text_of(const StressParameters& p) {
+    std::string text = fmt::format("alpha {}, zeta {}, dt {}, s {}, {} steps, load {}, {} start",
+                                   shortest(p.alpha), shortest(p.zeta), shortest(p.dt), p.elements,
+                                   p.steps, shortest(p.load), name_of(p.initial));
+    if (p.stops.exist())
+        text += fmt::format(", stops [{}, {}]", p.stops.lower, p.stops.upper);
+    text += ", " + p.time + ", " + name_of(p.thermal_mass) + " mass";
+    if (p.algorithm == Algorithm::fixed_point)
+        text += ", fixed-point";
+    return text;
+}
+
+/// The worst case of each check, by name.
+std::string worst_cases(const std::vector<StressCase>& cases) {
+    using Value = std::function<std::optional<double>(const StressCase&)>;
+    const auto of = [](double StressChecks::*check) -> Value {
+        return [check](const StressCase& one) {
+            return one.checks ? std::optional((*one.checks).*check) : std::nullopt;
+        };
+    };
+    const std::vector<std::pair<std::string, Value>> checks{
+        {"energy law", of(&StressChecks::energy)},
+        {"heat residual", of(&StressChecks::heat_residual)},
+        {"beam residual", of(&StressChecks::beam_residual)},
+        {"penetration", of(&StressChecks::penetration)},
+        {"wrong sign", of(&StressChecks::wrong_sign)},
+        {"min-residual", of(&StressChecks::complementarity)},
+        {"path",
+         [](const StressCase& one) { return one.checks ? one.checks->path : std::nullopt; }},
+        {"error/predicted",
+         [](const StressCase& one) { return one.checks ? one.checks->error : std::nullopt; }}};
+    std::string text = "\nWorst cases:\n";
+    for (const auto& [name, value] : checks) {
+        const StressCase* worst = nullptr;
+        int count = 0;
+        for (const auto& one : cases)
+            if (const auto figure = value(one)) {
+                ++count;
+                if (worst == nullptr || !(*figure <= *value(*worst)))
+                    worst = &one;
+            }
+        if (worst != nullptr)
+            text +=
+                wrapped(fmt::format("  {}: {} ({} cases): {}", name, scientific(value(*worst), 1),
+                                    count, text_of(worst->parameters)),
+                        6);
+    }
+    return text;
+}
+
+/// The text of a reason without its numbers, to count those alike.
+std::string kind_of(const std::string& reason) {
+    std::string kind;
+    for (const char c : reason) {
+        const bool digit = (c >= '0' && c <= '9') || c == '.';
+        if (!digit)
+            kind += c;
+        else if (!kind.ends_with('#'))
+            kind += '#';
+    }
+    return kind;
+}
+
+std::string reasons(const std::vector<StressCase>& cases, Outcome outcome) {
+    std::map<std::string, std::pair<int, const StressCase*>> kinds;
+    for (const auto& one : cases)
+        if (one.outcome == outcome) {
+            auto& [count, example] = kinds[kind_of(one.reason)];
+            if (count++ == 0)
+                example = &one;
+        }
+    std::string text;
+    for (const auto& [kind, found] : kinds) {
+        if (text.empty())
+            text = "\n" + tvbeam::name_of(outcome) + ":\n";
+        text += wrapped(fmt::format("  {} cases, e.g. {}: {}", found.first,
+                                    text_of(found.second->parameters), found.second->reason),
+                        4);
+    }
+    return text;
+}
+
+/// A ratio measured/predicted as per mille of deviation would be hidden by its round figures; the
+/// map shows the prediction in tenths and marks what is not within a tenth of it.
+std::string contraction_text(const ContractionMap& map, const ContractionBlock& block) {
+    std::string text = wrapped(fmt::format(
+        "Contraction of the fixed point, zeta = {}, s = {}: across, alpha from {} to {}; down, dt "
+        "from {} to {}. A digit: tenths of the measured contraction; ^: 1 or more, refused; !: the "
+        "measured one is not within 10 % of the predicted",
+        shortest(block.zeta), block.elements, shortest(block.alpha.front()),
+        scientific(block.alpha.back(), 1), shortest(block.dt.front()),
+        scientific(block.dt.back(), 1)));
+    for (Eigen::Index i = 0; i < map.predicted.rows(); ++i) {
+        text += fmt::format("{:>9} ", scientific(block.dt[static_cast<std::size_t>(i)], 1));
+        for (Eigen::Index j = 0; j < map.predicted.cols(); ++j) {
+            const double ratio = map.measured(i, j) / map.predicted(i, j);
+            text += ' ';
+            if (!(std::abs(ratio - 1.0) <= 0.1))
+                text += '!';
+            else if (map.predicted(i, j) >= 1.0)
+                text += '^';
+            else
+                text += static_cast<char>('0' + static_cast<int>(map.measured(i, j) * 10.0));
+        }
+        text += '\n';
+    }
+    return text + wrapped(fmt::format("measured/predicted: {:.6f} to {:.6f}; {} of {} refused",
+                                      map.least_ratio(), map.greatest_ratio(), map.refused(),
+                                      map.predicted.size()));
+}
+
+std::string round_off_text(const RoundOffTable& table) {
+    TextTable::Group key{"", {{"s", {}}}};
+    TextTable::Group moment{"moment form", {{"nodal", {}}, {"sine", {}}}};
+    TextTable::Group hermite{"Hermite form", {{"floor", {}}, {"predicted", {}}, {"ratio", {}}}};
+    TextTable::Group error{"", {{"discretisation", {}}}};
+    for (const auto& row : table.rows) {
+        key.columns[0].cells.push_back(std::to_string(row.elements));
+        moment.columns[0].cells.push_back(scientific(row.moment, 1));
+        moment.columns[1].cells.push_back(scientific(row.sine, 1));
+        hermite.columns[0].cells.push_back(scientific(row.hermite, 1));
+        hermite.columns[1].cells.push_back(scientific(row.hermite_predicted, 1));
+        hermite.columns[2].cells.push_back(
+            row.hermite ? fixed(*row.hermite / row.hermite_predicted, 2) : "");
+        error.columns[0].cells.push_back(scientific(row.discretisation_error, 1));
+    }
+    std::string text = "Floor of round-off, relative, on the coupled mode sin(pi x):\n" +
+                       TextTable(key, {moment, hermite, error}).text();
+    for (const auto& row : table.rows)
+        if (!row.remark.empty())
+            return text + wrapped(fmt::format("from s = {} on: {}", row.elements, row.remark));
+    return text;
+}
+
+} // namespace
+
+std::string name_of(InitialData initial) {
+    switch (initial) {
+    case InitialData::zero:
+        return "zero";
+    case InitialData::smooth:
+        return "smooth";
+    case InitialData::rough:
+        return "rough";
+    default:
+        return "random";
+    }
+}
+
+std::string stress_text(const StressResult& result) {
+    std::string text;
+    if (!result.cases.empty())
+        text += regime_table(result.cases) + worst_cases(result.cases) +
+                reasons(result.cases, Outcome::refused) + reasons(result.cases, Outcome::stopped) +
+                reasons(result.cases, Outcome::failed);
+    if (result.contraction)
+        text += (text.empty() ? "" : "\n") +
+                contraction_text(*result.contraction, result.contraction->block);
+    if (result.roundoff)
+        text += (text.empty() ? "" : "\n") + round_off_text(*result.roundoff);
+    return text;
+}
+
+std::string stress_csv(const StressResult& result) {
+    std::string text = "alpha,zeta,dt,elements,steps,g1,g2,load,initial,seed,time,thermal_mass,"
+                       "algorithm,outcome,energy,heat_residual,beam_residual,penetration,"
+                       "wrong_sign,complementarity,path,error,seconds,reason\n";
+    for (const auto& one : result.cases) {
+        const StressParameters& p = one.parameters;
+        text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{}", p.alpha, p.zeta, p.dt,
+                            p.elements, p.steps, p.stops.lower, p.stops.upper, p.load,
+                            name_of(p.initial), p.seed, p.time, name_of(p.thermal_mass),
+                            name_of(p.algorithm), tvbeam::name_of(one.outcome));
+        const auto field = [](std::optional<double> value) {
+            return value && std::isfinite(*value) ? fmt::format(",{}", *value) : std::string(",");
+        };
+        const auto check = [&](double StressChecks::*member) {
+            return field(one.checks ? std::optional((*one.checks).*member) : std::nullopt);
+        };
+        text += check(&StressChecks::energy) + check(&StressChecks::heat_residual) +
+                check(&StressChecks::beam_residual) + check(&StressChecks::penetration) +
+                check(&StressChecks::wrong_sign) + check(&StressChecks::complementarity) +
+                field(one.checks ? one.checks->path : std::nullopt) +
+                field(one.checks ? one.checks->error : std::nullopt);
+        text += fmt::format(",{},\"{}\"\n", one.seconds, one.reason);
+    }
+    return text;
+}
+
+} // namespace tvbeam
