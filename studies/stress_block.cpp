@@ -80,7 +80,7 @@ Axis axis_of(std::vector<Value> values, Value StressParameters::*member) {
 /// Numbers ≥ 0, or > 0.
 std::vector<double> numbers(TableReader& table, const char* key, double otherwise, bool positive,
                             TableReader::Infinity infinity = TableReader::Infinity::refused) {
-    const auto values = table.numbers(key, infinity).value_or(std::vector<double>{otherwise});
+    auto values = table.numbers(key, infinity).value_or(std::vector<double>{otherwise});
     if (values.empty())
         throw InputError(table.place(key), table.full(key) + " is empty; it must hold a value");
     for (std::size_t i = 0; i < values.size(); ++i)
@@ -93,7 +93,7 @@ std::vector<double> numbers(TableReader& table, const char* key, double otherwis
 }
 
 std::vector<std::int64_t> read_elements(TableReader& table) {
-    const auto values = table.integers("elements").value_or(std::vector<std::int64_t>{10});
+    auto values = table.integers("elements").value_or(std::vector<std::int64_t>{10});
     for (std::size_t i = 0; i < values.size(); ++i)
         if (values[i] < 1 || values[i] > most_elements)
             throw InputError(table.place("elements", i),

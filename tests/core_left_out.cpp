@@ -9,6 +9,9 @@
 #include <boost/test/data/test_case.hpp>
 #include <boost/test/unit_test.hpp>
 
+#include <cmath>
+#include <limits>
+
 using namespace tvbeam;
 
 namespace {
@@ -121,6 +124,31 @@ BOOST_DATA_TEST_CASE(what_is_left_out_does_not_change_what_remains,
     const auto together = result_of(uncoupled, both, scheme).errors;
     BOOST_TEST(result_of(uncoupled, {"theta_L2L2"}, scheme).errors[0] == together[0]);
     BOOST_TEST(result_of(uncoupled, {"u_LinfH2semi"}, scheme).errors[0] == together[1]);
+}
+
+BOOST_DATA_TEST_CASE(stops_that_are_never_met_change_no_bit, bases, basis) {
+    const Scheme scheme{.basis = basis};
+    Beam none = full;
+    none.stops = {};
+    Beam far = full;
+    far.stops = {-1e300, 1e300};
+    const RunResult without = result_of(none, both, scheme);
+    const RunResult with = result_of(far, both, scheme);
+    BOOST_TEST(with.counters.tip_evaluations == steps);
+    BOOST_TEST(without.counters.tip_evaluations == 0);
+    for (std::size_t k = 0; k < both.size(); ++k)
+        BOOST_TEST(with.errors[k] == without.errors[k]);
+}
+
+BOOST_DATA_TEST_CASE(a_norm_is_the_same_whatever_else_is_measured, bases, basis) {
+    // The sums are the same ones; in the sine basis their terms may be grouped differently.
+    const Scheme scheme{.basis = basis};
+    const RunResult together = result_of(full, both, scheme);
+    for (std::size_t k = 0; k < both.size(); ++k) {
+        const RunResult alone = result_of(full, {both[k]}, scheme);
+        BOOST_TEST(std::abs(alone.errors[0] - together.errors[k]) <=
+                   30.0 * std::numeric_limits<double>::epsilon() * together.errors[k]);
+    }
 }
 
 BOOST_AUTO_TEST_SUITE_END()
