@@ -1,5 +1,6 @@
 // Stress studies: how cases are sampled and judged.
 
+#include "studies/ladder.hpp"
 #include "studies/scene.hpp"
 #include "studies/stress.hpp"
 #include "studies/stress_problem.hpp"
@@ -9,6 +10,7 @@
 #include <boost/test/data/test_case.hpp>
 #include <boost/test/unit_test.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <set>
@@ -53,15 +55,18 @@ BOOST_AUTO_TEST_CASE(work_bounds_the_steps) {
 }
 
 BOOST_AUTO_TEST_CASE(mistakes_are_pointed_at) {
-    for (const auto& [text, what] :
-         {std::pair{"[stress]", "asks for nothing"},
-          {"[stress.sweep.a]\nalpha = [-1.0]", "its values must be >= 0"},
-          {"[stress.sweep.a]\ntime = [\"rk4\"]", "holds 'rk4'"},
-          {"[stress.sweep.a]\npoints = 3", "belongs to sampling"},
-          {"[stress.sweep.a]\nload = [inf]", "finite"}})
-        BOOST_CHECK_EXCEPTION(read_block(text), InputError, [&](const InputError& error) {
-            return std::string(error.what()).find(what) != std::string::npos;
-        });
+    const std::vector<std::pair<std::string, std::string>> mistakes{
+        {"[stress]", "asks for nothing"},
+        {"[stress.sweep.a]\nalpha = [-1.0]", "its values must be >= 0"},
+        {"[stress.sweep.a]\ntime = [\"rk4\"]", "holds 'rk4'"},
+        {"[stress.sweep.a]\npoints = 3", "belongs to sampling"},
+        {"[stress.sweep.a]\nload = [inf]", "finite"}};
+    for (const auto& mistake : mistakes) {
+        const auto says_so = [&](const InputError& error) {
+            return std::string(error.what()).find(mistake.second) != std::string::npos;
+        };
+        BOOST_CHECK_EXCEPTION(read_block(mistake.first), InputError, says_so);
+    }
 }
 
 BOOST_AUTO_TEST_CASE(both_descriptions_of_the_loads_agree) {
@@ -124,6 +129,30 @@ BOOST_AUTO_TEST_CASE(outcomes_have_their_reasons) {
     tiny.dt = 1e-4;
     BOOST_TEST(name_of(judge(tiny).outcome) == "stopped");
     BOOST_TEST(judge(tiny).reason.find("underflow") != std::string::npos);
+}
+
+BOOST_AUTO_TEST_CASE(hermite_form_warns_where_round_off_may_exceed_its_error) {
+    // The paper's row with s = 160 keeps several figures, by s = 320 round-off swamps them; so do a
+    // few steps of it, because viscosity remembers ζ/Δt of them.
+    const auto remarks = [](const std::string& algorithm, const std::string& elements,
+                            const std::string& dt) {
+        const Scene scene =
+            read_scene("table1-fixed-point",
+                       {"ladder.final_time=0.01", "ladder.elements=[" + elements + "]",
+                        "ladder.dt=[" + dt + "]", "ladder.printed={}",
+                        "ladder.norms=['u_LinfH2semi']", "scheme={algorithm='" + algorithm + "'}"});
+        return run_ladder(scene, *scene.ladder, problem_of(scene, 0.01), nullptr)
+            .norms.at(0)
+            .remarks;
+    };
+    const auto warns = [](const std::vector<std::string>& remarks) {
+        return std::any_of(remarks.begin(), remarks.end(), [](const std::string& remark) {
+            return remark.find("h^-4") != std::string::npos;
+        });
+    };
+    BOOST_TEST(!warns(remarks("fixed-point", "10", "1e-3")));
+    BOOST_TEST(warns(remarks("fixed-point", "640", "1e-4")));
+    BOOST_TEST(!warns(remarks("direct", "640", "1e-4")));
 }
 
 BOOST_AUTO_TEST_CASE(error_of_the_mode_is_the_predicted_one) {
