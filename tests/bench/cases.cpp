@@ -15,6 +15,7 @@ namespace {
 Case runs(std::string name, const Setting& setting, const std::vector<March>& marches) {
     const auto body = [setting, marches](benchmark::State& state) {
         std::vector<RunRequest> requests;
+        requests.reserve(marches.size());
         for (const auto& march : marches)
             requests.push_back(request(setting, march));
         std::int64_t doubles = 0;

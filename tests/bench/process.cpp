@@ -16,6 +16,7 @@ double seconds(const timeval& time) {
 
 std::optional<pid_t> spawn(std::vector<std::string> command) {
     std::vector<char*> arguments;
+    arguments.reserve(command.size() + 1);
     for (auto& argument : command)
         arguments.push_back(argument.data());
     arguments.push_back(nullptr);
