@@ -37,7 +37,7 @@ private:
 
 SpaceFunction compiled_profile(const ex& formula) {
     return [tape = compile_tape({formula})](const Eigen::ArrayXd& x) -> Eigen::ArrayXd {
-        return tape.evaluate(x, Eigen::ArrayXd::Zero(1)).row(0).transpose();
+        return tape.evaluate(x, Eigen::ArrayXd::Zero(1)).reshaped();
     };
 }
 
@@ -50,7 +50,7 @@ SpaceTimeFunction compiled_rest(const std::vector<ex>& formulas,
     return [tapes = std::move(tapes), times = PhaseTimes(phases)](const Eigen::ArrayXd& x,
                                                                   double t) -> Eigen::ArrayXd {
         const Tape& tape = tapes[times.phase_at(t)];
-        return tape.evaluate(x, Eigen::ArrayXd::Constant(1, t)).row(0).transpose();
+        return tape.evaluate(x, Eigen::ArrayXd::Constant(1, t)).reshaped();
     };
 }
 

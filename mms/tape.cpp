@@ -120,9 +120,12 @@ Eigen::ArrayXXd Tape::evaluate(const Eigen::ArrayXd& x, const Eigen::ArrayXd& t)
             registers.col(1).head(size) = t.segment(begin, size);
         for (std::size_t i = one_time ? time_only_count_ : 0; i < instructions_.size(); ++i)
             run(instructions_[i], registers, size);
-        for (Eigen::Index k = 0; k < output_count(); ++k)
-            values.row(k).segment(begin, size) =
-                registers.col(outputs_[static_cast<std::size_t>(k)]).head(size).transpose();
+        if (output_count() == 1)
+            std::copy_n(registers.col(outputs_.front()).data(), size, values.data() + begin);
+        else
+            for (Eigen::Index k = 0; k < output_count(); ++k)
+                values.row(k).segment(begin, size) =
+                    registers.col(outputs_[static_cast<std::size_t>(k)]).head(size).transpose();
     }
     return values;
 }
