@@ -12,13 +12,16 @@ namespace {
 /// The two moments ∫ g (1 − ξ) dx, ∫ g ξ dx of every element; shape: 2 × s.
 Eigen::Array2Xd end_moments(const Mesh& mesh, const SpaceFunction& g) {
     const GaussRule& rule = element_rule();
-    Eigen::Matrix2Xd test(2, rule.points.size());
+    Eigen::Matrix<double, 2, element_rule_size> test;
     test.row(0) = (rule.weights * (1.0 - rule.points)).matrix().transpose();
     test.row(1) = (rule.weights * rule.points).matrix().transpose();
     Eigen::Array2Xd moments(2, mesh.elements());
     for_each_block(mesh, [&](Eigen::Index first, Eigen::Index count) {
-        const Eigen::ArrayXXd values = at_points(g, element_points(mesh, first, count));
-        moments.middleCols(first, count) = (test * values.matrix()).array().rowwise() *
+        const Eigen::ArrayXd values = g(element_points(mesh, first, count).reshaped());
+        const Eigen::Map<const Eigen::Matrix<double, element_rule_size, Eigen::Dynamic>> columns(
+            values.data(), element_rule_size, count);
+        // A general product would be dearer than the values themselves.
+        moments.middleCols(first, count) = test.lazyProduct(columns).array().rowwise() *
                                            mesh.lengths.segment(first, count).transpose();
     });
     return moments;

@@ -33,16 +33,16 @@ GaussRule GaussRule::repeated(Eigen::Index parts) const {
 }
 
 const GaussRule& element_rule() {
-    static const GaussRule rule = GaussRule::of(6);
+    static const GaussRule rule = GaussRule::of(element_rule_size);
     return rule;
 }
 
 Eigen::ArrayXXd element_points(const Mesh& mesh, Eigen::Index first, Eigen::Index count) {
     const GaussRule& rule = element_rule();
-    return (rule.points.matrix() * mesh.lengths.segment(first, count).matrix().transpose())
-               .array()
-               .rowwise() +
-           mesh.nodes.segment(first, count).transpose();
+    Eigen::ArrayXXd points(rule.points.size(), count);
+    for (Eigen::Index j = 0; j < count; ++j)
+        points.col(j) = mesh.nodes(first + j) + mesh.lengths(first + j) * rule.points;
+    return points;
 }
 
 Eigen::ArrayXXd at_points(const SpaceFunction& phi, const Eigen::ArrayXXd& points) {

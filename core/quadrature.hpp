@@ -21,6 +21,7 @@ struct GaussRule {
 /// The rule of every load and every error norm: degree 11 on each element, so that on ten elements
 /// the quadrature error of sin πx lies below round-off.
 const GaussRule& element_rule();
+inline constexpr int element_rule_size = 6;
 
 /// The quadrature points of elements first … first + count − 1; shape: one column an element.
 Eigen::ArrayXXd element_points(const Mesh& mesh, Eigen::Index first, Eigen::Index count);

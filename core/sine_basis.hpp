@@ -2,6 +2,8 @@
 
 #include <Eigen/Core>
 
+#include <memory>
+
 namespace tvbeam {
 
 /// The basis of S_0^h on a uniform mesh in which M, K and M_c are all diagonal:
@@ -33,10 +35,11 @@ public:
     [[nodiscard]] Eigen::ArrayXd right_hat() const; ///< (x, φ̂_k)
 
 private:
-    /// Σ_i sin(kπx_i) v_i over the inner nodes.
-    [[nodiscard]] Eigen::ArrayXd sine_sums(const Eigen::VectorXd& v) const;
+    class Transform;
 
     Eigen::Index elements_;
+    std::shared_ptr<const Transform> transform_;
+    Eigen::ArrayXd sines_; // sin(kπ/2s)
     Eigen::ArrayXd mass_;  // m_k: M_c's eigenvalue on the vector sin(kπx_i)
     Eigen::ArrayXd scale_; // ν_k
     Eigen::ArrayXd stiffness_;

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <set>
 #include <utility>
 
 namespace tvbeam {
@@ -121,13 +120,15 @@ void SineForm::start(const Mesh& mesh) {
             by_profile(data_.heat_source, amplitudes, rows) * profiles_.expansion.transpose();
 
     const QuantitySet& needed = errors_.sums().needed();
-    std::set<Eigen::Index> read;
+    std::vector<bool> read(static_cast<std::size_t>(amplitudes), false);
     for (const Field* field : used_fields(data_, needed, heat_, bending_))
         for (const auto& term : field->terms)
-            read.insert(term.amplitude);
+            read[static_cast<std::size_t>(term.amplitude)] = true;
     if (wants(needed, Quantity::stress) && data_.exact->stress)
-        read.insert(*data_.exact->stress);
-    amplitudes_.assign(read.begin(), read.end());
+        read[static_cast<std::size_t>(*data_.exact->stress)] = true;
+    for (Eigen::Index k = 0; k < amplitudes; ++k)
+        if (read[static_cast<std::size_t>(k)])
+            amplitudes_.push_back(k);
     const Eigen::Index increments = scheme_.time.increments();
     weights_ = Eigen::MatrixXd::Zero(rows, 1 + increments);
     if (bending_ && !data_.curvature_initial.terms.empty())
@@ -153,7 +154,7 @@ void SineForm::start(const Mesh& mesh) {
     const std::size_t most_stages =
         std::max(scheme_.time.stages.size(), scheme_.time.at_step(1).stages.size());
     const Eigen::Index solves = static_cast<Eigen::Index>(most_stages) * most_steps_;
-    block_.amplitudes.resize(solves, amplitudes);
+    block_.amplitudes = TimeSeries::Zero(solves, amplitudes);
     block_.weights = TimeSeries::Zero(solves, rows);
     block_.changes = block_.weights;
     block_.loads.resize(solves, profiles_.columns());
@@ -171,7 +172,7 @@ void SineForm::start(const Mesh& mesh) {
     const std::size_t packs =
         block_.tip.size() + block_.temperature_square.size() + block_.curvature_square.size();
     counters_.doubles_allocated =
-        profiles_.table.size() + operators_.size() + 2 * state_.size() + 3 * basis_.size() +
+        profiles_.table.size() + operators_.size() + 2 * state_.size() + 8 * basis_.size() +
         mesh.nodes.size() + mesh.lengths.size() + block_.amplitudes.size() + block_.weights.size() +
         block_.changes.size() + block_.loads.size() + errors_.temperature_weights().size() +
         errors_.curvature_weights().size() + static_cast<std::int64_t>(packs) * Pack::size;
@@ -213,7 +214,7 @@ bool SineForm::march() {
         }
         const bool starting = n <= scheme_.time.history;
         const std::int64_t steps = starting ? 1 : std::min(block_steps, levels_.available(n));
-        block_.amplitudes.topRows(steps * stages()) = levels_.at(n, steps).amplitudes.transpose();
+        read_amplitudes(n, steps);
         if (!march_block(steps))
             return false;
         if (starting)

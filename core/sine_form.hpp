@@ -112,9 +112,9 @@ private:
     Eigen::MatrixXd next_weights_;
     std::vector<Eigen::Index> moving_; // weights that are not zero for ever
     Block block_;
-    Pack sum_{};
     bool in_contact_ = false;
     Counters counters_;
+    Pack sum_{};
 };
 
 } // namespace tvbeam

@@ -2,6 +2,7 @@
 
 #include "core/linear_elements.hpp"
 #include "core/profile.hpp"
+#include "core/quadrature.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -31,11 +32,28 @@ struct Column {
     [[nodiscard]] bool is_linear() const { return profile < 0; }
 };
 
-/// φ without the linear function of these end values.
+/// φ, which must outlive the result, without the linear function of these end values.
 SpaceFunction without_ends(const SpaceFunction& phi, double left, double right) {
-    return [phi, left, right](const Eigen::ArrayXd& x) -> Eigen::ArrayXd {
+    return [&phi, left, right](const Eigen::ArrayXd& x) -> Eigen::ArrayXd {
         return phi(x) - (left * (1.0 - x) + right * x);
     };
+}
+
+/// Whether φ is linear, from its values at the nodes and one more in every element. The place of
+/// that one, a Gauss point, is irrational: a wave that the nodes alias to zero does not vanish
+/// there.
+bool is_linear(const Mesh& mesh, const SpaceFunction& phi, const Eigen::ArrayXd& at_nodes,
+               double bound) {
+    const Eigen::Index s = mesh.elements();
+    const double left = at_nodes(0);
+    const double right = at_nodes(s);
+    const auto vanishes = [&](const Eigen::ArrayXd& x, const Eigen::ArrayXd& values) {
+        return ((values - (left * (1.0 - x) + right * x)).abs() <= bound).all();
+    };
+    if (!vanishes(mesh.nodes, at_nodes))
+        return false;
+    const Eigen::ArrayXd within = mesh.nodes.head(s) + element_rule().points(1) * mesh.lengths;
+    return vanishes(within, phi(within));
 }
 
 /// Cuts off the coefficients behind the last that is more than round-off.
@@ -117,7 +135,6 @@ SineProfiles::SineProfiles(const Mesh& mesh, const SineBasis& basis,
                            const std::vector<SpaceFunction>& profiles,
                            const std::vector<bool>& used, bool with_modes, bool with_norms) {
     const auto lever = static_cast<Eigen::Index>(profiles.size());
-    const Eigen::ArrayXd ends = Eigen::ArrayXd::LinSpaced(2, 0.0, 1.0);
     Eigen::MatrixXd at_ends = Eigen::MatrixXd::Zero(2, lever + 1);
     at_ends(0, lever) = 1.0;
 
@@ -127,11 +144,14 @@ SineProfiles::SineProfiles(const Mesh& mesh, const SineBasis& basis,
         if (!used[static_cast<std::size_t>(r)])
             continue;
         const SpaceFunction& phi = profiles[static_cast<std::size_t>(r)];
-        const double scale = phi(mesh.nodes).abs().maxCoeff();
-        const Eigen::ArrayXd values = phi(ends);
+        const Eigen::ArrayXd values = phi(mesh.nodes);
+        const double scale = values.abs().maxCoeff();
         for (Eigen::Index end = 0; end < 2; ++end)
-            if (!(std::abs(values(end)) <= round_off * scale))
-                at_ends(end, r) = values(end);
+            if (const double value = values(end * mesh.elements());
+                !(std::abs(value) <= round_off * scale))
+                at_ends(end, r) = value;
+        if (is_linear(mesh, phi, values, round_off * scale))
+            continue;
         SpaceFunction function = without_ends(phi, at_ends(0, r), at_ends(1, r));
         Column column;
         column.profile = r;

@@ -13,6 +13,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 using namespace tvbeam;
 namespace data = boost::unit_test::data;
@@ -132,6 +133,24 @@ BOOST_DATA_TEST_CASE(errors_are_those_of_the_nodal_form,
         BOOST_TEST(std::abs(form.errors()[k] - nodal.errors[k]) <= 1e-12 + 1e-10 * nodal.errors[k],
                    norms[k].name << " " << form.errors()[k] << " " << nodal.errors[k]);
     BOOST_TEST(form.counters().contact_steps == nodal.counters.contact_steps);
+}
+
+BOOST_DATA_TEST_CASE(a_wave_that_vanishes_at_the_nodes_is_not_taken_for_linear,
+                     data::make({1, 2, 3, 16}), elements) {
+    // 1 − cos(2sπx) heats every element alike and is zero at all nodes; so is the exact solution.
+    const double waves = 2.0 * std::numbers::pi * elements;
+    ProblemData problem = forced_problem(
+        {{[](double t) { return 1.0 + t; },
+          [waves](const Eigen::ArrayXd& x) -> Eigen::ArrayXd { return 1.0 - (waves * x).cos(); }}});
+    problem.exact = ExactSolution{.theta = problem.heat_source};
+    const auto norms = norms_of({"theta_L2L2", "u_LinfH2semi"});
+    const Beam beam{.alpha = 0.4, .zeta = 0.1};
+    Scheme scheme;
+    const RunResult sine = run({beam, Mesh::uniform(elements), scheme, 2.0, 50, norms}, problem);
+    scheme.basis = Basis::nodal;
+    const RunResult nodal = run({beam, Mesh::uniform(elements), scheme, 2.0, 50, norms}, problem);
+    for (std::size_t k = 0; k < norms.size(); ++k)
+        BOOST_TEST(sine.errors[k] == nodal.errors[k], boost::test_tools::tolerance(1e-11));
 }
 
 BOOST_DATA_TEST_CASE(contact_is_that_of_the_nodal_form_through_onsets_and_releases,
