@@ -83,4 +83,33 @@ BOOST_DATA_TEST_CASE(complementarity_holds_in_every_step,
     BOOST_TEST(released > 2);
 }
 
+/// A penalised stop in the static law: the load −A of an elastic beam without coupling bends w =
+/// (A + λ)(1 − x), so u(1) = (A + λ)/3, and λ = −(u(1) − g2)/ε makes
+/// u(1) − g2 = (A/3 − g2)/(1 + 1/(3ε)). One Euler step of such a beam is the static solution.
+BOOST_DATA_TEST_CASE(a_penalised_stop_yields_by_the_closed_static_law,
+                     boost::unit_test::data::make(schemes_of("euler")) *
+                         boost::unit_test::data::make({1, 7}),
+                     scheme, elements) {
+    const double load = 3.0;
+    const double stop = 0.1;
+    const ProblemData data = forced_problem({{[load](double) { return -load; }, {}}});
+    double before = 0.0;
+    for (int decade = 1; decade <= 12; ++decade) {
+        const double epsilon = std::pow(10.0, -decade);
+        const Beam beam{.stops = {-0.02, stop, epsilon}};
+        const auto solver = make_solver(beam, data, Mesh::uniform(elements), scheme, 0.1, Needs{});
+        const double beyond = (load / 3.0 - stop) / (1.0 + 1.0 / (3.0 * epsilon));
+        march(*solver, data, scheme.time, 0.1, 1, [&](double) {
+            BOOST_TEST(std::abs(solver->tip_displacement() - stop - beyond) <= 1e-12);
+            BOOST_TEST(solver->contact_stress() == -beyond / epsilon,
+                       boost::test_tools::tolerance(1e-10));
+        });
+        // Towards the rigid stop the slope in ε is 1; at ε = 0.1 the beam yields as much as the
+        // stop.
+        if (decade > 3)
+            BOOST_TEST(std::abs(std::log10(before / beyond) - 1.0) <= 0.02);
+        before = beyond;
+    }
+}
+
 BOOST_AUTO_TEST_SUITE_END()

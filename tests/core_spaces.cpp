@@ -12,6 +12,9 @@
 #include <cmath>
 #include <limits>
 
+#include <stdexcept>
+#include <vector>
+
 using namespace tvbeam;
 using Eigen::ArrayXd;
 
@@ -155,6 +158,22 @@ BOOST_AUTO_TEST_CASE(curvature_of_nodal_values_inverts_deflection) {
     const Mesh mesh = uneven_mesh(9);
     const DiscontinuousLinear w = DiscontinuousLinear::Random(2, 9);
     BOOST_TEST((curvature(mesh, deflection(mesh, w)) - w).abs().maxCoeff() <= 1e-12);
+}
+
+BOOST_AUTO_TEST_CASE(a_family_of_meshes_is_graded_or_keeps_its_nodes) {
+    const Mesh graded = MeshFamily{.grading = 2.0, .nodes = {}}.with(4);
+    const Mesh kept = MeshFamily{.grading = 1.0, .nodes = {0.0, 0.3, 1.0}}.with(4);
+    const std::vector<double> squares{0.0, 0.0625, 0.25, 0.5625, 1.0};
+    const std::vector<double> halves{0.0, 0.15, 0.3, 0.65, 1.0};
+    for (Eigen::Index j = 0; j <= 4; ++j) {
+        BOOST_TEST(graded.nodes(j) == squares[static_cast<std::size_t>(j)]);
+        BOOST_TEST(kept.nodes(j) == halves[static_cast<std::size_t>(j)],
+                   boost::test_tools::tolerance(1e-15));
+    }
+    for (const Mesh& mesh : {graded, kept})
+        BOOST_TEST(mesh.lengths.sum() == 1.0, boost::test_tools::tolerance(1e-15));
+    BOOST_CHECK_THROW((void)(MeshFamily{.grading = 1.0, .nodes = {0.0, 0.3, 1.0}}.with(5)),
+                      std::invalid_argument);
 }
 
 BOOST_AUTO_TEST_SUITE_END()
