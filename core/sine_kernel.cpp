@@ -216,12 +216,9 @@ template <Index increments, bool coupled>
         march_group<increments, coupled>(block, group);
 }
 
-} // namespace
-
-namespace {
-
 /// While it lives, what is smaller than any normal number counts as zero: a mode that has decayed
 /// so far would cost a hundred times what another does.
+#ifdef __x86_64__
 class FlushToZero {
 public:
     FlushToZero() : before_(__builtin_ia32_stmxcsr()) {
@@ -238,9 +235,15 @@ private:
     static constexpr unsigned flush_operands = 1U << 6U;
     unsigned before_;
 };
+#define TVBEAM_EVERY_PROCESSOR [[gnu::target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")]]
+#else
+struct FlushToZero {
+    FlushToZero() {} // such modes cost time elsewhere, and are right
+};
+#define TVBEAM_EVERY_PROCESSOR
+#endif
 
-[[gnu::target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")]] void
-march_on_this_processor(const SineBlock& block) {
+TVBEAM_EVERY_PROCESSOR void march_on_this_processor(const SineBlock& block) {
     switch (2 * block.increments + (block.coupled ? 1 : 0)) {
     case 0:
         return march_all<0, false>(block);

@@ -31,7 +31,11 @@ std::string problem_line(const Scene& scene) {
         line += ", stops " + stop_text(scene.beam.stops.lower) + " and " +
                 stop_text(scene.beam.stops.upper);
     if (scene.beam.stops.epsilon != 0.0)
-        line += ", penalised with epsilon = " + shortest(scene.beam.stops.epsilon);
+        line += ", penalised with epsilon = " + shortest(scene.beam.stops.epsilon) +
+                (scene.has_exact_solution()
+                     ? " (a solution that presses on a stop is one of rigid stops: its errors "
+                       "then hold what the stop yields)"
+                     : "");
     if (!scene.mesh.nodes.empty())
         line += "; nodes of every mesh: " + std::to_string(scene.mesh.nodes.size());
     else if (!scene.mesh.is_uniform())

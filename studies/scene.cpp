@@ -100,6 +100,9 @@ Solution read_scene_solution(TableReader& root, const std::filesystem::path& bes
         find_file(Shipped::solution, *root.text("solution"), beside, root.place("solution")));
 }
 
+/// The shortest element against the longest, below which a mesh is refused: half the digits.
+constexpr double least_ratio = 1e-8;
+
 /// Meshes that the studies of the scene cannot have.
 void check_meshes(const Scene& scene, const TableReader& root) {
     if (scene.reference && !scene.mesh.is_uniform())
@@ -108,12 +111,23 @@ void check_meshes(const Scene& scene, const TableReader& root) {
                          "the reference; remove the block [mesh]");
     const auto intervals = static_cast<std::int64_t>(scene.mesh.nodes.size()) - 1;
     const auto check = [&](const std::vector<Rung>& rungs) {
-        for (const Rung& rung : rungs)
+        for (const Rung& rung : rungs) {
             if (intervals > 0 && rung.elements % intervals != 0)
                 throw InputError(root.place("mesh"),
                                  "mesh.nodes has " + std::to_string(intervals) +
                                      " intervals, and a run has " + std::to_string(rung.elements) +
                                      " elements; every interval must get the same number");
+            if (scene.mesh.is_uniform())
+                continue;
+            const auto lengths = scene.mesh.with(rung.elements).lengths;
+            if (!(lengths.minCoeff() >= least_ratio * lengths.maxCoeff()))
+                throw InputError(root.place("mesh"),
+                                 "with " + std::to_string(rung.elements) +
+                                     " elements the shortest is " +
+                                     message_text(lengths.minCoeff()) + " and the longest " +
+                                     message_text(lengths.maxCoeff()) +
+                                     "; they must be within a factor of 1e8: grade less");
+        }
     };
     if (scene.ladder)
         check(scene.ladder->rungs);

@@ -132,8 +132,8 @@ BOOST_AUTO_TEST_CASE(outcomes_have_their_reasons) {
 }
 
 BOOST_AUTO_TEST_CASE(hermite_form_warns_where_round_off_may_exceed_its_error) {
-    // The paper's row with s = 160 keeps several figures, by s = 320 round-off swamps them; so do a
-    // few steps of it, because viscosity remembers ζ/Δt of them.
+    // In the paper's row with s = 160 round-off moves the second figure, by s = 320 it swamps the
+    // error; a few steps of it suffice, because viscosity remembers ζ/Δt of them.
     const auto remarks = [](const std::string& algorithm, const std::string& elements,
                             const std::string& dt) {
         const Scene scene =
