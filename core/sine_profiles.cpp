@@ -124,7 +124,9 @@ ModeArrays::ModeArrays(Eigen::Index modes, Eigen::Index arrays) {
 }
 
 ModeArrays::Array ModeArrays::operator[](Eigen::Index array) {
-    return {packs_.data()->lanes + array * stride_ * Pack::size, stride_ * Pack::size};
+    if (packs_.empty()) // a single element has no modes
+        return {nullptr, 0};
+    return {packs_.front().lanes + array * stride_ * Pack::size, stride_ * Pack::size};
 }
 
 std::int64_t ModeArrays::size() const {
