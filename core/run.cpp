@@ -54,12 +54,14 @@ std::unique_ptr<Solver> make_solver(const Beam& beam, const ProblemData& data, c
     return std::make_unique<MomentForm>(beam, data, mesh, scheme, dt, needs);
 }
 
-RunResult run(const RunRequest& request, const ProblemData& data) {
+RunResult run(const RunRequest& request, const ProblemData& data, const Observer* observer) {
     RunResult result;
     const double dt = request.final_time / static_cast<double>(request.steps);
     try {
-        const Needs needs = ErrorNorms::needs(data, request.norms);
-        if (SineForm::suits(data, request.mesh, request.scheme, request.norms)) {
+        Needs needs = ErrorNorms::needs(data, request.norms);
+        if (observer != nullptr)
+            needs = request.norms.empty() ? observer->needs : needs.with(observer->needs);
+        else if (SineForm::suits(data, request.mesh, request.scheme, request.norms)) {
             SineForm form(request.beam, data, request.mesh, request.scheme, request.final_time,
                           request.steps, request.norms, needs);
             if (form.march()) {
@@ -79,6 +81,8 @@ RunResult run(const RunRequest& request, const ProblemData& data) {
             norms.emplace(request.beam, data, request.mesh, request.norms,
                           dynamic_cast<const MomentForm*>(solver.get()));
 
+        if (observer != nullptr)
+            observer->visit(0.0, *solver);
         TimeLevels levels(data, request.scheme.time, request.final_time, request.steps);
         for (std::int64_t n = 1; n <= request.steps; ++n) {
             const StepSources sources = levels.at(n);
@@ -91,6 +95,8 @@ RunResult run(const RunRequest& request, const ProblemData& data) {
             if (norms)
                 norms->add(levels.time(n), dt, *solver,
                            sources.amplitudes.col(sources.amplitudes.cols() - 1));
+            if (observer != nullptr)
+                observer->visit(levels.time(n), *solver);
         }
         result.counters = solver->counters();
         if (norms) {

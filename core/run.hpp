@@ -7,6 +7,7 @@
 #include "core/solver.hpp"
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -41,7 +42,15 @@ struct RunResult {
 std::unique_ptr<Solver> make_solver(const Beam& beam, const ProblemData& data, const Mesh& mesh,
                                     const Scheme& scheme, double dt, const Needs& needs);
 
-/// Runs to the end or to the first step that fails. Does not throw for a failing run.
-RunResult run(const RunRequest& request, const ProblemData& data);
+/// Somebody who looks at every state of a run.
+struct Observer {
+    Needs needs;                                               ///< what is looked at
+    std::function<void(double t, const Solver& solver)> visit; ///< at t = 0, and after each step
+};
+
+/// Runs to the end or to the first step that fails. Does not throw for a failing run. An observed
+/// run marches in nodal values.
+RunResult run(const RunRequest& request, const ProblemData& data,
+              const Observer* observer = nullptr);
 
 } // namespace tvbeam

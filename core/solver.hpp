@@ -36,6 +36,12 @@ struct Needs {
     bool temperature = true;
     bool deflection = true;
     bool curvature = false; ///< Solver::curvature() is called in every step
+
+    /// What two readers need together.
+    [[nodiscard]] Needs with(const Needs& other) const {
+        return {temperature || other.temperature, deflection || other.deflection,
+                curvature || other.curvature};
+    }
 };
 
 /// One solve of a step, as it was asked for: y_t ≈ c (y − y*) at time t.

@@ -1,5 +1,6 @@
 #include "reports/csv_report.hpp"
 
+#include "reports/evolution_text.hpp"
 #include "reports/stress_text.hpp"
 
 #include <fmt/format.h>
@@ -114,6 +115,8 @@ std::string csv_report(const StudyResult& result) {
         return grid_csv(*result.orders, result.scene.orders->norms);
     if (result.work_precision)
         return timed_csv(*result.work_precision, *result.scene.work_precision);
+    if (result.evolution)
+        return evolution_csv(*result.evolution);
     return stress_csv(*result.stress);
 }
 

@@ -1,5 +1,6 @@
 #include "reports/json_report.hpp"
 
+#include "reports/evolution_json.hpp"
 #include "reports/stress_json.hpp"
 
 #include <nlohmann/json.hpp>
@@ -233,6 +234,11 @@ std::string json_report(const StudyResult& result) {
         json["ladder"] = json_of(*result.ladder, *result.scene.ladder);
     if (result.work_precision)
         json["work_precision"] = json_of(*result.work_precision, *result.scene.work_precision);
+    if (result.evolution) {
+        json["evolution"] = json_of(result.evolution->run);
+        json["evolution"].update(evolution_json(*result.evolution));
+        json["evolution"]["counters"] = json_of(result.evolution->run.counters);
+    }
     if (result.stress)
         json["stress"] = stress_json(*result.stress);
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";

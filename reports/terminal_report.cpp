@@ -1,5 +1,6 @@
 #include "reports/terminal_report.hpp"
 
+#include "reports/evolution_text.hpp"
 #include "reports/number_text.hpp"
 #include "reports/orders_text.hpp"
 #include "reports/scheme_text.hpp"
@@ -147,9 +148,9 @@ std::string terminal_report(const StudyResult& result) {
     const Scene& scene = result.scene;
     std::string text = wrapped(scene.title);
     // A stress study has problems of its own.
-    if (!result.runs().empty())
+    if (scene.poses_problem())
         text += wrapped(problem_line(scene));
-    if (result.ladder || result.orders)
+    if (result.ladder || result.orders || result.evolution)
         text += wrapped(scheme_text(scene.scheme));
     if (result.reference)
         text += wrapped(reference_line(scene, *result.reference));
@@ -160,6 +161,8 @@ std::string terminal_report(const StudyResult& result) {
         text += "\n" + orders_text(*result.orders);
     if (result.work_precision)
         text += "\n" + work_precision_text(*result.work_precision, *scene.work_precision);
+    if (result.evolution)
+        text += "\n" + evolution_text(*result.evolution, scene);
     if (result.stress)
         text += "\n" + stress_text(*result.stress);
     if (!result.left_out.empty()) {

@@ -114,6 +114,8 @@ std::string first_failure(const StudyResult& result) {
         for (const auto& run : *study.runs)
             if (run.status != RunStatus::ok)
                 return run.reason;
+    if (result.evolution && result.evolution->run.status != RunStatus::ok)
+        return result.evolution->run.reason;
     if (result.stress)
         for (const auto& one : result.stress->cases)
             if (one.outcome == Outcome::failed)

@@ -1,5 +1,7 @@
 #include "studies/check.hpp"
 
+#include "mms/nearest_name.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <sstream>
@@ -72,8 +74,8 @@ public:
         case Figure::constant:
             add_constant(expectation);
             break;
-        case Figure::stress:
-            add_stress(expectation);
+        case Figure::named:
+            add_named(expectation);
             break;
         default:
             add_fit(expectation);
@@ -192,13 +194,17 @@ private:
                                 "no run of the grid has an error"));
     }
 
-    void add_stress(const Expectation& expectation) {
-        const auto figures = result_.stress->figures();
+    void add_named(const Expectation& expectation) {
+        const auto figures = expectation.study == "stress" ? result_.stress->figures()
+                                                           : result_.evolution->figures();
+        std::vector<std::string> names;
+        for (const auto& [name, figure] : figures)
+            names.push_back(name);
         const auto found = figures.find(expectation.norm);
         checked_.push_back(
-            held(expectation, "stress." + expectation.norm,
+            held(expectation, expectation.study + "." + expectation.norm,
                  found == figures.end() ? std::nullopt : std::optional(found->second),
-                 "the study has no figure of this name"));
+                 "the study has no figure of this name" + did_you_mean(expectation.norm, names)));
     }
 
     const StudyResult& result_;

@@ -109,7 +109,8 @@ void add_work_precision(std::vector<Expectation>& expectations, TableReader& exp
 
 std::vector<Expectation> read_expectations(TableReader table, const LadderBlock* ladder,
                                            const OrdersBlock* orders,
-                                           const WorkPrecisionBlock* timed, bool stress) {
+                                           const WorkPrecisionBlock* timed,
+                                           const std::vector<std::string>& figured) {
     // A study that the scene does not run measures no norm.
     const LadderBlock no_ladder;
     const OrdersBlock no_orders;
@@ -137,11 +138,12 @@ std::vector<Expectation> read_expectations(TableReader table, const LadderBlock*
                           add_band("constant", Figure::constant);
                   });
     add_work_precision(expectations, table, timed);
-    if (auto figures = stress ? table.table("stress") : std::nullopt) {
-        for (const auto& name : figures->keys())
-            add(expectations, *figures, name.c_str(), Figure::stress, "stress", name);
-        figures->finish();
-    }
+    for (const auto& study : figured)
+        if (auto figures = table.table(study)) {
+            for (const auto& name : figures->keys())
+                add(expectations, *figures, name.c_str(), Figure::named, study, name);
+            figures->finish();
+        }
     table.finish();
     return expectations;
 }

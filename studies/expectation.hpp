@@ -22,7 +22,7 @@ struct Expectation {
         b,
         rho,      ///< of the two-term fit
         constant, ///< the greatest constant of Corollary 2.2 over the grid
-        stress    ///< the figure of the stress study called `norm`
+        named     ///< the figure of the study that is called `norm`
     };
     Figure figure = Figure::order;
     std::string study; ///< whose runs they are: "ladder", "orders", or as in MeasuredRuns
@@ -46,12 +46,14 @@ class TableReader;
 ///                             predicted = [lo, hi]
 ///     [expect.orders.NORM]    p, q, a, b, rho = [lo, hi]; for corollary also constant = [lo, hi]
 ///     [expect.work_precision."SCHEME".NORM]    orders, errors, within as for a ladder
-///     [expect.stress]         any of StressResult::figures() = [lo, hi]
+///     [expect.evolution], [expect.stress]      any of the figures() of their record = [lo, hi]
 ///
-/// ladder, orders, timed: the scene's studies, or null. Throws InputError where a band has no width
-/// on a side, a norm is not measured, or a list does not have one value a rung.
+/// ladder, orders, timed: the scene's studies, or null; figured: those with figures(). Throws
+/// InputError where a band has no width on a side, a norm is not measured, or a list does not have
+/// one value a rung.
 std::vector<Expectation> read_expectations(TableReader table, const LadderBlock* ladder,
                                            const OrdersBlock* orders,
-                                           const WorkPrecisionBlock* timed, bool stress = false);
+                                           const WorkPrecisionBlock* timed,
+                                           const std::vector<std::string>& figured = {});
 
 } // namespace tvbeam

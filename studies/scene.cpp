@@ -2,6 +2,7 @@
 
 #include "core/error_norms.hpp"
 #include "mms/manufactured_problem.hpp"
+#include "studies/evolution.hpp"
 #include "studies/model_keys.hpp"
 #include "studies/scheme_keys.hpp"
 #include "studies/shipped.hpp"
@@ -136,6 +137,18 @@ void check_meshes(const Scene& scene, const TableReader& root) {
     if (scene.work_precision)
         for (const auto& scheme : scene.work_precision->schemes)
             check(scheme.rungs);
+    if (scene.evolution)
+        check({scene.evolution->rung});
+}
+
+/// The studies whose records have figures of their own for [expect].
+std::vector<std::string> figured_studies(const Scene& scene) {
+    std::vector<std::string> studies;
+    if (scene.evolution)
+        studies.emplace_back("evolution");
+    if (scene.stress)
+        studies.emplace_back("stress");
+    return studies;
 }
 
 std::string json_of(const toml::table& table) {
@@ -164,8 +177,8 @@ Scene read_scene(const std::string& name_or_file, const std::vector<std::string>
 
     if (auto stress = root.table("stress"))
         scene.stress = read_stress(*std::move(stress));
-    const bool stress_only =
-        scene.stress && !root.has("ladder") && !root.has("orders") && !root.has("work_precision");
+    const bool stress_only = scene.stress && !root.has("ladder") && !root.has("orders") &&
+                             !root.has("work_precision") && !root.has("evolution");
 
     auto beam = root.table("beam");
     if (!beam && !stress_only)
@@ -195,9 +208,15 @@ Scene read_scene(const std::string& name_or_file, const std::vector<std::string>
         scene.orders = read_orders(*std::move(orders));
     if (auto timed = root.table("work_precision"))
         scene.work_precision = read_work_precision(*std::move(timed), scene.scheme);
-    if (!scene.ladder && !scene.orders && !scene.work_precision && !scene.stress)
+    if (auto evolution = root.table("evolution"))
+        scene.evolution = read_evolution(*std::move(evolution));
+    if (!scene.poses_problem() && !scene.stress)
         throw InputError({scene.file}, "the scene has no study; add a block [ladder], [orders], "
-                                       "[work_precision] or [stress]");
+                                       "[work_precision], [evolution] or [stress]");
+    if (root.has("reference") && !scene.ladder && !scene.orders)
+        throw InputError(root.place("reference"),
+                         "the errors of a [ladder] or of [orders] are measured against a "
+                         "reference, and the scene has neither; add one, or remove the block");
     if (auto reference = root.table("reference"))
         scene.reference =
             read_reference(*std::move(reference), scene.ladder ? &*scene.ladder : nullptr,
@@ -206,8 +225,7 @@ Scene read_scene(const std::string& name_or_file, const std::vector<std::string>
         throw InputError(root.place("work_precision"),
                          "work_precision measures errors against an exact solution; give a "
                          "solution, and no [data] or [reference]");
-    if (!stress_only && !scene.has_exact_solution() && !scene.reference &&
-        (scene.orders || !scene.ladder->norms.empty()))
+    if (!scene.has_exact_solution() && !scene.reference && !scene.norms().empty())
         throw InputError(
             root.place(scene.orders ? "orders" : "ladder"),
             "the norms ask for errors, but the scene has no exact solution; remove them, or give "
@@ -217,7 +235,7 @@ Scene read_scene(const std::string& name_or_file, const std::vector<std::string>
         scene.expectations = read_expectations(
             *std::move(expect), scene.ladder ? &*scene.ladder : nullptr,
             scene.orders ? &*scene.orders : nullptr,
-            scene.work_precision ? &*scene.work_precision : nullptr, scene.stress.has_value());
+            scene.work_precision ? &*scene.work_precision : nullptr, figured_studies(scene));
     root.table("short"); // what it holds is read in the short form
     root.finish();
     return scene;
@@ -229,26 +247,38 @@ ProblemData problem_of(const Scene& scene, double final_time) {
     return given_problem(std::get<GivenData>(scene.problem), scene.beam, final_time);
 }
 
+std::vector<Norm> Scene::norms() const {
+    std::vector<Norm> all;
+    const auto add = [&](const std::vector<Norm>& norms) {
+        all.insert(all.end(), norms.begin(), norms.end());
+    };
+    if (ladder)
+        add(ladder->norms);
+    if (orders)
+        add(orders->norms);
+    if (work_precision)
+        add(work_precision->norms);
+    return all;
+}
+
 std::vector<std::string> left_out(const Scene& scene, const ProblemData& data) {
     std::vector<std::string> parts;
-    std::vector<Norm> norms;
-    if (scene.ladder)
-        norms = scene.ladder->norms;
-    if (scene.orders)
-        norms.insert(norms.end(), scene.orders->norms.begin(), scene.orders->norms.end());
-    if (scene.work_precision)
-        norms.insert(norms.end(), scene.work_precision->norms.begin(),
-                     scene.work_precision->norms.end());
-    const Needs needs = ErrorNorms::needs(data, norms);
+    const std::vector<Norm> norms = scene.norms();
+    Needs needs = ErrorNorms::needs(data, norms);
+    if (scene.evolution) {
+        const Needs probes = needs_of(*scene.evolution, scene.beam.stops);
+        // A ladder without norms runs the whole problem.
+        needs = norms.empty() && !scene.ladder ? probes : needs.with(probes);
+    }
     const bool coupled = scene.beam.alpha != 0.0;
     // What is timed is the whole problem.
     const bool direct = scene.scheme.algorithm == Algorithm::direct && !scene.work_precision;
     if (!coupled)
         parts.emplace_back("coupling: alpha = 0, heat and bending are two separate problems");
     if (direct && !coupled && !needs.temperature)
-        parts.emplace_back("temperature: no norm asks for it");
+        parts.emplace_back("temperature: no norm or probe asks for it");
     if (direct && !coupled && !needs.deflection)
-        parts.emplace_back("deflection: no norm asks for it");
+        parts.emplace_back("deflection: no norm or probe asks for it");
     if (!scene.beam.stops.exist())
         parts.emplace_back("contact: the scene has no stops");
     if (scene.beam.zeta == 0.0)

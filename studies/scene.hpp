@@ -6,6 +6,7 @@
 #include "core/scheme.hpp"
 #include "mms/given_problem.hpp"
 #include "mms/solution.hpp"
+#include "studies/evolution_block.hpp"
 #include "studies/expectation.hpp"
 #include "studies/reference_block.hpp"
 #include "studies/stress_block.hpp"
@@ -53,6 +54,7 @@ struct Scene {
     std::optional<LadderBlock> ladder;
     std::optional<OrdersBlock> orders;
     std::optional<WorkPrecisionBlock> work_precision;
+    std::optional<EvolutionBlock> evolution;
     std::optional<StressBlock> stress;       ///< brings its own beams, schemes and problems
     std::optional<ReferenceBlock> reference; ///< then errors are measured against it
     std::vector<Expectation> expectations;   ///< empty unless they were asked for
@@ -60,6 +62,13 @@ struct Scene {
 
     [[nodiscard]] bool has_exact_solution() const {
         return std::holds_alternative<Solution>(problem);
+    }
+    /// Of all studies that want errors; a study's own squares included.
+    [[nodiscard]] std::vector<Norm> norms() const;
+
+    /// Whether a study runs the scene's own problem; [stress] brings its own.
+    [[nodiscard]] bool poses_problem() const {
+        return ladder || orders || work_precision || evolution;
     }
 };
 

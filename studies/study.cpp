@@ -6,7 +6,7 @@ namespace tvbeam {
 
 bool StudyResult::failed() const {
     const auto all = runs();
-    return (stress && stress->failed()) ||
+    return (stress && stress->failed()) || (evolution && evolution->run.status != RunStatus::ok) ||
            std::any_of(all.begin(), all.end(),
                        [](const MeasuredRuns& study) { return any_failed(*study.runs); });
 }
@@ -31,18 +31,20 @@ StudyResult run_study(const Scene& scene, int jobs) {
                        .orders = {},
                        .ladder = {},
                        .work_precision = {},
+                       .evolution = {},
                        .stress = {}};
     if (scene.stress)
         result.stress = run_stress(*scene.stress);
-    if (!scene.ladder && !scene.orders && !scene.work_precision)
+    if (!scene.poses_problem())
         return result;
     // One problem serves all studies: it is admissible up to the longest of their times.
     const double final_time =
         std::max({scene.ladder ? scene.ladder->final_time : 0.0,
                   scene.orders ? scene.orders->final_time : 0.0,
-                  scene.work_precision ? scene.work_precision->final_time : 0.0});
+                  scene.work_precision ? scene.work_precision->final_time : 0.0,
+                  scene.evolution ? scene.evolution->final_time : 0.0});
     ProblemData data = problem_of(scene, final_time);
-    if (scene.reference && (scene.orders || !scene.ladder->norms.empty()))
+    if (scene.reference && !scene.norms().empty())
         result.reference = measure_against_reference(scene, final_time, data);
     result.left_out = left_out(scene, data);
     if (scene.orders)
@@ -50,6 +52,8 @@ StudyResult run_study(const Scene& scene, int jobs) {
     if (scene.ladder)
         result.ladder =
             run_ladder(scene, *scene.ladder, data, result.orders ? &*result.orders : nullptr, jobs);
+    if (scene.evolution)
+        result.evolution = run_evolution(scene, *scene.evolution, data);
     if (scene.work_precision)
         result.work_precision = run_work_precision(scene, *scene.work_precision, data);
     return result;

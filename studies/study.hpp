@@ -1,5 +1,6 @@
 #pragma once
 
+#include "studies/evolution.hpp"
 #include "studies/ladder.hpp"
 #include "studies/orders.hpp"
 #include "studies/reference_solution.hpp"
@@ -28,6 +29,7 @@ struct StudyResult {
     std::optional<OrdersResult> orders;
     std::optional<LadderResult> ladder;
     std::optional<WorkPrecisionResult> work_precision;
+    std::optional<EvolutionResult> evolution;
     std::optional<StressResult> stress;
 
     /// The runs of every study whose errors were measured.

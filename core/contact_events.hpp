@@ -1,0 +1,62 @@
+#pragma once
+
+#include "core/problem.hpp"
+
+#include <array>
+#include <vector>
+
+namespace tvbeam {
+
+/// The tip meets a stop, or leaves it.
+struct ContactEvent {
+    enum class Kind { onset, release };
+    enum class Stop { lower, upper }; ///< g1, g2
+    Kind kind = Kind::onset;
+    Stop stop = Stop::lower;
+    double t = 0.0; ///< within the step in which the regime changed, its end included
+};
+
+/// Finds the changes between free tip and contact along a run, and when they happened within their
+/// step:
+///
+/// - an onset, where the line through the tip at the two last free levels reaches the stop;
+/// - a release, where the line through the contact stress of the two last levels in contact reaches
+///   zero;
+///
+/// each kept within its step. Both are exact to the order two in Δt for a smooth motion that is
+/// itself exact. Where there are no two such levels the end of the step stands for the event; a tip
+/// that starts on a stop and is held there by the first step has its onset at t = 0.
+class ContactEvents {
+public:
+    /// At the state of t = 0.
+    ContactEvents(const Stops& stops, double tip);
+
+    /// The level after those before; stress: λ, which says on which stop the tip is (8).
+    void add(double t, double tip, double stress);
+
+    [[nodiscard]] const std::vector<ContactEvent>& events() const { return events_; }
+
+    /// By how far the tip has passed a rigid stop at most; 0 when it never has. Of penalised stops,
+    /// which yield, always 0. Unit: length.
+    [[nodiscard]] double beyond_stops() const { return beyond_; }
+
+private:
+    /// The two last levels of a regime, the later one first.
+    struct Levels {
+        int count = 0;
+        std::array<double, 2> t{};
+        std::array<double, 2> value{};
+        void push(double time, double reading);
+        /// Where their line takes the value, within (lowest, highest]; highest where there is none.
+        [[nodiscard]] double reaches(double target, double lowest, double highest) const;
+    };
+
+    Stops stops_;
+    Levels free_;         // tips of the free levels since the last contact
+    Levels pressed_;      // stresses since the last onset
+    double before_ = 0.0; // t of the level before
+    std::vector<ContactEvent> events_;
+    double beyond_ = 0.0;
+};
+
+} // namespace tvbeam

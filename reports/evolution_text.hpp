@@ -1,0 +1,22 @@
+#pragma once
+
+#include "studies/evolution.hpp"
+
+#include <string>
+
+namespace tvbeam {
+
+/// The evolution for a terminal: what each probe ranged over, the contact events, and what changed
+/// from period to period.
+std::string evolution_text(const EvolutionResult& result, const Scene& scene);
+
+/// Every sample as a line of CSV: t, the probes, and behind each that has one its exact value.
+std::string evolution_csv(const EvolutionResult& result);
+
+/// "onset", "release"
+std::string name_of(ContactEvent::Kind kind);
+
+/// "g1", "g2"
+std::string name_of(ContactEvent::Stop stop);
+
+} // namespace tvbeam
