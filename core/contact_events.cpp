@@ -5,6 +5,14 @@
 
 namespace tvbeam {
 
+namespace {
+
+/// Of the gap: a tip as near to a stop at t = 0 starts on it. The initial deflection is a sum with
+/// some round-off.
+constexpr double on_the_stop = 1e-12;
+
+} // namespace
+
 using Kind = ContactEvent::Kind;
 using Stop = ContactEvent::Stop;
 
@@ -15,8 +23,8 @@ void ContactEvents::Levels::push(double time, double reading) {
 }
 
 double ContactEvents::Levels::reaches(double target, double lowest, double highest) const {
-    if (count > 0 && value[0] == target)
-        return t[0];
+    if (count == 1 && t[0] == 0.0 && std::abs(value[0] - target) <= on_the_stop * std::abs(target))
+        return 0.0;
     if (count < 2)
         return highest;
     const double slope = (value[0] - value[1]) / (t[0] - t[1]);

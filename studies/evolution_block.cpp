@@ -85,8 +85,8 @@ std::int64_t read_every(TableReader& table, const EvolutionBlock& block) {
                                                    std::to_string(every) +
                                                    "; it must be >= 1 and divide the " +
                                                    std::to_string(block.rung.steps) + " steps");
-    const double values =
-        static_cast<double>(block.rung.steps / every) * static_cast<double>(block.probes.size());
+    const auto samples = static_cast<double>(block.rung.steps) / static_cast<double>(every);
+    const double values = samples * static_cast<double>(block.probes.size());
     if (values > most_values)
         throw InputError(table.place("every"),
                          "the samples would hold " + message_text(values) +
