@@ -1,7 +1,7 @@
 #include "reports/analysis_report.hpp"
 
 #include "reports/number_text.hpp"
-#include "reports/orders_text.hpp"
+#include "reports/orders_section.hpp"
 #include "reports/text_table.hpp"
 
 #include <fmt/format.h>
@@ -21,11 +21,11 @@ std::string error_text(double error) {
 }
 
 std::string ladder_text(const RecordAnalysis& analysis) {
-    TextTable::Column h{"h", {}};
-    TextTable::Column dt{"dt", {}};
-    TextTable::Column error{"error", {}};
-    TextTable::Column order{"order", {}};
-    TextTable::Column verdict{"verdict", {}};
+    Table::Column h{"h", {}};
+    Table::Column dt{"dt", {}};
+    Table::Column error{"error", {}};
+    Table::Column order{"order", {}};
+    Table::Column verdict{"verdict", {}};
     std::string reasons;
     for (std::size_t i = 0; i < analysis.records.size(); ++i) {
         const Refinement& record = analysis.records[i];
@@ -37,7 +37,7 @@ std::string ladder_text(const RecordAnalysis& analysis) {
         reasons += wrapped(fmt::format("row {}: {}", i + 1, analysis.verdict->rows[i].reason));
     }
     std::string text =
-        TextTable({"", {h, dt, error}}, {{"", {order, verdict}}}).text() + "\n" + reasons + "\n";
+        text_table({"", {"", {h, dt, error}}, {{"", {order, verdict}}}}) + "\n" + reasons + "\n";
     const auto& window = analysis.verdict->window;
     if (const auto& fit = analysis.power_law) {
         const std::string rows =
@@ -64,7 +64,7 @@ std::string grid_text(const RecordAnalysis& analysis) {
     std::string text =
         wrapped(fmt::format("a grid of {} runs: e^2 = a^2 h^2p + 2 rho a b h^p dt^q + b^2 dt^2q",
                             analysis.records.size())) +
-        "\n" + fit_table({{"error", &fit}}, analysis.records.size());
+        "\n" + text_table(fit_table({{"error", &fit}}, analysis.records.size()));
     std::string notes;
     for (const auto& rejected : fit.rejected) {
         const Refinement& record = analysis.records[rejected.record];
@@ -75,13 +75,13 @@ std::string grid_text(const RecordAnalysis& analysis) {
 }
 
 std::string value_text(const ValueAnalysis& analysis) {
-    TextTable::Column h{"width", {}};
-    TextTable::Column value{"value", {}};
+    Table::Column h{"width", {}};
+    Table::Column value{"value", {}};
     for (const auto& grid : analysis.grids) {
         h.cells.push_back(shortest(grid.h));
         value.cells.push_back(std::isfinite(grid.value) ? shortest(grid.value) : "failed");
     }
-    std::string text = TextTable({"", {h}}, {{"", {value}}}).text() + "\n";
+    std::string text = text_table({"", {"", {h}}, {{"", {value}}}}) + "\n";
     if (const auto& finest = analysis.finest; !finest)
         text += wrapped("no extrapolation: " + analysis.no_extrapolation);
     else if (finest->order > 0)

@@ -1,7 +1,7 @@
 #include "reports/csv_report.hpp"
 
-#include "reports/evolution_text.hpp"
-#include "reports/stress_text.hpp"
+#include "reports/evolution_section.hpp"
+#include "reports/stress_section.hpp"
 
 #include <fmt/format.h>
 

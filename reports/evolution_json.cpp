@@ -1,6 +1,6 @@
 #include "reports/evolution_json.hpp"
 
-#include "reports/evolution_text.hpp"
+#include "reports/evolution_section.hpp"
 
 #include <nlohmann/json.hpp>
 

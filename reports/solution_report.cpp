@@ -33,9 +33,9 @@ std::string beam_text(const SolutionSetting& setting) {
 }
 
 std::string coverage_text(const std::vector<TermUse>& terms) {
-    TextTable::Column equation{"", {}};
-    TextTable::Column term{"exercised", {}};
-    TextTable::Column size{"up to", {}};
+    Table::Column equation{"", {}};
+    Table::Column term{"exercised", {}};
+    Table::Column size{"up to", {}};
     std::string untested;
     for (const TermUse& use : terms) {
         if (use.is_exercised()) {
@@ -46,16 +46,16 @@ std::string coverage_text(const std::vector<TermUse>& terms) {
             untested += wrapped(fmt::format("- {} {}: {}", use.equation, use.term, use.why_not));
         }
     }
-    return TextTable({"", {equation, term, size}}, {}).text() +
+    return text_table({"", {"", {equation, term, size}}, {}}) +
            (untested.empty() ? "\nUntested: nothing.\n" : "\nUntested:\n" + untested);
 }
 
 std::string space_table(const SolutionSetting& setting) {
-    TextTable::Column s{"s", {}};
-    TextTable::Column heat{"heat", {}};
-    TextTable::Column heat_order{"ord.", {}};
-    TextTable::Column beam{"beam", {}};
-    TextTable::Column beam_order{"ord.", {}};
+    Table::Column s{"s", {}};
+    Table::Column heat{"heat", {}};
+    Table::Column heat_order{"ord.", {}};
+    Table::Column beam{"beam", {}};
+    Table::Column beam_order{"ord.", {}};
     for (const Residual& row : space_residuals(setting.solution, setting.beam, setting.final_time,
                                                ThermalMass::consistent, {8, 16, 32, 64})) {
         s.cells.push_back(std::to_string(row.count));
@@ -64,20 +64,20 @@ std::string space_table(const SolutionSetting& setting) {
         beam.cells.push_back(scientific(row.beam, 1));
         beam_order.cells.push_back(fixed(row.beam_order, 2));
     }
-    return TextTable({"", {s}}, {{"", {heat, heat_order, beam, beam_order}}}).text();
+    return text_table({"", {"", {s}}, {{"", {heat, heat_order, beam, beam_order}}}});
 }
 
 std::string time_table(const SolutionSetting& setting) {
     const std::vector<std::int64_t> steps = {64, 128, 256, 512};
-    TextTable::Column dt{"dt", {}};
+    Table::Column dt{"dt", {}};
     for (const std::int64_t count : steps)
         dt.cells.push_back(shortest(setting.final_time / static_cast<double>(count)));
-    std::vector<TextTable::Group> groups;
+    std::vector<Table::Group> groups;
     for (const auto& name : TimeScheme::names()) {
-        TextTable::Column heat{"heat", {}};
-        TextTable::Column heat_order{"ord.", {}};
-        TextTable::Column beam{"beam", {}};
-        TextTable::Column beam_order{"ord.", {}};
+        Table::Column heat{"heat", {}};
+        Table::Column heat_order{"ord.", {}};
+        Table::Column beam{"beam", {}};
+        Table::Column beam_order{"ord.", {}};
         for (const Residual& row :
              time_residuals(setting.solution, setting.beam, setting.final_time, name, steps)) {
             heat.cells.push_back(scientific(row.heat, 1));
@@ -87,24 +87,24 @@ std::string time_table(const SolutionSetting& setting) {
         }
         groups.push_back({name, {heat, heat_order, beam, beam_order}});
     }
-    return TextTable({"", {dt}}, groups).text();
+    return text_table({"", {"", {dt}}, groups});
 }
 
 std::string orders_table(const ExpectedOrders& expected) {
     const auto order = [&](double value) {
         return expected.is_linear_in_time ? std::string("-") : fmt::format("{:g}", value);
     };
-    TextTable::Column norm{"norm", {}};
-    TextTable::Column in_h{"in h", {}};
-    TextTable::Column euler{"in dt: euler", {}};
-    TextTable::Column second{"bdf2, sdirk2", {}};
+    Table::Column norm{"norm", {}};
+    Table::Column in_h{"in h", {}};
+    Table::Column euler{"in dt: euler", {}};
+    Table::Column second{"bdf2, sdirk2", {}};
     for (const ExpectedOrder& row : expected.orders) {
         norm.cells.push_back(row.norm);
         in_h.cells.push_back(row.in_h ? fmt::format("{:g}", *row.in_h) : "-");
         euler.cells.push_back(order(row.euler));
         second.cells.push_back(order(row.of_second_order));
     }
-    std::string text = TextTable({"", {norm}}, {{"", {in_h, euler, second}}}).text();
+    std::string text = text_table({"", {"", {norm}}, {{"", {in_h, euler, second}}}});
     if (!expected.reasons.empty())
         text += "\n";
     for (const auto& reason : expected.reasons)

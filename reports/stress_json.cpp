@@ -1,6 +1,6 @@
 #include "reports/stress_json.hpp"
 
-#include "reports/stress_text.hpp"
+#include "reports/stress_section.hpp"
 
 #include <nlohmann/json.hpp>
 

@@ -19,22 +19,21 @@ std::string padded(const std::string& text, std::size_t width) {
     return std::string(width > length ? width - length : 0, ' ') + text;
 }
 
-std::size_t width_of(const TextTable::Column& column) {
+std::size_t width_of(const Table::Column& column) {
     std::size_t width = shown(column.heading);
     for (const auto& cell : column.cells)
         width = std::max(width, shown(cell));
     return width;
 }
 
-std::size_t width_of(const TextTable::Group& group) {
+std::size_t width_of(const Table::Group& group) {
     std::size_t width = 0;
     for (const auto& column : group.columns)
         width += width_of(column) + 1;
     return std::max(width, shown(group.heading) + 1) - 1;
 }
 
-std::string line_of(const std::vector<const TextTable::Group*>& groups, std::size_t row,
-                    bool heading) {
+std::string line_of(const std::vector<const Table::Group*>& groups, std::size_t row, bool heading) {
     std::string line;
     for (const auto* group : groups) {
         std::string part;
@@ -49,21 +48,17 @@ std::string line_of(const std::vector<const TextTable::Group*>& groups, std::siz
 
 } // namespace
 
-TextTable::TextTable(Group key, std::vector<Group> groups)
-    : key_(std::move(key)), groups_(std::move(groups)) {}
-
-std::string TextTable::text(std::size_t width) const {
-    const std::size_t rows = key_.columns.empty() ? 0 : key_.columns.front().cells.size();
+std::string text_table(const Table& table, std::size_t width) {
     std::string result;
     std::size_t next = 0;
     do {
-        std::vector<const Group*> side_by_side{&key_};
-        std::size_t used = width_of(key_);
+        std::vector<const Table::Group*> side_by_side{&table.key};
+        std::size_t used = width_of(table.key);
         const std::size_t first = next;
-        while (next < groups_.size() &&
-               (next == first || used + 1 + width_of(groups_[next]) <= width)) {
-            used += 1 + width_of(groups_[next]);
-            side_by_side.push_back(&groups_[next++]);
+        while (next < table.groups.size() &&
+               (next == first || used + 1 + width_of(table.groups[next]) <= width)) {
+            used += 1 + width_of(table.groups[next]);
+            side_by_side.push_back(&table.groups[next++]);
         }
         if (!result.empty())
             result += "\n";
@@ -74,9 +69,9 @@ std::string TextTable::text(std::size_t width) const {
         if (!headings.empty())
             result += headings + "\n";
         result += line_of(side_by_side, 0, true);
-        for (std::size_t row = 0; row < rows; ++row)
+        for (std::size_t row = 0; row < table.rows(); ++row)
             result += line_of(side_by_side, row, false);
-    } while (next < groups_.size());
+    } while (next < table.groups.size());
     return result;
 }
 

@@ -213,7 +213,7 @@ Scene read_scene(const std::string& name_or_file, const std::vector<std::string>
     if (!scene.poses_problem() && !scene.stress)
         throw InputError({scene.file}, "the scene has no study; add a block [ladder], [orders], "
                                        "[work_precision], [evolution] or [stress]");
-    if (root.has("reference") && !scene.ladder && !scene.orders)
+    if (root.has("reference") && !scene.ladder && !scene.orders && !scene.work_precision)
         throw InputError(root.place("reference"),
                          "the errors of a [ladder] or of [orders] are measured against a "
                          "reference, and the scene has neither; add one, or remove the block");

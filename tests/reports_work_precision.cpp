@@ -1,7 +1,8 @@
 // The report of a work-precision study: what it says of made-up rows, in 80 columns.
 
 #include "reports/number_text.hpp"
-#include "reports/work_precision_text.hpp"
+#include "reports/text_document.hpp"
+#include "reports/work_precision_section.hpp"
 
 #include <boost/test/unit_test.hpp>
 
@@ -56,7 +57,7 @@ struct Study {
 
     [[nodiscard]] std::string text() {
         result.norms = costs_of(block, result.schemes);
-        return work_precision_text(result, block);
+        return text_section(work_precision_section(result, block));
     }
 };
 

@@ -351,4 +351,10 @@ BOOST_AUTO_TEST_CASE(mistakes_in_the_block_are_pointed_at) {
     }
 }
 
+// It would have no error to measure.
+BOOST_AUTO_TEST_CASE(a_reference_without_a_ladder_is_refused) {
+    BOOST_CHECK_THROW(read_scene("figure1", {"reference.elements=200", "reference.dt=1e-4"}),
+                      InputError);
+}
+
 BOOST_AUTO_TEST_SUITE_END()

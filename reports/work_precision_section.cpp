@@ -1,8 +1,7 @@
-#include "reports/work_precision_text.hpp"
+#include "reports/work_precision_section.hpp"
 
 #include "reports/number_text.hpp"
 #include "reports/scheme_text.hpp"
-#include "reports/text_table.hpp"
 
 #include <fmt/format.h>
 
@@ -29,15 +28,15 @@ std::string median_text(const std::optional<Timing>& timing, const WorkPrecision
     return timing ? with_prefix(timing->median) + (ran_once(timing, block) ? "*" : "") : "";
 }
 
-TextTable::Column column(const SchemeRuns& scheme, const std::string& heading,
-                         const std::function<std::string(std::size_t)>& cell) {
-    TextTable::Column result{heading, {}};
+Table::Column column(const SchemeRuns& scheme, const std::string& heading,
+                     const std::function<std::string(std::size_t)>& cell) {
+    Table::Column result{heading, {}};
     for (std::size_t i = 0; i < scheme.runs.size(); ++i)
         result.cells.push_back(cell(i));
     return result;
 }
 
-TextTable::Group time_group(const SchemeRuns& scheme, const WorkPrecisionBlock& block) {
+Table::Group time_group(const SchemeRuns& scheme, const WorkPrecisionBlock& block) {
     const auto quartile = [&](const char* heading, double Timing::*value) {
         return column(scheme, heading, [&, value](std::size_t i) {
             const auto& timing = scheme.timings[i];
@@ -50,13 +49,13 @@ TextTable::Group time_group(const SchemeRuns& scheme, const WorkPrecisionBlock& 
              quartile("q1", &Timing::q1), quartile("q3", &Timing::q3)}};
 }
 
-std::vector<TextTable::Group> counter_groups(const SchemeRuns& scheme, Algorithm algorithm) {
+std::vector<Table::Group> counter_groups(const SchemeRuns& scheme, Algorithm algorithm) {
     const auto count = [&](const char* heading, const auto& counter) {
         return column(scheme, heading, [&](std::size_t i) {
             return scheme.timings[i] ? std::to_string(counter(scheme.runs[i])) : std::string();
         });
     };
-    std::vector<TextTable::Group> groups{
+    std::vector<Table::Group> groups{
         {"", {count("steps", [](const RungResult& run) { return run.counters.steps; })}},
         {"node-",
          {column(scheme, "steps",
@@ -79,15 +78,16 @@ std::vector<TextTable::Group> counter_groups(const SchemeRuns& scheme, Algorithm
     return groups;
 }
 
-std::string rows_table(const SchemeRuns& scheme, const TimedScheme& timed,
-                       const WorkPrecisionBlock& block) {
+/// The rows of one scheme, below its name.
+std::vector<Block> rows_blocks(const SchemeRuns& scheme, const TimedScheme& timed,
+                               const WorkPrecisionBlock& block) {
     const auto& norms = block.norms;
-    TextTable::Group key{
+    Table::Group key{
         "",
         {column(scheme, "s",
                 [&](std::size_t i) { return std::to_string(scheme.runs[i].rung.elements); }),
          column(scheme, "dt", [&](std::size_t i) { return shortest(scheme.runs[i].rung.dt); })}};
-    std::vector<TextTable::Group> groups;
+    std::vector<Table::Group> groups;
     for (std::size_t k = 0; k < norms.size(); ++k)
         groups.push_back({norms[k].name, {column(scheme, "error", [&](std::size_t i) {
                               const auto& errors = scheme.runs[i].errors;
@@ -96,13 +96,16 @@ std::string rows_table(const SchemeRuns& scheme, const TimedScheme& timed,
     groups.push_back(time_group(scheme, block));
     for (auto& group : counter_groups(scheme, timed.scheme.algorithm))
         groups.push_back(std::move(group));
-    std::string text = wrapped(timed.name + ": " + scheme_text(timed.scheme)) +
-                       TextTable(std::move(key), std::move(groups)).text();
+    std::vector<Block> blocks{
+        Paragraph{timed.name + ": " + scheme_text(timed.scheme)},
+        Table{timed.name + ": errors, seconds of a run and their quartiles, and counters.",
+              std::move(key), std::move(groups)}};
     for (const auto& run : scheme.runs)
         if (run.status != RunStatus::ok)
-            text += wrapped(fmt::format("s = {}, dt = {} failed: {}", run.rung.elements,
-                                        shortest(run.rung.dt), run.reason));
-    return text;
+            blocks.emplace_back(
+                Paragraph{fmt::format("s = {}, dt = {} failed: {}", run.rung.elements,
+                                      shortest(run.rung.dt), run.reason)});
+    return blocks;
 }
 
 bool some_ran_once(const WorkPrecisionResult& result, const WorkPrecisionBlock& block) {
@@ -118,9 +121,9 @@ bool reached(const ReachedError& error) {
 }
 
 /// The times to reach an error, a column a scheme; rows that no scheme has are left out.
-std::string costs_table(const NormCosts& costs, const WorkPrecisionBlock& block) {
-    TextTable::Group key{"", {{costs.norm.name, {}}}};
-    std::vector<TextTable::Group> groups;
+Table costs_table(const NormCosts& costs, const WorkPrecisionBlock& block) {
+    Table::Group key{"", {{costs.norm.name, {}}}};
+    std::vector<Table::Group> groups;
     for (const auto& scheme : block.schemes)
         groups.push_back({"", {{scheme.name, {}}}});
     for (const auto& error : costs.errors) {
@@ -130,11 +133,11 @@ std::string costs_table(const NormCosts& costs, const WorkPrecisionBlock& block)
         for (std::size_t k = 0; k < groups.size(); ++k)
             groups[k].columns[0].cells.push_back(median_text(error.times[k], block));
     }
-    return key.columns[0].cells.empty() ? "" : TextTable(key, groups).text();
+    return {"Seconds to reach an error of " + costs.norm.name + ", by scheme.", key, groups};
 }
 
-std::string comparison_text(const SchemeComparison& pair, const ReachedError& error,
-                            const WorkPrecisionBlock& block) {
+Finding comparison(const SchemeComparison& pair, const ReachedError& error,
+                   const WorkPrecisionBlock& block) {
     const std::string& faster = block.schemes[pair.faster].name;
     const std::string& slower = block.schemes[pair.slower].name;
     const bool once =
@@ -144,28 +147,28 @@ std::string comparison_text(const SchemeComparison& pair, const ReachedError& er
              : fmt::format("(quartiles {} … {})", ratio_text(pair.times.lowest),
                            ratio_text(pair.times.highest));
     const std::string ratio = ratio_text(pair.times.ratio);
-    return wrapped(
-        pair.times.told_apart
-            ? fmt::format("by {} {} times sooner than by {} {}", faster, ratio, slower, spread)
-            : fmt::format("by {} and by {} in times not told apart: ratio {} {}", faster, slower,
-                          ratio, spread),
-        4);
+    return {pair.times.told_apart
+                ? fmt::format("by {} {} times sooner than by {} {}", faster, ratio, slower, spread)
+                : fmt::format("by {} and by {} in times not told apart: ratio {} {}", faster,
+                              slower, ratio, spread),
+            4};
 }
 
 /// Which scheme reaches an error sooner.
-std::string comparisons_text(const ReachedError& error, const NormCosts& costs,
-                             const WorkPrecisionBlock& block) {
-    std::string text =
-        wrapped(fmt::format("{} = {} is reached", costs.norm.name, shortest(error.error)));
+std::vector<Block> comparisons(const ReachedError& error, const NormCosts& costs,
+                               const WorkPrecisionBlock& block) {
+    std::vector<Block> findings{
+        Finding{fmt::format("{} = {} is reached", costs.norm.name, shortest(error.error))}};
     for (const auto& pair : error.comparisons)
-        text += comparison_text(pair, error, block);
+        findings.emplace_back(comparison(pair, error, block));
     for (std::size_t k = 0; k < block.schemes.size(); ++k)
         if (error.times[k] && error.comparisons.empty())
-            text += wrapped("by " + block.schemes[k].name + " alone", 4);
+            findings.emplace_back(Finding{"by " + block.schemes[k].name + " alone", 4});
     for (std::size_t k = 0; k < block.schemes.size(); ++k)
         if (!error.times[k])
-            text += wrapped("not, as far as measured, by " + block.schemes[k].name, 4);
-    return text;
+            findings.emplace_back(
+                Finding{"not, as far as measured, by " + block.schemes[k].name, 4});
+    return findings;
 }
 
 /// The errors at which the schemes are compared in words.
@@ -186,34 +189,42 @@ std::vector<const ReachedError*> compared_errors(const NormCosts& costs) {
 
 } // namespace
 
-std::string work_precision_text(const WorkPrecisionResult& result,
-                                const WorkPrecisionBlock& block) {
-    std::string text = wrapped(fmt::format(
-        "Work and precision up to T = {}; timed runs a row: {}, in turns, one at a time, without "
-        "error norms. µ: 1e-6, m: 1e-3; node-steps: elements times steps",
-        shortest(block.final_time), block.runs));
+Section work_precision_section(const WorkPrecisionResult& result, const WorkPrecisionBlock& block) {
+    Section section{
+        "Work and precision",
+        {Paragraph{fmt::format(
+            "Work and precision up to T = {}; timed runs a row: {}, in turns, one at a time, "
+            "without error norms. µ: 1e-6, m: 1e-3; node-steps: elements times steps",
+            shortest(block.final_time), block.runs)}}};
+    auto& blocks = section.blocks;
+    const auto add = [&blocks](const std::vector<Block>& more) {
+        blocks.emplace_back(BlankLine{});
+        blocks.insert(blocks.end(), more.begin(), more.end());
+    };
     for (std::size_t k = 0; k < block.schemes.size(); ++k)
-        text += "\n" + rows_table(result.schemes[k], block.schemes[k], block);
+        add(rows_blocks(result.schemes[k], block.schemes[k], block));
     if (some_ran_once(result, block))
-        text += "\n*: of one run, as a run takes long\n";
-    std::string tables;
-    std::string words;
+        add({Paragraph{"*: of one run, as a run takes long"}});
+    bool introduced = false;
     for (const auto& costs : result.norms) {
-        if (const std::string table = costs_table(costs, block); !table.empty())
-            tables += "\n" + table;
-        for (const auto* error : compared_errors(costs))
-            words += "\n" + comparisons_text(*error, costs, block);
-        for (const auto& remark : costs.remarks)
-            words += "\n" + wrapped(remark);
+        const Table table = costs_table(costs, block);
+        if (table.rows() == 0)
+            continue;
+        if (!introduced)
+            add({Paragraph{"Seconds to reach an error, on the log-log line between two rows; "
+                           "blank: not within what was measured"}});
+        introduced = true;
+        add({table});
     }
-    if (!tables.empty())
-        text += "\n" +
-                wrapped("Seconds to reach an error, on the log-log line between two rows; blank: "
-                        "not within what was measured") +
-                tables;
+    for (const auto& costs : result.norms) {
+        for (const auto* error : compared_errors(costs))
+            add(comparisons(*error, costs, block));
+        for (const auto& remark : costs.remarks)
+            add({Finding{remark}});
+    }
     if (!result.busy_remark.empty())
-        words += "\n" + wrapped(result.busy_remark);
-    return text + words;
+        add({Finding{result.busy_remark}});
+    return section;
 }
 
 } // namespace tvbeam

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "reports/document.hpp"
 #include "studies/orders.hpp"
 
 #include <string>
@@ -11,10 +12,10 @@ namespace tvbeam {
 /// A table of fits of the two-term model that hold, a row each: p, q with what to quote behind ±,
 /// a, b, ρ, rms and how many of the records were used. "not seen" is the order of a term whose size
 /// is zero, "not determined" one that the records do not determine; a, b, ρ are blank with it.
-std::string fit_table(const std::vector<std::pair<std::string, const TwoTermFit*>>& fits,
-                      std::size_t records);
+Table fit_table(const std::vector<std::pair<std::string, const TwoTermFit*>>& fits,
+                std::size_t records);
 
 /// The whole of an [orders] study: the fits, what they leave out, the constants of Corollary 2.2.
-std::string orders_text(const OrdersResult& orders);
+Section orders_section(const OrdersResult& orders);
 
 } // namespace tvbeam

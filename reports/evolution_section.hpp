@@ -1,14 +1,14 @@
 #pragma once
 
+#include "reports/document.hpp"
 #include "studies/evolution.hpp"
 
 #include <string>
 
 namespace tvbeam {
 
-/// The evolution for a terminal: what each probe ranged over, the contact events, and what changed
-/// from period to period.
-std::string evolution_text(const EvolutionResult& result, const Scene& scene);
+/// What each probe ranged over, the contact events, and what changed from period to period.
+Section evolution_section(const EvolutionResult& result, const Scene& scene);
 
 /// Every sample as a line of CSV: t, the probes, and behind each that has one its exact value.
 std::string evolution_csv(const EvolutionResult& result);

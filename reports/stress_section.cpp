@@ -1,4 +1,4 @@
-#include "reports/stress_text.hpp"
+#include "reports/stress_section.hpp"
 
 #include "reports/number_text.hpp"
 #include "reports/text_table.hpp"
@@ -94,12 +94,11 @@ tallies_of(const std::vector<StressCase>& cases) {
     return tallies;
 }
 
-std::string regime_table(const std::vector<StressCase>& cases) {
-    TextTable::Group key{"", {{"regime", {}}}};
-    TextTable::Group outcomes{
-        "cases", {{"certified", {}}, {"refused", {}}, {"stopped", {}}, {"failed", {}}}};
-    TextTable::Group worst{"worst",
-                           {{"energy", {}}, {"resid.", {}}, {"contact", {}}, {"path", {}}}};
+Table regime_table(const std::vector<StressCase>& cases) {
+    Table::Group key{"", {{"regime", {}}}};
+    Table::Group outcomes{"cases",
+                          {{"certified", {}}, {"refused", {}}, {"stopped", {}}, {"failed", {}}}};
+    Table::Group worst{"worst", {{"energy", {}}, {"resid.", {}}, {"contact", {}}, {"path", {}}}};
     for (auto& [regime, tally] : tallies_of(cases)) {
         key.columns[0].cells.push_back(regime.second);
         const auto count = [&outcomes = tally.outcomes](Outcome outcome) {
@@ -115,11 +114,8 @@ std::string regime_table(const std::vector<StressCase>& cases) {
         worst.columns[2].cells.push_back(scientific(tally.worst.penetration, 0));
         worst.columns[3].cells.push_back(fixed(tally.path, 2));
     }
-    return TextTable(key, {outcomes, worst}).text() +
-           wrapped("energy: energy law, of its terms (limit 1e-12); resid.: of both equations, in "
-                   "units of round-off (64); contact: penetration, wrong sign or min-residual, of "
-                   "the tip's scale (1e-13); path: sine basis against nodal values, of their limit "
-                   "(1)");
+    return {
+        "Outcomes of the cases by regime, and the worst of each check.", key, {outcomes, worst}};
 }
 
 /// The case in words: only what tells it apart.
@@ -136,7 +132,7 @@ std::string text_of(const StressParameters& p) {
 }
 
 /// The worst case of each check, by name.
-std::string worst_cases(const std::vector<StressCase>& cases) {
+std::vector<Block> worst_cases(const std::vector<StressCase>& cases) {
     using Value = std::function<std::optional<double>(const StressCase&)>;
     const auto of = [](double StressChecks::*check) -> Value {
         return [check](const StressCase& one) {
@@ -154,7 +150,7 @@ std::string worst_cases(const std::vector<StressCase>& cases) {
          [](const StressCase& one) { return one.checks ? one.checks->path : std::nullopt; }},
         {"error/predicted",
          [](const StressCase& one) { return one.checks ? one.checks->error : std::nullopt; }}};
-    std::string text = "\nWorst cases:\n";
+    std::vector<Block> items{BlankLine{}, Paragraph{"Worst cases:"}};
     for (const auto& [name, value] : checks) {
         const StressCase* worst = nullptr;
         int count = 0;
@@ -165,12 +161,12 @@ std::string worst_cases(const std::vector<StressCase>& cases) {
                     worst = &one;
             }
         if (worst != nullptr)
-            text +=
-                wrapped(fmt::format("  {}: {} ({} cases): {}", name, scientific(value(*worst), 1),
-                                    count, text_of(worst->parameters)),
-                        6);
+            items.emplace_back(
+                Item{fmt::format("{}: {} ({} cases): {}", name, scientific(value(*worst), 1), count,
+                                 text_of(worst->parameters)),
+                     6});
     }
-    return text;
+    return items;
 }
 
 /// The text of a reason without its numbers, to count those alike.
@@ -186,7 +182,7 @@ std::string kind_of(const std::string& reason) {
     return kind;
 }
 
-std::string reasons(const std::vector<StressCase>& cases, Outcome outcome) {
+std::vector<Block> reasons(const std::vector<StressCase>& cases, Outcome outcome) {
     std::map<std::string, std::pair<int, const StressCase*>> kinds;
     for (const auto& one : cases)
         if (one.outcome == outcome) {
@@ -194,27 +190,27 @@ std::string reasons(const std::vector<StressCase>& cases, Outcome outcome) {
             if (count++ == 0)
                 example = &one;
         }
-    std::string text;
-    for (const auto& [kind, found] : kinds) {
-        if (text.empty())
-            text = "\n" + tvbeam::name_of(outcome) + ":\n";
-        text += wrapped(fmt::format("  {} cases, e.g. {}: {}", found.first,
-                                    text_of(found.second->parameters), found.second->reason),
-                        4);
-    }
-    return text;
+    std::vector<Block> items;
+    if (!kinds.empty())
+        items = {BlankLine{}, Paragraph{tvbeam::name_of(outcome) + ":"}};
+    for (const auto& [kind, found] : kinds)
+        items.emplace_back(
+            Item{fmt::format("{} cases, e.g. {}: {}", found.first,
+                             text_of(found.second->parameters), found.second->reason)});
+    return items;
 }
 
 /// A ratio measured/predicted as per mille of deviation would be hidden by its round figures; the
 /// map shows the prediction in tenths and marks what is not within a tenth of it.
-std::string contraction_text(const ContractionMap& map, const ContractionBlock& block) {
-    std::string text = wrapped(fmt::format(
+Section contraction_section(const ContractionMap& map, const ContractionBlock& block) {
+    const std::string legend = fmt::format(
         "Contraction of the fixed point, zeta = {}, s = {}: across, alpha from {} to {}; down, dt "
         "from {} to {}. A digit: tenths of the measured contraction; ^: 1 or more, refused; !: the "
         "measured one is not within 10 % of the predicted",
         shortest(block.zeta), block.elements, shortest(block.alpha.front()),
         scientific(block.alpha.back(), 1), shortest(block.dt.front()),
-        scientific(block.dt.back(), 1)));
+        scientific(block.dt.back(), 1));
+    std::string text;
     for (Eigen::Index i = 0; i < map.predicted.rows(); ++i) {
         text += fmt::format("{:>9} ", scientific(block.dt[static_cast<std::size_t>(i)], 1));
         for (Eigen::Index j = 0; j < map.predicted.cols(); ++j) {
@@ -229,16 +225,18 @@ std::string contraction_text(const ContractionMap& map, const ContractionBlock& 
         }
         text += '\n';
     }
-    return text + wrapped(fmt::format("measured/predicted: {:.6f} to {:.6f}; {} of {} refused",
-                                      map.least_ratio(), map.greatest_ratio(), map.refused(),
-                                      map.predicted.size()));
+    return {"Contraction of the fixed point",
+            {Paragraph{legend}, Preformatted{text},
+             Finding{fmt::format("measured/predicted: {:.6f} to {:.6f}; {} of {} refused",
+                                 map.least_ratio(), map.greatest_ratio(), map.refused(),
+                                 map.predicted.size())}}};
 }
 
-std::string round_off_text(const RoundOffTable& table) {
-    TextTable::Group key{"", {{"s", {}}}};
-    TextTable::Group moment{"moment form", {{"nodal", {}}, {"sine", {}}}};
-    TextTable::Group hermite{"Hermite form", {{"floor", {}}, {"predicted", {}}, {"ratio", {}}}};
-    TextTable::Group error{"", {{"discretisation", {}}}};
+Section round_off_section(const RoundOffTable& table) {
+    Table::Group key{"", {{"s", {}}}};
+    Table::Group moment{"moment form", {{"nodal", {}}, {"sine", {}}}};
+    Table::Group hermite{"Hermite form", {{"floor", {}}, {"predicted", {}}, {"ratio", {}}}};
+    Table::Group error{"", {{"discretisation", {}}}};
     for (const auto& row : table.rows) {
         key.columns[0].cells.push_back(std::to_string(row.elements));
         moment.columns[0].cells.push_back(scientific(row.moment, 1));
@@ -249,12 +247,18 @@ std::string round_off_text(const RoundOffTable& table) {
             row.hermite ? fixed(*row.hermite / row.hermite_predicted, 2) : "");
         error.columns[0].cells.push_back(scientific(row.discretisation_error, 1));
     }
-    std::string text = "Floor of round-off, relative, on the coupled mode sin(pi x):\n" +
-                       TextTable(key, {moment, hermite, error}).text();
+    Section section{"Floor of round-off",
+                    {Paragraph{"Floor of round-off, relative, on the coupled mode sin(pi x):"},
+                     Table{"Floor of round-off, relative, on the coupled mode sin(pi x).",
+                           key,
+                           {moment, hermite, error}}}};
     for (const auto& row : table.rows)
-        if (!row.remark.empty())
-            return text + wrapped(fmt::format("from s = {} on: {}", row.elements, row.remark));
-    return text;
+        if (!row.remark.empty()) {
+            section.blocks.emplace_back(
+                Finding{fmt::format("from s = {} on: {}", row.elements, row.remark)});
+            break;
+        }
+    return section;
 }
 
 } // namespace
@@ -272,18 +276,34 @@ std::string name_of(InitialData initial) {
     }
 }
 
-std::string stress_text(const StressResult& result) {
-    std::string text;
-    if (!result.cases.empty())
-        text += regime_table(result.cases) + worst_cases(result.cases) +
-                reasons(result.cases, Outcome::refused) + reasons(result.cases, Outcome::stopped) +
-                reasons(result.cases, Outcome::failed);
+std::vector<Section> stress_sections(const StressResult& result) {
+    std::vector<Section> sections;
+    if (!result.cases.empty()) {
+        Section section{
+            "Stress",
+            {regime_table(result.cases),
+             Paragraph{"energy: energy law, of its terms (limit 1e-12); resid.: of both equations, "
+                       "in units of round-off (64); contact: penetration, wrong sign or "
+                       "min-residual, of the tip's scale (1e-13); path: sine basis against nodal "
+                       "values, of their limit (1)"},
+             Finding{fmt::format("Of {} cases {} certified, {} refused, {} stopped, {} failed.",
+                                 result.cases.size(), result.count(Outcome::certified),
+                                 result.count(Outcome::refused), result.count(Outcome::stopped),
+                                 result.count(Outcome::failed)),
+                     2, false}}};
+        const auto add = [&section](const std::vector<Block>& more) {
+            section.blocks.insert(section.blocks.end(), more.begin(), more.end());
+        };
+        add(worst_cases(result.cases));
+        for (const Outcome outcome : {Outcome::refused, Outcome::stopped, Outcome::failed})
+            add(reasons(result.cases, outcome));
+        sections.push_back(std::move(section));
+    }
     if (result.contraction)
-        text += (text.empty() ? "" : "\n") +
-                contraction_text(*result.contraction, result.contraction->block);
+        sections.push_back(contraction_section(*result.contraction, result.contraction->block));
     if (result.roundoff)
-        text += (text.empty() ? "" : "\n") + round_off_text(*result.roundoff);
-    return text;
+        sections.push_back(round_off_section(*result.roundoff));
+    return sections;
 }
 
 std::string stress_csv(const StressResult& result) {

@@ -1,14 +1,13 @@
 #pragma once
 
+#include "reports/document.hpp"
 #include "studies/work_precision.hpp"
-
-#include <string>
 
 namespace tvbeam {
 
 /// The whole of a [work_precision] study: a table of errors, times and counters for each scheme;
 /// for each norm a table of the times to reach an error; and in words which scheme is faster at the
 /// targets, or, of a norm without targets, at the smallest power of ten that some two reach.
-std::string work_precision_text(const WorkPrecisionResult& result, const WorkPrecisionBlock& block);
+Section work_precision_section(const WorkPrecisionResult& result, const WorkPrecisionBlock& block);
 
 } // namespace tvbeam

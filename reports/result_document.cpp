@@ -1,0 +1,89 @@
+#include "reports/result_document.hpp"
+
+#include "reports/evolution_section.hpp"
+#include "reports/ladder_section.hpp"
+#include "reports/number_text.hpp"
+#include "reports/orders_section.hpp"
+#include "reports/scheme_text.hpp"
+#include "reports/stress_section.hpp"
+#include "reports/work_precision_section.hpp"
+
+#include <cmath>
+
+namespace tvbeam {
+
+namespace {
+
+std::string stop_text(double value) {
+    return std::isfinite(value) ? shortest(value) : "none";
+}
+
+std::string problem_line(const Scene& scene) {
+    const auto* solution = std::get_if<Solution>(&scene.problem);
+    std::string line =
+        (solution != nullptr ? "solution " + solution->name : std::string("given data")) +
+        "; alpha = " + shortest(scene.beam.alpha) + ", zeta = " + shortest(scene.beam.zeta);
+    if (scene.beam.theta_A != 0.0)
+        line += ", theta_A = " + shortest(scene.beam.theta_A);
+    if (scene.beam.stops.exist())
+        line += ", stops " + stop_text(scene.beam.stops.lower) + " and " +
+                stop_text(scene.beam.stops.upper);
+    if (scene.beam.stops.epsilon != 0.0)
+        line += ", penalised with epsilon = " + shortest(scene.beam.stops.epsilon) +
+                (scene.has_exact_solution()
+                     ? " (a solution that presses on a stop is one of rigid stops: its errors "
+                       "then hold what the stop yields)"
+                     : "");
+    if (!scene.mesh.nodes.empty())
+        line += "; nodes of every mesh: " + std::to_string(scene.mesh.nodes.size());
+    else if (!scene.mesh.is_uniform())
+        line += "; meshes graded by " + shortest(scene.mesh.grading);
+    return line;
+}
+
+/// What errors are measured against, if not the exact solution.
+std::string reference_line(const Scene& scene, const ReferenceResult& result) {
+    const ReferenceBlock& block = *scene.reference;
+    std::string line = std::string("errors against ") +
+                       (block.richardson ? "a reference extrapolated (Richardson) from runs with "
+                                         : "a reference run: ") +
+                       "s = " + std::to_string(block.elements) + ", dt = " + shortest(block.dt);
+    if (block.richardson)
+        line += ", with half of s, and with twice dt";
+    if (scene.has_exact_solution())
+        line += "; not against the exact solution that the scene has";
+    if (!result.failure.empty())
+        line += "; it failed: " + result.failure;
+    return line;
+}
+
+} // namespace
+
+Document result_document(const StudyResult& result) {
+    const Scene& scene = result.scene;
+    Document document{scene.title, {}, {}, result.left_out};
+    // A stress study has problems of its own.
+    if (scene.poses_problem())
+        document.head.push_back(problem_line(scene));
+    if (result.ladder || result.orders || result.evolution)
+        document.head.push_back(scheme_text(scene.scheme));
+    if (result.reference)
+        document.head.push_back(reference_line(scene, *result.reference));
+    if (result.ladder) {
+        document.head.push_back("errors up to T = " + shortest(scene.ladder->final_time));
+        document.sections.push_back(ladder_section(*result.ladder, *scene.ladder, scene.scheme));
+    }
+    if (result.orders)
+        document.sections.push_back(orders_section(*result.orders));
+    if (result.work_precision)
+        document.sections.push_back(
+            work_precision_section(*result.work_precision, *scene.work_precision));
+    if (result.evolution)
+        document.sections.push_back(evolution_section(*result.evolution, scene));
+    if (result.stress)
+        for (auto& section : stress_sections(*result.stress))
+            document.sections.push_back(std::move(section));
+    return document;
+}
+
+} // namespace tvbeam
