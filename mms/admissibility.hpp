@@ -3,6 +3,8 @@
 #include "core/problem.hpp"
 #include "mms/solution.hpp"
 
+#include <string>
+
 namespace tvbeam {
 
 /// Checks that a solution obeys, on [0, final_time], what (5)–(10) ask of it whatever the sources
@@ -21,5 +23,10 @@ namespace tvbeam {
 /// Throws InputError at the expression at fault; it names the equation, the time, the value and a
 /// repair.
 void require_admissible(const Solution& solution, const Beam& beam, double final_time);
+
+/// The same for a problem with an exact solution that no text describes; all of it is sampled, and
+/// jumps are looked for between the times of a grid. Errors begin with `name` in place of a file.
+void require_admissible(const ProblemData& problem, const std::string& name, const Beam& beam,
+                        double final_time);
 
 } // namespace tvbeam
