@@ -18,8 +18,12 @@ namespace tvbeam {
 
 namespace {
 
-RunResult failure(RunResult result, const std::string& reason) {
-    result.status = RunStatus::failed;
+/// Steps between two calls of RunRequest::advance.
+constexpr std::int64_t steps_between = 64;
+
+RunResult failure(RunResult result, const std::string& reason,
+                  RunStatus status = RunStatus::failed) {
+    result.status = status;
     result.reason = reason;
     result.errors.clear();
     return result;
@@ -37,6 +41,17 @@ std::string located(const std::string& reason, std::int64_t step, std::int64_t s
 }
 
 } // namespace
+
+std::string name_of(RunStatus status) {
+    switch (status) {
+    case RunStatus::ok:
+        return "ok";
+    case RunStatus::failed:
+        return "failed";
+    default:
+        return "interrupted";
+    }
+}
 
 std::unique_ptr<Solver> make_solver(const Beam& beam, const ProblemData& data, const Mesh& mesh,
                                     const Scheme& scheme, double dt, const Needs& needs) {
@@ -57,6 +72,16 @@ std::unique_ptr<Solver> make_solver(const Beam& beam, const ProblemData& data, c
 RunResult run(const RunRequest& request, const ProblemData& data, const Observer* observer) {
     RunResult result;
     const double dt = request.final_time / static_cast<double>(request.steps);
+    bool wanted = true;
+    const auto advance = [&](std::int64_t steps) {
+        wanted = wanted && (!request.advance || request.advance(steps));
+        return wanted;
+    };
+    const auto interrupted = [&] {
+        return failure(std::move(result), "it was interrupted", RunStatus::interrupted);
+    };
+    if (!advance(0))
+        return interrupted();
     try {
         Needs needs = ErrorNorms::needs(data, request.norms);
         if (observer != nullptr)
@@ -64,7 +89,10 @@ RunResult run(const RunRequest& request, const ProblemData& data, const Observer
         else if (SineForm::suits(data, request.mesh, request.scheme, request.norms)) {
             SineForm form(request.beam, data, request.mesh, request.scheme, request.final_time,
                           request.steps, request.norms, needs);
-            if (form.march()) {
+            const bool finite = form.march(advance);
+            if (!wanted)
+                return interrupted();
+            if (finite) {
                 result.counters = form.counters();
                 if (!request.norms.empty())
                     result.errors = form.errors();
@@ -97,6 +125,8 @@ RunResult run(const RunRequest& request, const ProblemData& data, const Observer
                            sources.amplitudes.col(sources.amplitudes.cols() - 1));
             if (observer != nullptr)
                 observer->visit(levels.time(n), *solver);
+            if (n % steps_between == 0 && !advance(steps_between))
+                return interrupted();
         }
         result.counters = solver->counters();
         if (norms) {

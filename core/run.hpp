@@ -17,8 +17,11 @@ namespace tvbeam {
 /// How a run ended.
 enum class RunStatus {
     ok,
-    failed ///< diverged, overflowed, or could not start; RunResult::reason says why and where
+    failed,     ///< diverged, overflowed, or could not start; RunResult::reason says why and where
+    interrupted ///< RunRequest::advance said so
 };
+
+std::string name_of(RunStatus status); ///< "ok", "failed", "interrupted"
 
 /// One march of one scheme over one mesh, from 0 to final_time in `steps` equal steps.
 struct RunRequest {
@@ -28,6 +31,9 @@ struct RunRequest {
     double final_time = 0.0;
     std::int64_t steps = 0;
     std::vector<Norm> norms; ///< need data.exact
+    /// Told at the start, and then every few steps, how many more have been made; false: the run
+    /// ends. Empty: nobody asks.
+    std::function<bool(std::int64_t steps)> advance = {};
 };
 
 struct RunResult {

@@ -204,7 +204,7 @@ void SineForm::use(const TimeScheme& scheme) {
     inverse = inverse.inverse().eval();
 }
 
-bool SineForm::march() {
+bool SineForm::march(const std::function<bool(std::int64_t steps)>& advance) {
     for (std::int64_t n = 1; n <= levels_.steps();) {
         const TimeScheme& scheme = scheme_.time.at_step(n);
         if (&scheme != running_) {
@@ -222,6 +222,8 @@ bool SineForm::march() {
         std::swap(state_, next_);
         std::swap(weights_, next_weights_);
         n += steps;
+        if (!advance(steps))
+            return false;
     }
     return true;
 }

@@ -12,6 +12,7 @@
 #include <Eigen/Core>
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 namespace tvbeam {
@@ -40,9 +41,10 @@ public:
              double final_time, std::int64_t steps, const std::vector<Norm>& norms,
              const Needs& needs);
 
-    /// Marches to the end. False as soon as something is not finite; the general form can then say
-    /// where and what.
-    [[nodiscard]] bool march();
+    /// Marches to the end, and tells after every block how many steps it had. False as soon as
+    /// something is not finite, and the general form can then say where and what; or where advance
+    /// returns false.
+    [[nodiscard]] bool march(const std::function<bool(std::int64_t steps)>& advance);
 
     [[nodiscard]] std::vector<double> errors() const { return errors_.sums().values(); }
     [[nodiscard]] Counters counters() const;

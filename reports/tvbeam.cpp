@@ -83,7 +83,7 @@ int run_command(const RunOptions& options) {
     const Scene scene = read_scene(options.scene, options.overrides);
     Destination json(options.json);
     Destination csv(options.csv);
-    const StudyResult result = run_study(scene, options.jobs);
+    const StudyResult result = run_study(scene, {.jobs = options.jobs});
     if (!json.standard_output() && !csv.standard_output())
         write_standard_output(terminal_report(result));
     if (json.wanted())
@@ -145,7 +145,7 @@ int check_command(const CheckOptions& options) {
     std::vector<CheckedScene> checked;
     for (const auto& scene : scenes) {
         const auto start = std::chrono::steady_clock::now();
-        results.push_back(run_study(scene, options.jobs));
+        results.push_back(run_study(scene, {.jobs = options.jobs}));
         const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
         checked.push_back(
             {scene.name, elapsed.count(), first_failure(results.back()), check(results.back())});

@@ -99,8 +99,10 @@ Needs needs_of(const EvolutionBlock& block, const Stops& stops) {
 }
 
 EvolutionResult run_evolution(const Scene& scene, const EvolutionBlock& block,
-                              const ProblemData& data) {
+                              const ProblemData& data, const Execution& execution) {
     EvolutionResult result;
+    const double step_work =
+        work_of(scene.scheme, block.rung) / static_cast<double>(block.rung.steps);
     result.run.rung = block.rung;
     for (const auto& probe : block.probes)
         result.probes.push_back({probe.name, {}, {}});
@@ -128,8 +130,17 @@ EvolutionResult run_evolution(const Scene& scene, const EvolutionBlock& block,
         }
     };
     const auto start = std::chrono::steady_clock::now();
-    const RunResult run = tvbeam::run(
-        {scene.beam, mesh, scene.scheme, block.final_time, block.rung.steps, {}}, data, &observer);
+    const RunResult run =
+        tvbeam::run({scene.beam,
+                     mesh,
+                     scene.scheme,
+                     block.final_time,
+                     block.rung.steps,
+                     {},
+                     [&](std::int64_t steps) {
+                         return execution.advance(static_cast<double>(steps) * step_work);
+                     }},
+                    data, &observer);
     const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
     result.run.status = run.status;
     result.run.reason = run.reason;

@@ -49,7 +49,7 @@ struct EvolutionResult {
 
 /// Runs the scene's scheme once, and looks at it in time.
 EvolutionResult run_evolution(const Scene& scene, const EvolutionBlock& block,
-                              const ProblemData& data);
+                              const ProblemData& data, const Execution& execution = {});
 
 /// What an evolution must solve for: what its probes read, and the tip where there are stops.
 Needs needs_of(const EvolutionBlock& block, const Stops& stops);

@@ -53,9 +53,10 @@ std::vector<RungResult> telling(const Scene& scene, const std::vector<RungResult
 } // namespace
 
 LadderResult run_ladder(const Scene& scene, const LadderBlock& ladder, const ProblemData& data,
-                        const OrdersResult* orders, int jobs) {
+                        const OrdersResult* orders, const Execution& execution) {
     LadderResult result;
-    result.rungs = run_rungs(scene, ladder.norms, ladder.final_time, ladder.rungs, data, jobs);
+    result.rungs =
+        run_rungs("ladder", scene, ladder.norms, ladder.final_time, ladder.rungs, data, execution);
     const auto remarked = telling(scene, result.rungs);
     for (std::size_t k = 0; k < ladder.norms.size(); ++k) {
         const Norm& norm = ladder.norms[k];

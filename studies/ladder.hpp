@@ -27,9 +27,8 @@ struct LadderResult {
 };
 
 /// Runs every rung of the scene's ladder, the others also after one that failed. orders: the grid
-/// study of the same scene, whose models then judge the rungs and predict them; or null. jobs: as
-/// in run_rungs.
+/// study of the same scene, whose models then judge the rungs and predict them; or null.
 LadderResult run_ladder(const Scene& scene, const LadderBlock& ladder, const ProblemData& data,
-                        const OrdersResult* orders, int jobs);
+                        const OrdersResult* orders, const Execution& execution = {});
 
 } // namespace tvbeam

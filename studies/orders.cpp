@@ -49,9 +49,10 @@ const TwoTermModel* OrdersResult::model_of(const Norm& norm) const {
 }
 
 OrdersResult run_orders(const Scene& scene, const OrdersBlock& block, const ProblemData& data,
-                        int jobs) {
+                        const Execution& execution) {
     OrdersResult result;
-    result.runs = run_rungs(scene, block.norms, block.final_time, block.grid, data, jobs);
+    result.runs =
+        run_rungs("orders", scene, block.norms, block.final_time, block.grid, data, execution);
     for (std::size_t k = 0; k < block.norms.size(); ++k) {
         const Norm& norm = block.norms[k];
         const auto roots = root_records_of(result.runs, k, norm);

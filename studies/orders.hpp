@@ -34,8 +34,8 @@ struct OrdersResult {
     [[nodiscard]] const TwoTermModel* model_of(const Norm& norm) const;
 };
 
-/// jobs: as in run_rungs.
+/// Runs the grid and fits the model to each norm.
 OrdersResult run_orders(const Scene& scene, const OrdersBlock& block, const ProblemData& data,
-                        int jobs);
+                        const Execution& execution = {});
 
 } // namespace tvbeam

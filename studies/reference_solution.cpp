@@ -66,8 +66,8 @@ Needs reference_needs(const Scene& scene) {
 /// that was taken away.
 class ReferenceSolution {
 public:
-    ReferenceSolution(const Scene& scene, double final_time)
-        : block_(*scene.reference), needs_(reference_needs(scene)),
+    ReferenceSolution(const Scene& scene, double final_time, const Execution& execution)
+        : execution_(execution), block_(*scene.reference), needs_(reference_needs(scene)),
           steps_(std::llround(final_time / block_.dt)),
           dt_(final_time / static_cast<double>(steps_)),
           levels_(kept_levels(block_, scene.ladder ? &*scene.ladder : nullptr,
@@ -155,6 +155,8 @@ private:
                          << " elements, dt = " << dt;
                     return text.str();
                 }
+                if (!execution_.advance(static_cast<double>(mesh.elements())))
+                    return "it was interrupted";
                 if (level == *next) {
                     add_level(next - levels_.begin(), *solver, mesh, scene.beam, weight);
                     ++next;
@@ -189,6 +191,7 @@ private:
         return PiecewisePolynomial::cubic(nodal)(Mesh::uniform(block_.elements).nodes).matrix();
     }
 
+    const Execution execution_;
     ReferenceBlock block_;
     Needs needs_;
     std::int64_t steps_;
@@ -237,13 +240,13 @@ Amplitudes with_one_more(const ProblemData& data, std::function<double(double t)
 
 } // namespace
 
-ReferenceResult measure_against_reference(const Scene& scene, double final_time,
-                                          ProblemData& data) {
+ReferenceResult measure_against_reference(const Scene& scene, double final_time, ProblemData& data,
+                                          const Execution& execution) {
     const auto start = std::chrono::steady_clock::now();
     ReferenceResult result;
     std::shared_ptr<const ReferenceSolution> reference;
     try {
-        auto computed = std::make_shared<ReferenceSolution>(scene, final_time);
+        auto computed = std::make_shared<ReferenceSolution>(scene, final_time, execution);
         result.failure = computed->compute(scene, data);
         reference = std::move(computed);
     } catch (const std::bad_alloc&) {

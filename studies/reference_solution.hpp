@@ -18,6 +18,7 @@
 #pragma once
 
 #include "core/problem.hpp"
+#include "studies/execution.hpp"
 #include "studies/observed_order.hpp"
 #include "studies/scene.hpp"
 
@@ -38,7 +39,8 @@ struct ReferenceResult {
 /// their derivatives by evaluation, the contact stress as one more amplitude. At a time that is not
 /// a level of some rung it throws std::logic_error. After a reference that failed, every run that
 /// is measured against it fails with the same reason.
-ReferenceResult measure_against_reference(const Scene& scene, double final_time, ProblemData& data);
+ReferenceResult measure_against_reference(const Scene& scene, double final_time, ProblemData& data,
+                                          const Execution& execution = {});
 
 /// h and dt of the reference whose own error counts; none where errors are measured against an
 /// exact or an extrapolated solution.

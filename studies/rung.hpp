@@ -1,9 +1,12 @@
 #pragma once
 
 #include "core/run.hpp"
+#include "studies/execution.hpp"
 #include "studies/observed_order.hpp"
 #include "studies/scene.hpp"
 
+#include <cstddef>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -21,13 +24,21 @@ struct RungResult {
 
 /// Runs a scheme on one rung of the scene's beam and meshes.
 RungResult run_rung(const Scene& scene, const Scheme& scheme, const std::vector<Norm>& norms,
-                    double final_time, const Rung& rung, const ProblemData& data);
+                    double final_time, const Rung& rung, const ProblemData& data,
+                    const Execution& execution = {});
 
-/// Runs the scene's scheme on every rung, in up to `jobs` threads; the results stand in the order
-/// of the rungs and do not depend on the number of jobs, but for their seconds.
-std::vector<RungResult> run_rungs(const Scene& scene, const std::vector<Norm>& norms,
-                                  double final_time, const std::vector<Rung>& rungs,
-                                  const ProblemData& data, int jobs);
+/// The result of run `index` of a study that was kept; or else what `run` gives, which is kept
+/// unless it was interrupted. work: of the run.
+RungResult run_or_find(const std::string& study, std::size_t index, const Execution& execution,
+                       double work, const std::function<RungResult()>& run);
+
+/// Runs the scene's scheme on every rung of a study (MeasuredRuns::study), in up to
+/// `execution.jobs` threads; the results stand in the order of the rungs and do not depend on the
+/// number of jobs, but for their seconds.
+std::vector<RungResult> run_rungs(const std::string& study, const Scene& scene,
+                                  const std::vector<Norm>& norms, double final_time,
+                                  const std::vector<Rung>& rungs, const ProblemData& data,
+                                  const Execution& execution);
 
 /// The runs as records for an order analysis of norm k; a failed run has a NaN error.
 std::vector<Refinement> records_of(const std::vector<RungResult>& rungs, std::size_t k);

@@ -11,6 +11,17 @@ bool StudyResult::failed() const {
                        [](const MeasuredRuns& study) { return any_failed(*study.runs); });
 }
 
+bool StudyResult::interrupted() const {
+    const auto all = runs();
+    return (stress && stress->interrupted) ||
+           (evolution && evolution->run.status == RunStatus::interrupted) ||
+           std::any_of(all.begin(), all.end(), [](const MeasuredRuns& study) {
+               return std::any_of(
+                   study.runs->begin(), study.runs->end(),
+                   [](const RungResult& run) { return run.status == RunStatus::interrupted; });
+           });
+}
+
 std::vector<MeasuredRuns> StudyResult::runs() const {
     std::vector<MeasuredRuns> all;
     if (ladder)
@@ -24,7 +35,38 @@ std::vector<MeasuredRuns> StudyResult::runs() const {
     return all;
 }
 
-StudyResult run_study(const Scene& scene, int jobs) {
+namespace {
+
+double work_of(const Scheme& scheme, const std::vector<Rung>& rungs) {
+    double work = 0.0;
+    for (const auto& rung : rungs)
+        work += work_of(scheme, rung);
+    return work;
+}
+
+/// Of all studies of a scene; a reference run, a contraction map and a round-off table aside.
+double work_of(const Scene& scene) {
+    double work = 0.0;
+    if (scene.ladder)
+        work += work_of(scene.scheme, scene.ladder->rungs);
+    if (scene.orders)
+        work += work_of(scene.scheme, scene.orders->grid);
+    if (scene.evolution)
+        work += work_of(scene.scheme, scene.evolution->rung);
+    if (scene.work_precision)
+        for (const auto& timed : scene.work_precision->schemes) // with norms, to warm up, timed
+            work += (scene.work_precision->runs + 2) * work_of(timed.scheme, timed.rungs);
+    if (scene.stress)
+        for (const auto& sweep : scene.stress->sweeps)
+            for (const auto& parameters : sweep.cases)
+                work += work_of(parameters);
+    return work;
+}
+
+} // namespace
+
+StudyResult run_study(const Scene& scene, const Execution& execution) {
+    execution.expect(work_of(scene));
     StudyResult result{.scene = scene,
                        .left_out = {},
                        .reference = {},
@@ -34,7 +76,7 @@ StudyResult run_study(const Scene& scene, int jobs) {
                        .evolution = {},
                        .stress = {}};
     if (scene.stress)
-        result.stress = run_stress(*scene.stress);
+        result.stress = run_stress(*scene.stress, execution);
     if (!scene.poses_problem())
         return result;
     // One problem serves all studies: it is admissible up to the longest of their times.
@@ -45,17 +87,17 @@ StudyResult run_study(const Scene& scene, int jobs) {
                   scene.evolution ? scene.evolution->final_time : 0.0});
     ProblemData data = problem_of(scene, final_time);
     if (scene.reference && !scene.norms().empty())
-        result.reference = measure_against_reference(scene, final_time, data);
+        result.reference = measure_against_reference(scene, final_time, data, execution);
     result.left_out = left_out(scene, data);
     if (scene.orders)
-        result.orders = run_orders(scene, *scene.orders, data, jobs);
+        result.orders = run_orders(scene, *scene.orders, data, execution);
     if (scene.ladder)
-        result.ladder =
-            run_ladder(scene, *scene.ladder, data, result.orders ? &*result.orders : nullptr, jobs);
+        result.ladder = run_ladder(scene, *scene.ladder, data,
+                                   result.orders ? &*result.orders : nullptr, execution);
     if (scene.evolution)
-        result.evolution = run_evolution(scene, *scene.evolution, data);
+        result.evolution = run_evolution(scene, *scene.evolution, data, execution);
     if (scene.work_precision)
-        result.work_precision = run_work_precision(scene, *scene.work_precision, data);
+        result.work_precision = run_work_precision(scene, *scene.work_precision, data, execution);
     return result;
 }
 

@@ -35,12 +35,13 @@ struct StudyResult {
     /// The runs of every study whose errors were measured.
     [[nodiscard]] std::vector<MeasuredRuns> runs() const;
 
-    [[nodiscard]] bool failed() const; ///< some run failed
+    [[nodiscard]] bool failed() const;      ///< some run failed, or was interrupted
+    [[nodiscard]] bool interrupted() const; ///< some run was
 };
 
-/// Runs the studies of a scene, their runs in up to `jobs` ≥ 1 threads (run_rungs); those that are
+/// Runs the studies of a scene, their runs in up to `execution.jobs` threads; those that are
 /// timed, of [work_precision], one at a time and after all others. Throws InputError when its
 /// problem is not admissible; nothing has run then.
-StudyResult run_study(const Scene& scene, int jobs = 1);
+StudyResult run_study(const Scene& scene, const Execution& execution = {});
 
 } // namespace tvbeam

@@ -30,8 +30,9 @@ struct Contestant {
 class Race {
 public:
     Race(const Scene& scene, const WorkPrecisionBlock& block, const ProblemData& data,
-         double one_run_above)
-        : scene_(scene), block_(block), data_(data), one_run_above_(one_run_above) {}
+         const Execution& execution, double one_run_above)
+        : scene_(scene), block_(block), data_(data), execution_(execution),
+          one_run_above_(one_run_above) {}
 
     std::vector<SchemeRuns> take() {
         for (std::size_t k = 0; k < block_.schemes.size(); ++k)
@@ -50,18 +51,23 @@ public:
 private:
     RungResult run(std::size_t scheme, const Rung& rung, const std::vector<Norm>& norms) {
         return run_rung(scene_, block_.schemes[scheme].scheme, norms, block_.final_time, rung,
-                        data_);
+                        data_, execution_);
     }
 
     void enter(std::size_t scheme) {
         SchemeRuns& runs = result_.emplace_back();
         for (const auto& rung : block_.schemes[scheme].rungs) {
-            runs.runs.push_back(run(scheme, rung, block_.norms));
+            runs.runs.push_back(run_or_find("work_precision." + block_.schemes[scheme].name,
+                                            runs.runs.size(), execution_,
+                                            work_of(block_.schemes[scheme].scheme, rung),
+                                            [&] { return run(scheme, rung, block_.norms); }));
             runs.timings.emplace_back();
             RungResult& measured = runs.runs.back();
             if (measured.status != RunStatus::ok)
                 continue;
             const RungResult warm_up = run(scheme, rung, {});
+            if (warm_up.status != RunStatus::ok)
+                continue;
             measured.counters = warm_up.counters;
             contestants_.push_back({scheme, runs.runs.size() - 1, warm_up.seconds, {}});
         }
@@ -71,12 +77,15 @@ private:
         const Rung& rung = result_[contestant.scheme].runs[contestant.run].rung;
         if (contestant.warm_up < quick)
             run(contestant.scheme, rung, {});
-        contestant.seconds.push_back(run(contestant.scheme, rung, {}).seconds);
+        const RungResult timed = run(contestant.scheme, rung, {});
+        if (timed.status == RunStatus::ok)
+            contestant.seconds.push_back(timed.seconds);
     }
 
     const Scene& scene_;
     const WorkPrecisionBlock& block_;
     const ProblemData& data_;
+    const Execution& execution_;
     double one_run_above_;
     std::vector<SchemeRuns> result_;
     std::vector<Contestant> contestants_;
@@ -175,11 +184,12 @@ std::int64_t node_steps(const Rung& rung) {
 }
 
 WorkPrecisionResult run_work_precision(const Scene& scene, const WorkPrecisionBlock& block,
-                                       const ProblemData& data, double one_run_above) {
+                                       const ProblemData& data, const Execution& execution,
+                                       double one_run_above) {
     WorkPrecisionResult result;
     const std::clock_t processor = std::clock();
     const auto start = std::chrono::steady_clock::now();
-    result.schemes = Race(scene, block, data, one_run_above).take();
+    result.schemes = Race(scene, block, data, execution, one_run_above).take();
     const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
     result.busy_remark = busy_remark(static_cast<double>(std::clock() - processor) / CLOCKS_PER_SEC,
                                      elapsed.count());

@@ -59,9 +59,11 @@ std::int64_t node_steps(const Rung& rung);
 /// Runs every rung of every scheme once for its errors, and then for its time: an untimed run, and
 /// block.runs timed ones, or one where a run takes longer than one_run_above seconds. The runs of
 /// all rungs take turns, so that a machine that is busy for a while slows all alike, and nothing
-/// runs beside them.
+/// runs beside them, whatever execution.jobs says. Errors are kept as run_or_find does; times are
+/// not.
 WorkPrecisionResult run_work_precision(const Scene& scene, const WorkPrecisionBlock& block,
-                                       const ProblemData& data, double one_run_above = 2.0);
+                                       const ProblemData& data, const Execution& execution = {},
+                                       double one_run_above = 2.0);
 
 /// What the rows say, for every norm of the block.
 std::vector<NormCosts> costs_of(const WorkPrecisionBlock& block,

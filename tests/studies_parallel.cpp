@@ -70,10 +70,10 @@ BOOST_AUTO_TEST_SUITE(runs_side_by_side)
 
 BOOST_DATA_TEST_CASE(results_do_not_depend_on_the_number_of_jobs, data::make(studies), study) {
     const Scene scene = read_scene(study.scene, study.overrides);
-    const StudyResult alone = run_study(scene, 1);
+    const StudyResult alone = run_study(scene);
     BOOST_TEST(alone.failed() == study.fails);
     for (const int jobs : {2, 5}) {
-        const StudyResult shared = run_study(scene, jobs);
+        const StudyResult shared = run_study(scene, {.jobs = jobs});
         if (alone.ladder)
             require_same(scene.ladder->rungs, alone.ladder->rungs, shared.ladder->rungs);
         if (alone.orders)

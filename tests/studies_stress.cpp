@@ -141,7 +141,7 @@ BOOST_AUTO_TEST_CASE(hermite_form_warns_where_round_off_may_exceed_its_error) {
                        {"ladder.final_time=0.01", "ladder.elements=[" + elements + "]",
                         "ladder.dt=[" + dt + "]", "ladder.printed={}",
                         "ladder.norms=['u_LinfH2semi']", "scheme={algorithm='" + algorithm + "'}"});
-        return run_ladder(scene, *scene.ladder, problem_of(scene, 0.01), nullptr, 1)
+        return run_ladder(scene, *scene.ladder, problem_of(scene, 0.01), nullptr)
             .norms.at(0)
             .remarks;
     };

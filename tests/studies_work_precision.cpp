@@ -114,7 +114,8 @@ Scene scene_of(const std::string& text, const std::vector<std::string>& override
 
 WorkPrecisionResult timed(const Scene& scene, double one_run_above = 1e9) {
     return run_work_precision(scene, *scene.work_precision,
-                              problem_of(scene, scene.work_precision->final_time), one_run_above);
+                              problem_of(scene, scene.work_precision->final_time), {},
+                              one_run_above);
 }
 
 /// A scheme with made-up errors, in times 1 s, 2 s, 4 s, ….

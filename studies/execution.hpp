@@ -1,0 +1,60 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+
+namespace tvbeam {
+
+struct Rung;
+struct RungResult;
+struct Scheme;
+struct StressCase;
+
+/// Told of work as it is done, by several threads at a time.
+class Progress {
+public:
+    virtual ~Progress() = default;
+
+    /// So much more is to be done, or, negative, less. Unit: work_of.
+    virtual void expect(double work) = 0;
+
+    /// So much of it has been done. false: what is left is to be left undone.
+    virtual bool advance(double work) = 0;
+};
+
+/// Results of single runs, kept from an earlier attempt at the same scene and for a later one.
+/// Asked and told by several threads at a time.
+class FinishedRuns {
+public:
+    virtual ~FinishedRuns() = default;
+
+    /// The result of run `index` of a study (MeasuredRuns::study), if it is there.
+    virtual std::optional<RungResult> find(const std::string& study, std::size_t index) = 0;
+    virtual void add(const std::string& study, std::size_t index, const RungResult& result) = 0;
+
+    /// The same for the cases of [stress], all sweeps in turn; found without its parameters.
+    virtual std::optional<StressCase> find_case(std::size_t index) = 0;
+    virtual void add_case(std::size_t index, const StressCase& result) = 0;
+};
+
+/// How the runs of a study are carried out. Nothing of it changes a result, but a study that is
+/// interrupted lacks some.
+struct Execution {
+    int jobs = 1;                     ///< runs at a time, ≥ 1
+    Progress* progress = nullptr;     ///< null: nobody is told
+    FinishedRuns* finished = nullptr; ///< null: nothing is kept
+
+    void expect(double work) const {
+        if (progress != nullptr)
+            progress->expect(work);
+    }
+    bool advance(double work) const {
+        return progress == nullptr || progress->advance(work);
+    }
+};
+
+/// What a run costs, about, in node-steps of implicit Euler by the direct algorithm.
+double work_of(const Scheme& scheme, const Rung& rung);
+
+} // namespace tvbeam
