@@ -10,6 +10,7 @@
 #include "studies/toml_reader.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <sstream>
 
@@ -192,7 +193,11 @@ Scene read_scene(const std::string& name_or_file, const std::vector<std::string>
         scene.scheme = read_scheme(*std::move(scheme));
 
     auto data = root.table("data");
-    if (!stress_only && root.has("solution") == data.has_value())
+    if (reading.own_problem && (data || root.has("solution")))
+        throw InputError(root.place(data ? "data" : "solution"),
+                         "the program that reads the scene brings its problem with it; remove the "
+                         "scene's");
+    if (!stress_only && !reading.own_problem && root.has("solution") == data.has_value())
         throw InputError(
             root.place(data ? "data" : "solution"),
             data ? "the scene has both a solution and a [data] block; remove one"
@@ -242,9 +247,32 @@ Scene read_scene(const std::string& name_or_file, const std::vector<std::string>
 }
 
 ProblemData problem_of(const Scene& scene, double final_time) {
-    if (const auto* solution = std::get_if<Solution>(&scene.problem))
-        return manufactured_problem(*solution, scene.beam, final_time);
-    return given_problem(std::get<GivenData>(scene.problem), scene.beam, final_time);
+    const auto* solution = std::get_if<Solution>(&scene.problem);
+    if (solution == nullptr)
+        return given_problem(std::get<GivenData>(scene.problem), scene.beam, final_time);
+    if (solution->phases.empty())
+        throw InputError({scene.file}, "the scene has no problem of its own; run it on one");
+    return manufactured_problem(*solution, scene.beam, final_time);
+}
+
+void require_runnable(const Scene& scene, const ProblemData& data) {
+    if (!data.exact && !scene.reference && !scene.norms().empty())
+        throw InputError({scene.file},
+                         "the norms ask for errors, but the problem has no exact solution; give it "
+                         "one, or the scene a reference");
+    const auto require_filled = [&](double final_time, const std::vector<Rung>& rungs) {
+        for (const auto& [elements, steps, dt] : rungs)
+            if (elements < 1 || steps < 1 ||
+                !(std::abs(static_cast<double>(steps) * dt - final_time) <= 1e-9 * dt))
+                throw InputError({scene.file},
+                                 "a run has " + std::to_string(elements) + " elements and " +
+                                     std::to_string(steps) + " steps of " + message_text(dt) +
+                                     "; they must fill the final time " + message_text(final_time));
+    };
+    if (scene.ladder)
+        require_filled(scene.ladder->final_time, scene.ladder->rungs);
+    if (scene.orders)
+        require_filled(scene.orders->final_time, scene.orders->grid);
 }
 
 std::vector<Norm> Scene::norms() const {

@@ -76,6 +76,7 @@ struct Scene {
 struct Reading {
     bool short_form = false; ///< with the block [short], whose keys replace those of the same path
     bool expectations = false; ///< with the block [expect]; otherwise it is passed over
+    bool own_problem = false;  ///< without solution and [data]: the caller has the problem
 };
 
 /// Reads a scene: a shipped name or a file, with overrides `key=value` applied in order. Everything
@@ -86,6 +87,11 @@ Scene read_scene(const std::string& name_or_file, const std::vector<std::string>
 /// The problem of a scene up to final_time; throws InputError where its solution or data are not
 /// admissible.
 ProblemData problem_of(const Scene& scene, double final_time);
+
+/// Refuses, for a scene that is run on a problem of the caller's, what a reader would have refused:
+/// throws InputError where norms ask for errors and there is no exact solution, and where the steps
+/// of a rung do not fill the final time.
+void require_runnable(const Scene& scene, const ProblemData& data);
 
 /// What the scene does without, in words, e.g. "contact: the scene has no stops".
 std::vector<std::string> left_out(const Scene& scene, const ProblemData& data);

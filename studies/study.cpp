@@ -63,9 +63,18 @@ double work_of(const Scene& scene) {
     return work;
 }
 
+/// One problem serves all studies: it is admissible up to the longest of their times.
+double longest_time(const Scene& scene) {
+    return std::max({scene.ladder ? scene.ladder->final_time : 0.0,
+                     scene.orders ? scene.orders->final_time : 0.0,
+                     scene.work_precision ? scene.work_precision->final_time : 0.0,
+                     scene.evolution ? scene.evolution->final_time : 0.0});
+}
+
 } // namespace
 
-StudyResult run_study(const Scene& scene, const Execution& execution) {
+StudyResult run_study(const Scene& scene, ProblemData data, const Execution& execution) {
+    require_runnable(scene, data);
     execution.expect(work_of(scene));
     StudyResult result{.scene = scene,
                        .left_out = {},
@@ -79,15 +88,8 @@ StudyResult run_study(const Scene& scene, const Execution& execution) {
         result.stress = run_stress(*scene.stress, execution);
     if (!scene.poses_problem())
         return result;
-    // One problem serves all studies: it is admissible up to the longest of their times.
-    const double final_time =
-        std::max({scene.ladder ? scene.ladder->final_time : 0.0,
-                  scene.orders ? scene.orders->final_time : 0.0,
-                  scene.work_precision ? scene.work_precision->final_time : 0.0,
-                  scene.evolution ? scene.evolution->final_time : 0.0});
-    ProblemData data = problem_of(scene, final_time);
     if (scene.reference && !scene.norms().empty())
-        result.reference = measure_against_reference(scene, final_time, data, execution);
+        result.reference = measure_against_reference(scene, longest_time(scene), data, execution);
     result.left_out = left_out(scene, data);
     if (scene.orders)
         result.orders = run_orders(scene, *scene.orders, data, execution);
@@ -99,6 +101,12 @@ StudyResult run_study(const Scene& scene, const Execution& execution) {
     if (scene.work_precision)
         result.work_precision = run_work_precision(scene, *scene.work_precision, data, execution);
     return result;
+}
+
+StudyResult run_study(const Scene& scene, const Execution& execution) {
+    return run_study(scene,
+                     scene.poses_problem() ? problem_of(scene, longest_time(scene)) : ProblemData{},
+                     execution);
 }
 
 } // namespace tvbeam

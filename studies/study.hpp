@@ -44,4 +44,9 @@ struct StudyResult {
 /// problem is not admissible; nothing has run then.
 StudyResult run_study(const Scene& scene, const Execution& execution = {});
 
+/// The same for a problem of the caller's, as autodiff_problem (mms/autodiff_problem.hpp) makes it,
+/// in place of the scene's own. The scene is read without one (Reading::own_problem), or put
+/// together in code; throws InputError where it then cannot be run (require_runnable).
+StudyResult run_study(const Scene& scene, ProblemData data, const Execution& execution = {});
+
 } // namespace tvbeam
