@@ -1,16 +1,17 @@
 #include "reports/csv_report.hpp"
 
-#include "reports/evolution_section.hpp"
 #include "reports/stress_section.hpp"
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <optional>
 
 namespace tvbeam {
 
 namespace {
 
+/// A field as RFC 4180 has it.
 std::string quoted(const std::string& field) {
     if (field.find_first_of(",\"\n\r") == std::string::npos)
         return field;
@@ -29,6 +30,11 @@ std::string run_fields(const RungResult& run) {
 
 std::string number_field(std::optional<double> value) {
     return value ? fmt::format(",{}", *value) : ",";
+}
+
+/// Empty for what is not finite too.
+std::string finite_field(std::optional<double> value) {
+    return number_field(value && std::isfinite(*value) ? value : std::nullopt);
 }
 
 std::optional<double> error_of(const RungResult& run, std::size_t k) {
@@ -106,18 +112,94 @@ std::string timed_csv(const WorkPrecisionResult& result, const WorkPrecisionBloc
     return text;
 }
 
+/// Every sample: t, the probes, and behind each that has one its exact value.
+std::string evolution_csv(const EvolutionResult& result) {
+    std::string text = "t";
+    for (const auto& probe : result.probes)
+        text += "," + probe.name + (probe.exact.empty() ? "" : "," + probe.name + "_exact");
+    text += "\n";
+    for (std::size_t i = 0; i < result.t.size(); ++i) {
+        text += fmt::format("{}", result.t[i]);
+        for (const auto& probe : result.probes) {
+            text += finite_field(probe.values[i]);
+            if (!probe.exact.empty())
+                text += finite_field(probe.exact[i]);
+        }
+        text += "\n";
+    }
+    return text;
+}
+
+std::string stress_csv(const StressResult& result) {
+    std::string text = "alpha,zeta,dt,elements,steps,g1,g2,load,initial,seed,time,thermal_mass,"
+                       "algorithm,outcome,energy,heat_residual,beam_residual,penetration,"
+                       "wrong_sign,complementarity,path,error,seconds,reason\n";
+    for (const auto& one : result.cases) {
+        const StressParameters& p = one.parameters;
+        text += fmt::format(
+            "{},{},{},{},{},{},{},{},{},{},{},{},{},{}", p.alpha, p.zeta, p.dt, p.elements, p.steps,
+            p.stops.lower, p.stops.upper, p.load, name_of(p.initial), p.seed, p.time,
+            p.thermal_mass == ThermalMass::lumped ? "lumped" : "consistent",
+            p.algorithm == Algorithm::direct ? "direct" : "fixed-point", name_of(one.outcome));
+        const auto check = [&](double StressChecks::*member) {
+            return finite_field(one.checks ? std::optional((*one.checks).*member) : std::nullopt);
+        };
+        text += check(&StressChecks::energy) + check(&StressChecks::heat_residual) +
+                check(&StressChecks::beam_residual) + check(&StressChecks::penetration) +
+                check(&StressChecks::wrong_sign) + check(&StressChecks::complementarity) +
+                finite_field(one.checks ? one.checks->path : std::nullopt) +
+                finite_field(one.checks ? one.checks->error : std::nullopt);
+        text += fmt::format(",{},{}\n", one.seconds, quoted(one.reason));
+    }
+    return text;
+}
+
+std::string contraction_csv(const ContractionMap& map) {
+    std::string text = "alpha,dt,predicted,measured\n";
+    for (Eigen::Index i = 0; i < map.predicted.rows(); ++i)
+        for (Eigen::Index j = 0; j < map.predicted.cols(); ++j)
+            text +=
+                fmt::format("{},{}{}{}\n", map.block.alpha[static_cast<std::size_t>(j)],
+                            map.block.dt[static_cast<std::size_t>(i)],
+                            finite_field(map.predicted(i, j)), finite_field(map.measured(i, j)));
+    return text;
+}
+
+std::string round_off_csv(const RoundOffTable& table) {
+    std::string text = "elements,moment,sine,hermite,hermite_predicted,discretisation_error,"
+                       "remark\n";
+    for (const auto& row : table.rows)
+        text += fmt::format("{}{}{}{}{}{},{}\n", row.elements, finite_field(row.moment),
+                            finite_field(row.sine), finite_field(row.hermite),
+                            finite_field(row.hermite_predicted),
+                            finite_field(row.discretisation_error), quoted(row.remark));
+    return text;
+}
+
 } // namespace
 
-std::string csv_report(const StudyResult& result) {
+std::vector<StudyCsv> study_csvs(const StudyResult& result) {
+    const Scene& scene = result.scene;
+    std::vector<StudyCsv> all;
     if (result.ladder)
-        return ladder_csv(*result.ladder, result.scene.ladder->printed);
+        all.push_back({"ladder", ladder_csv(*result.ladder, scene.ladder->printed)});
     if (result.orders)
-        return grid_csv(*result.orders, result.scene.orders->norms);
+        all.push_back({"orders", grid_csv(*result.orders, scene.orders->norms)});
     if (result.work_precision)
-        return timed_csv(*result.work_precision, *result.scene.work_precision);
+        all.push_back({"work_precision", timed_csv(*result.work_precision, *scene.work_precision)});
     if (result.evolution)
-        return evolution_csv(*result.evolution);
-    return stress_csv(*result.stress);
+        all.push_back({"evolution", evolution_csv(*result.evolution)});
+    if (result.stress && !result.stress->cases.empty())
+        all.push_back({"stress", stress_csv(*result.stress)});
+    if (result.stress && result.stress->contraction)
+        all.push_back({"contraction", contraction_csv(*result.stress->contraction)});
+    if (result.stress && result.stress->roundoff)
+        all.push_back({"roundoff", round_off_csv(*result.stress->roundoff)});
+    return all;
+}
+
+std::string csv_report(const StudyResult& result) {
+    return study_csvs(result).front().text;
 }
 
 } // namespace tvbeam

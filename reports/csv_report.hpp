@@ -3,8 +3,19 @@
 #include "studies/study.hpp"
 
 #include <string>
+#include <vector>
 
 namespace tvbeam {
+
+/// The table of one study as CSV.
+struct StudyCsv {
+    std::string study; ///< the name of its block: "ladder", "orders", "work_precision", "stress";
+                       ///< "contraction" and "roundoff" of [stress]
+    std::string text;
+};
+
+/// Every study's table, as csv_report has the first of them.
+std::vector<StudyCsv> study_csvs(const StudyResult& result);
 
 /// The ladder as CSV (RFC 4180, but with \n), or the grid of a scene that has no ladder: one row a
 /// run, columns elements, h, dt, steps, status, then for each norm its error, and of a ladder also

@@ -3,6 +3,7 @@
 #include "reports/table.hpp"
 
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -50,6 +51,12 @@ struct Document {
     std::vector<std::string> head; ///< what was run, a sentence each
     std::vector<Section> sections; ///< one a study
     std::vector<std::string> left_out;
+    /// Terminals omit these: norms by name, in words; where the result comes from.
+    std::vector<std::pair<std::string, std::string>> norms;
+    std::vector<std::pair<std::string, std::string>> provenance;
 };
+
+/// The findings of all sections, in their order.
+std::vector<Finding> findings_of(const Document& document);
 
 } // namespace tvbeam

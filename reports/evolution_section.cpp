@@ -117,26 +117,6 @@ Section evolution_section(const EvolutionResult& result, const Scene& scene) {
     return section;
 }
 
-std::string evolution_csv(const EvolutionResult& result) {
-    std::string text = "t";
-    for (const auto& probe : result.probes)
-        text += "," + probe.name + (probe.exact.empty() ? "" : "," + probe.name + "_exact");
-    text += "\n";
-    const auto field = [](double value) {
-        return std::isnan(value) ? std::string(",") : fmt::format(",{}", value);
-    };
-    for (std::size_t i = 0; i < result.t.size(); ++i) {
-        text += fmt::format("{}", result.t[i]);
-        for (const auto& probe : result.probes) {
-            text += field(probe.values[i]);
-            if (!probe.exact.empty())
-                text += field(probe.exact[i]);
-        }
-        text += "\n";
-    }
-    return text;
-}
-
 std::string name_of(ContactEvent::Kind kind) {
     return kind == ContactEvent::Kind::onset ? "onset" : "release";
 }

@@ -10,9 +10,6 @@ namespace tvbeam {
 /// What each probe ranged over, the contact events, and what changed from period to period.
 Section evolution_section(const EvolutionResult& result, const Scene& scene);
 
-/// Every sample as a line of CSV: t, the probes, and behind each that has one its exact value.
-std::string evolution_csv(const EvolutionResult& result);
-
 /// "onset", "release"
 std::string name_of(ContactEvent::Kind kind);
 

@@ -1,6 +1,7 @@
 #include "reports/json_report.hpp"
 
 #include "reports/evolution_json.hpp"
+#include "reports/provenance.hpp"
 #include "reports/stress_json.hpp"
 
 #include <nlohmann/json.hpp>
@@ -215,16 +216,20 @@ Json json_of(const WorkPrecisionResult& result, const WorkPrecisionBlock& block)
             {"remarks", std::move(remarks)}};
 }
 
+Json json_of(const Provenance& p) {
+    return {{"version", p.version},    {"commit", p.commit},
+            {"compiler", p.compiler},  {"build_type", p.build_type},
+            {"flags", p.flags},        {"processor", p.processor},
+            {"date", p.date},          {"scene_file", p.scene_file},
+            {"overrides", p.overrides}};
+}
+
 } // namespace
 
 std::string json_report(const StudyResult& result) {
     Json json{{"schema", "tvbeam-result/1"},
               {"scene", Json::parse(result.scene.json)},
-              {"provenance",
-               {{"version", TVBEAM_VERSION},
-                {"compiler", TVBEAM_COMPILER},
-                {"build_type", TVBEAM_BUILD_TYPE},
-                {"scene_file", result.scene.file}}},
+              {"provenance", json_of(provenance_of(result.scene))},
               {"left_out", result.left_out}};
     if (result.reference)
         json["reference"] = json_of(*result.reference, *result.scene.reference);

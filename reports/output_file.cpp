@@ -49,10 +49,11 @@ OutputFile::~OutputFile() {
     }
 }
 
-void OutputFile::commit(const std::string& text) {
-    const auto fail = [&] {
-        throw OutputError("cannot write '" + path_.string() + "': " + reason());
-    };
+void OutputFile::fail() const {
+    throw OutputError("cannot write '" + path_.string() + "': " + reason());
+}
+
+void OutputFile::prepare(const std::string& text) {
     if (descriptor_ < 0) {
         temporary_ = path_.string() + ".XXXXXX";
         descriptor_ = mkstemp(temporary_.data());
@@ -73,10 +74,20 @@ void OutputFile::commit(const std::string& text) {
     umask(mask);
     if (fchmod(descriptor_, 0666 & ~mask) != 0 || fsync(descriptor_) != 0)
         fail();
+}
+
+void OutputFile::publish() {
+    if (temporary_.empty())
+        return;
     if (rename(temporary_.c_str(), path_.c_str()) != 0)
         fail();
     close(descriptor_);
     descriptor_ = -1;
+}
+
+void OutputFile::commit(const std::string& text) {
+    prepare(text);
+    publish();
 }
 
 void write_standard_output(const std::string& text) {

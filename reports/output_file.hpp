@@ -26,11 +26,20 @@ public:
     OutputFile(OutputFile&&) = delete;
     OutputFile& operator=(OutputFile&&) = delete;
 
-    /// Throws OutputError, and leaves an older file of the name as it was, when the text cannot be
-    /// written.
+    /// Brings the text to the disk, not yet under the file's name. Throws OutputError when it
+    /// cannot be written.
+    void prepare(const std::string& text);
+
+    /// Gives what was prepared the file's name.
+    void publish();
+
+    /// Both. Throws OutputError, and leaves an older file of the name as it was, when the text
+    /// cannot be written.
     void commit(const std::string& text);
 
 private:
+    [[noreturn]] void fail() const;
+
     std::filesystem::path path_;
     std::string temporary_;
     int descriptor_ = -1;

@@ -2,12 +2,15 @@
 
 #include "reports/evolution_section.hpp"
 #include "reports/ladder_section.hpp"
+#include "reports/norm_words.hpp"
 #include "reports/number_text.hpp"
 #include "reports/orders_section.hpp"
+#include "reports/provenance.hpp"
 #include "reports/scheme_text.hpp"
 #include "reports/stress_section.hpp"
 #include "reports/work_precision_section.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace tvbeam {
@@ -57,11 +60,40 @@ std::string reference_line(const Scene& scene, const ReferenceResult& result) {
     return line;
 }
 
+using Rows = std::vector<std::pair<std::string, std::string>>;
+
+Rows norms_in_words(const StudyResult& result) {
+    Rows rows;
+    for (const auto& study : result.runs())
+        for (const auto& norm : *study.norms) {
+            const std::pair row{norm.name, norm_words(norm.name)};
+            if (std::find(rows.begin(), rows.end(), row) == rows.end())
+                rows.push_back(row);
+        }
+    return rows;
+}
+
+Rows provenance_rows(const Scene& scene) {
+    const Provenance p = provenance_of(scene);
+    Rows rows{{"version", "tvbeam " + p.version},
+              {"commit", p.commit},
+              {"compiler", p.compiler},
+              {"build", p.build_type},
+              {"flags", p.flags},
+              {"processor", p.processor},
+              {"date", p.date},
+              {"scene", p.scene_file}};
+    for (const auto& assignment : p.overrides)
+        rows.emplace_back("override", "--set " + assignment);
+    return rows;
+}
+
 } // namespace
 
 Document result_document(const StudyResult& result) {
     const Scene& scene = result.scene;
-    Document document{scene.title, {}, {}, result.left_out};
+    Document document{scene.title,           {}, {}, result.left_out, norms_in_words(result),
+                      provenance_rows(scene)};
     // A stress study has problems of its own.
     if (scene.poses_problem())
         document.head.push_back(problem_line(scene));

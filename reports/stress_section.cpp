@@ -306,30 +306,4 @@ std::vector<Section> stress_sections(const StressResult& result) {
     return sections;
 }
 
-std::string stress_csv(const StressResult& result) {
-    std::string text = "alpha,zeta,dt,elements,steps,g1,g2,load,initial,seed,time,thermal_mass,"
-                       "algorithm,outcome,energy,heat_residual,beam_residual,penetration,"
-                       "wrong_sign,complementarity,path,error,seconds,reason\n";
-    for (const auto& one : result.cases) {
-        const StressParameters& p = one.parameters;
-        text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{}", p.alpha, p.zeta, p.dt,
-                            p.elements, p.steps, p.stops.lower, p.stops.upper, p.load,
-                            name_of(p.initial), p.seed, p.time, name_of(p.thermal_mass),
-                            name_of(p.algorithm), tvbeam::name_of(one.outcome));
-        const auto field = [](std::optional<double> value) {
-            return value && std::isfinite(*value) ? fmt::format(",{}", *value) : std::string(",");
-        };
-        const auto check = [&](double StressChecks::*member) {
-            return field(one.checks ? std::optional((*one.checks).*member) : std::nullopt);
-        };
-        text += check(&StressChecks::energy) + check(&StressChecks::heat_residual) +
-                check(&StressChecks::beam_residual) + check(&StressChecks::penetration) +
-                check(&StressChecks::wrong_sign) + check(&StressChecks::complementarity) +
-                field(one.checks ? one.checks->path : std::nullopt) +
-                field(one.checks ? one.checks->error : std::nullopt);
-        text += fmt::format(",{},\"{}\"\n", one.seconds, one.reason);
-    }
-    return text;
-}
-
 } // namespace tvbeam

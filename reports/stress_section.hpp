@@ -12,9 +12,6 @@ namespace tvbeam {
 /// refused or stopped; the contraction map; the round-off table. A section for each that there is.
 std::vector<Section> stress_sections(const StressResult& result);
 
-/// Every case as a line of CSV.
-std::string stress_csv(const StressResult& result);
-
 /// The name of a kind of initial data, as a scene gives it.
 std::string name_of(InitialData initial);
 

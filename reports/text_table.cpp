@@ -46,33 +46,44 @@ std::string line_of(const std::vector<const Table::Group*>& groups, std::size_t 
     return line + "\n";
 }
 
+std::string text_of(const Table& part) {
+    std::vector<const Table::Group*> side_by_side{&part.key};
+    for (const auto& group : part.groups)
+        side_by_side.push_back(&group);
+    std::string headings;
+    for (const auto* group : side_by_side)
+        headings += (headings.empty() ? "" : " ") + padded(group->heading, width_of(*group));
+    headings.erase(headings.find_last_not_of(' ') + 1);
+    std::string text = headings.empty() ? "" : headings + "\n";
+    text += line_of(side_by_side, 0, true);
+    for (std::size_t row = 0; row < part.rows(); ++row)
+        text += line_of(side_by_side, row, false);
+    return text;
+}
+
 } // namespace
 
-std::string text_table(const Table& table, std::size_t width) {
-    std::string result;
+std::vector<Table> parts_of(const Table& table, std::size_t width) {
+    std::vector<Table> parts;
     std::size_t next = 0;
     do {
-        std::vector<const Table::Group*> side_by_side{&table.key};
-        std::size_t used = width_of(table.key);
-        const std::size_t first = next;
+        Table part{table.caption, table.key, {}};
+        std::size_t used = width_of(part.key);
         while (next < table.groups.size() &&
-               (next == first || used + 1 + width_of(table.groups[next]) <= width)) {
+               (part.groups.empty() || used + 1 + width_of(table.groups[next]) <= width)) {
             used += 1 + width_of(table.groups[next]);
-            side_by_side.push_back(&table.groups[next++]);
+            part.groups.push_back(table.groups[next++]);
         }
-        if (!result.empty())
-            result += "\n";
-        std::string headings;
-        for (const auto* group : side_by_side)
-            headings += (headings.empty() ? "" : " ") + padded(group->heading, width_of(*group));
-        headings.erase(headings.find_last_not_of(' ') + 1);
-        if (!headings.empty())
-            result += headings + "\n";
-        result += line_of(side_by_side, 0, true);
-        for (std::size_t row = 0; row < table.rows(); ++row)
-            result += line_of(side_by_side, row, false);
+        parts.push_back(std::move(part));
     } while (next < table.groups.size());
-    return result;
+    return parts;
+}
+
+std::string text_table(const Table& table, std::size_t width) {
+    std::string text;
+    for (const auto& part : parts_of(table, width))
+        text += (text.empty() ? "" : "\n") + text_of(part);
+    return text;
 }
 
 std::string wrapped(const std::string& text, std::size_t indent, std::size_t width) {

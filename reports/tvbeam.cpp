@@ -10,6 +10,7 @@
 #include "reports/json_report.hpp"
 #include "reports/new_solution.hpp"
 #include "reports/output_file.hpp"
+#include "reports/report_directory.hpp"
 #include "reports/solution_report.hpp"
 #include "reports/terminal_report.hpp"
 #include "reports/text_table.hpp"
@@ -42,6 +43,7 @@ struct RunOptions {
     std::vector<std::string> overrides;
     std::string json;
     std::string csv;
+    std::string out;
     int jobs = 1;
 };
 
@@ -83,6 +85,9 @@ int run_command(const RunOptions& options) {
     const Scene scene = read_scene(options.scene, options.overrides);
     Destination json(options.json);
     Destination csv(options.csv);
+    std::optional<ReportDirectory> out;
+    if (!options.out.empty())
+        out.emplace(options.out, scene.report);
     const StudyResult result = run_study(scene, {.jobs = options.jobs});
     if (!json.standard_output() && !csv.standard_output())
         write_standard_output(terminal_report(result));
@@ -90,6 +95,9 @@ int run_command(const RunOptions& options) {
         json.write(json_report(result));
     if (csv.wanted())
         csv.write(csv_report(result));
+    if (out)
+        if (const std::string left_out = out->write(result); !left_out.empty())
+            report_error(left_out);
     if (result.failed()) {
         report_error("a run failed; the result says which and why");
         return run_failed;
@@ -243,6 +251,10 @@ int command_line(int argc, char** argv) {
            "write the ladder as CSV, or the grid, or the timed rows of a scene that has no "
            "other study; -: to standard output, in place of the table")
         ->type_name("FILE|-");
+    run->add_option("--out", options.out,
+                    "write to a directory what the scene's [report] block asks for; without one, "
+                    "JSON, CSV, Markdown, LaTeX and plots")
+        ->type_name("DIR");
     add_jobs(*run, options.jobs);
 
     CheckOptions checks;

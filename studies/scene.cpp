@@ -172,6 +172,8 @@ Scene read_scene(const std::string& name_or_file, const std::vector<std::string>
     Scene scene;
     scene.file = path.string();
     scene.name = path.stem().string();
+    scene.text = document.text;
+    scene.overrides = overrides;
     scene.json = json_of(document.table);
     TableReader root(document, document.table, "");
     scene.title = root.text("title").value_or(scene.name);
@@ -241,6 +243,8 @@ Scene read_scene(const std::string& name_or_file, const std::vector<std::string>
             *std::move(expect), scene.ladder ? &*scene.ladder : nullptr,
             scene.orders ? &*scene.orders : nullptr,
             scene.work_precision ? &*scene.work_precision : nullptr, figured_studies(scene));
+    if (auto report = root.table("report"))
+        scene.report = read_report(*std::move(report));
     root.table("short"); // what it holds is read in the short form
     root.finish();
     return scene;

@@ -9,6 +9,7 @@
 #include "studies/evolution_block.hpp"
 #include "studies/expectation.hpp"
 #include "studies/reference_block.hpp"
+#include "studies/report_block.hpp"
 #include "studies/stress_block.hpp"
 #include "studies/study_keys.hpp"
 #include "studies/work_precision_block.hpp"
@@ -58,6 +59,9 @@ struct Scene {
     std::optional<StressBlock> stress;       ///< brings its own beams, schemes and problems
     std::optional<ReferenceBlock> reference; ///< then errors are measured against it
     std::vector<Expectation> expectations;   ///< empty unless they were asked for
+    ReportBlock report;                      ///< what --out writes
+    std::string text;                        ///< the file as it stands, without overrides
+    std::vector<std::string> overrides;      ///< KEY=VALUE each, in their order
     std::string json;                        ///< the scene with its overrides, as JSON
 
     [[nodiscard]] bool has_exact_solution() const {

@@ -179,6 +179,7 @@ BOOST_AUTO_TEST_CASE(jobs_change_nothing_but_the_seconds) {
             rung.erase("seconds");
         for (auto& run : json.at("orders").at("runs"))
             run.erase("seconds");
+        json.at("provenance").erase("date");
         return json;
     };
     BOOST_TEST(without_seconds("1") == without_seconds("3"));

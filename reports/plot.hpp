@@ -1,0 +1,38 @@
+#pragma once
+
+#include "studies/study.hpp"
+
+#include <string>
+#include <vector>
+
+namespace tvbeam {
+
+/// A figure: a script for gnuplot and the data that it reads. Run where they stand, the script
+/// makes NAME.svg and NAME.png.
+struct Plot {
+    std::string name;    ///< of the files, without ending
+    std::string caption; ///< what it shows, in words
+    std::string script;  ///< NAME.gp
+    std::string data;    ///< NAME.dat: blocks of columns, two blank lines between them
+};
+
+/// Every figure that a result has; each kind is a function in a file of its own.
+std::vector<Plot> plots_of(const StudyResult& result);
+
+/// The ladder's errors against h, or Δt where h stays: measured, fitted with its slope, printed.
+std::vector<Plot> convergence_plots(const StudyResult& result);
+
+/// Each norm of [orders] over the plane of h and Δt: the model's lines of equal error, the line
+/// along which its two terms are equal, and the runs.
+std::vector<Plot> error_surface_plots(const StudyResult& result);
+
+/// Each norm of [work_precision] against run time, a line a scheme.
+std::vector<Plot> run_time_plots(const StudyResult& result);
+
+/// Each probe of [evolution] over time.
+std::vector<Plot> evolution_plots(const StudyResult& result);
+
+/// The outcomes of [stress] over the two parameters that tell most about them.
+std::vector<Plot> stress_plots(const StudyResult& result);
+
+} // namespace tvbeam

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace tvbeam {
+
+/// How one series of a figure is drawn. Series differ in colour, in point and in line, so that they
+/// are told apart by those who see no colours, and in grey.
+struct SeriesStyle {
+    std::string colour; ///< of the palette of Okabe and Ito (2008)
+    int point = 0;      ///< gnuplot's number of a filled point
+    int open_point = 0; ///< the same, not filled
+    int dash = 0;       ///< gnuplot's number of a dash pattern
+};
+
+/// The style of a series by its number; past the last they begin again.
+SeriesStyle series_style(std::size_t series);
+
+/// Text as gnuplot takes it: in single quotes, one line.
+std::string gnuplot_text(const std::string& text);
+
+/// The whole script of a figure: `body` draws it, once for NAME.svg and once for NAME.png. legend:
+/// how many lines its legend has; they stand below the axes, where they cover nothing, and the
+/// picture is made higher by as much.
+std::string plot_script(const std::string& name, std::size_t legend, const std::string& body);
+
+/// Ticks of a logarithmic axis at given values: at most `most` of them, evenly left out.
+struct Tick {
+    double value = 0.0;
+    std::string text;
+};
+std::string ticks_text(const std::vector<Tick>& ticks, std::size_t most);
+
+/// Ticks at mesh widths 1/s, as fractions; and at other values, as short numbers.
+std::vector<Tick> width_ticks(std::vector<double> widths);
+std::vector<Tick> value_ticks(std::vector<double> values);
+
+/// "set xrange [a:b]": all values, and a factor's room on both sides.
+std::string range_text(const char* axis, const std::vector<double>& values, double room);
+
+} // namespace tvbeam

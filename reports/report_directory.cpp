@@ -1,0 +1,118 @@
+#include "reports/report_directory.hpp"
+
+#include "reports/csv_report.hpp"
+#include "reports/gnuplot.hpp"
+#include "reports/json_report.hpp"
+#include "reports/latex_report.hpp"
+#include "reports/markdown_report.hpp"
+#include "reports/plot.hpp"
+#include "reports/result_document.hpp"
+
+#include <list>
+#include <system_error>
+#include <utility>
+
+namespace tvbeam {
+
+namespace {
+
+const char* const json_name = "result.json";
+const char* const markdown_name = "table.md";
+const char* const latex_name = "table.tex";
+const std::filesystem::path plots_name = "plots";
+
+/// The files whose names do not depend on the result.
+std::vector<std::string> fixed_names(const ReportBlock& block) {
+    std::vector<std::string> names;
+    for (const auto& [file, name] : {std::pair{ReportFile::json, json_name},
+                                     {ReportFile::markdown, markdown_name},
+                                     {ReportFile::latex, latex_name}})
+        if (block.wants(file))
+            names.emplace_back(name);
+    return names;
+}
+
+struct NamedText {
+    std::string name; ///< within the directory
+    std::string text;
+};
+
+void add_plots(std::vector<NamedText>& texts, const std::vector<Plot>& plots,
+               const DrawnPlots& drawn) {
+    for (std::size_t i = 0; i < plots.size(); ++i) {
+        const std::string name = plots_name / plots[i].name;
+        texts.push_back({name + ".gp", plots[i].script});
+        texts.push_back({name + ".dat", plots[i].data});
+        if (!drawn.plots[i].svg.empty()) {
+            texts.push_back({name + ".svg", drawn.plots[i].svg});
+            texts.push_back({name + ".png", drawn.plots[i].png});
+        }
+    }
+}
+
+} // namespace
+
+ReportDirectory::ReportDirectory(std::filesystem::path path, const ReportBlock& block)
+    : path_(std::move(path)), block_(block) {
+    make(path_);
+    for (const auto& name : fixed_names(block_))
+        OutputFile{path_ / name};
+    if (block_.wants(ReportFile::plots)) {
+        make(path_ / plots_name);
+        OutputFile{path_ / plots_name / "convergence.svg"};
+    }
+}
+
+ReportDirectory::~ReportDirectory() {
+    std::error_code ignored;
+    for (auto directory = made_.rbegin(); directory != made_.rend(); ++directory)
+        if (std::filesystem::is_empty(*directory, ignored) && !ignored)
+            std::filesystem::remove(*directory, ignored);
+}
+
+void ReportDirectory::make(const std::filesystem::path& directory) {
+    std::error_code error;
+    if (std::filesystem::is_directory(directory, error))
+        return;
+    if (std::filesystem::exists(directory, error))
+        throw OutputError("cannot write to '" + directory.string() +
+                          "': it is not a directory; name one, or one that is to be made");
+    if (directory.has_parent_path())
+        make(directory.parent_path());
+    if (!std::filesystem::create_directory(directory, error) && error)
+        throw OutputError("cannot make the directory '" + directory.string() +
+                          "': " + error.message());
+    made_.push_back(directory);
+}
+
+std::string ReportDirectory::write(const StudyResult& result) {
+    std::vector<NamedText> texts;
+    if (block_.wants(ReportFile::json))
+        texts.push_back({json_name, json_report(result)});
+    if (block_.wants(ReportFile::csv))
+        for (auto& study : study_csvs(result))
+            texts.push_back({study.study + ".csv", std::move(study.text)});
+    const Document document = result_document(result);
+    if (block_.wants(ReportFile::markdown))
+        texts.push_back({markdown_name, markdown_report(document)});
+    if (block_.wants(ReportFile::latex))
+        texts.push_back({latex_name, latex_report(document)});
+    DrawnPlots drawn;
+    if (block_.wants(ReportFile::plots)) {
+        const auto plots = plots_of(result);
+        drawn = draw(plots);
+        add_plots(texts, plots, drawn);
+    }
+    std::list<OutputFile> files;
+    for (const auto& [name, text] : texts)
+        files.emplace_back(path_ / name).prepare(text);
+    for (auto& file : files)
+        file.publish();
+    return drawn.failure.empty() ? ""
+                                 : drawn.failure +
+                                       "; the pictures are left out, their scripts "
+                                       "and data are in '" +
+                                       (path_ / plots_name).string() + "'";
+}
+
+} // namespace tvbeam
