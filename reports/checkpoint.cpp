@@ -2,6 +2,7 @@
 
 #include "mms/input_error.hpp"
 #include "reports/output_file.hpp"
+#include "reports/provenance.hpp"
 #include "studies/rung.hpp"
 #include "studies/stress_case.hpp"
 
@@ -125,6 +126,7 @@ Json identity_of(const Scene& scene) {
     Json identity{{"version", TVBEAM_VERSION},
                   {"compiler", TVBEAM_COMPILER},
                   {"build_type", TVBEAM_BUILD_TYPE},
+                  {"commit", provenance_of(scene).commit},
                   {"scene", Json::parse(scene.json)}};
     if (const auto* solution = std::get_if<Solution>(&scene.problem)) {
         Json& text = identity["solution"] = Json::array();
@@ -147,16 +149,19 @@ Checkpoint::Checkpoint(const std::filesystem::path& directory, const Scene& scen
     for (const auto& entry : std::filesystem::directory_iterator(directory))
         if (entry.path().filename().string().starts_with("unfinished.json."))
             std::filesystem::remove(entry.path());
-    if (resume && std::filesystem::exists(file_))
+    if (std::filesystem::exists(file_)) {
+        if (!resume)
+            throw InputError({file_.string()},
+                             "holds results of an attempt that was cut short; go on with it by "
+                             "--resume, or remove the file");
         read(identity);
-    else
-        std::filesystem::remove(file_);
+    }
     if (content_.is_null())
         content_ = {{"schema", "tvbeam-unfinished/1"}, {"of", std::move(identity)}};
 }
 
 void Checkpoint::read(const Json& identity) {
-    const std::string advice = "; take --resume away to begin anew";
+    const std::string advice = "; remove the file to begin anew";
     try {
         content_ = Json::parse(std::ifstream(file_));
         if (content_.at("of") != identity)

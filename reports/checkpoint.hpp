@@ -16,9 +16,10 @@ namespace tvbeam {
 /// were, to the last bit. The file is replaced as a whole, at most twice a second.
 class Checkpoint final : public FinishedRuns {
 public:
-    /// resume: with the results of an earlier attempt, if there is one. Throws InputError where the
-    /// file cannot be read, or is of another scene or another build of the program, whose results
-    /// would not be the same; OutputError where nothing can be written.
+    /// resume: with the results of an earlier attempt, if there is one. Throws InputError where
+    /// there is one and it is not wanted; where the file cannot be read, or is of another scene or
+    /// another build of the program, whose results would not be the same. Throws OutputError where
+    /// nothing can be written.
     Checkpoint(const std::filesystem::path& directory, const Scene& scene, bool resume);
 
     std::optional<RungResult> find(const std::string& study, std::size_t index) override;

@@ -9,7 +9,10 @@ namespace tvbeam {
 
 namespace {
 
+/// Whether a command wants the name of something that there is; `new` wants one that there is not.
 bool takes_a_name(const CLI::App& command) {
+    if (command.get_name() == "new")
+        return false;
     const auto options = command.get_options();
     return std::any_of(options.begin(), options.end(), [](const CLI::Option* option) {
         return option->get_positional() && option->get_name(true) != "file";

@@ -25,7 +25,7 @@ std::string quoted(const std::string& field) {
 std::string run_fields(const RungResult& run) {
     return fmt::format("{},{},{},{},{}", run.rung.elements,
                        1.0 / static_cast<double>(run.rung.elements), run.rung.dt, run.rung.steps,
-                       run.status == RunStatus::ok ? "ok" : "failed");
+                       name_of(run.status));
 }
 
 std::string number_field(std::optional<double> value) {

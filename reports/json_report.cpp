@@ -45,7 +45,7 @@ Json json_of(const RungResult& rung) {
     Json entry{{"elements", rung.rung.elements},
                {"dt", rung.rung.dt},
                {"steps", rung.rung.steps},
-               {"status", rung.status == RunStatus::ok ? "ok" : "failed"}};
+               {"status", name_of(rung.status)}};
     if (!rung.reason.empty())
         entry["reason"] = rung.reason;
     entry["seconds"] = rung.seconds;

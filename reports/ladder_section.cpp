@@ -31,7 +31,7 @@ Table::Group norm_group(const LadderResult& ladder, const LadderBlock& block, st
     const std::string& name = ladder.norms[k].norm.name;
     Table::Group group{name, {}};
     group.columns.push_back(column(ladder, "error", [&](std::size_t i) {
-        return error(i) ? scientific(error(i), 4) : std::string("failed");
+        return error(i) ? scientific(error(i), 4) : name_of(ladder.rungs[i].status);
     }));
     if (block.printed) {
         if (const auto found = block.printed->figures.find(name);
@@ -96,8 +96,8 @@ Section ladder_section(const LadderResult& ladder, const LadderBlock& block, con
                       "; ratio: error / printed; ord.: observed order"});
     for (const auto& rung : ladder.rungs)
         if (rung.status != RunStatus::ok)
-            add(Finding{fmt::format("s = {}, dt = {} failed: {}", rung.rung.elements,
-                                    shortest(rung.rung.dt), rung.reason)});
+            add(Finding{fmt::format("s = {}, dt = {} {}: {}", rung.rung.elements,
+                                    shortest(rung.rung.dt), name_of(rung.status), rung.reason)});
     if (!ladder.reference_remark.empty())
         add(Finding{ladder.reference_remark});
     for (const auto& norm : ladder.norms)

@@ -5,11 +5,14 @@
 #include "reports/analysis_report.hpp"
 #include "reports/baseline.hpp"
 #include "reports/check_report.hpp"
+#include "reports/checkpoint.hpp"
+#include "reports/completion.hpp"
 #include "reports/csv_report.hpp"
 #include "reports/formula_report.hpp"
 #include "reports/json_report.hpp"
 #include "reports/new_solution.hpp"
 #include "reports/output_file.hpp"
+#include "reports/progress_line.hpp"
 #include "reports/report_directory.hpp"
 #include "reports/solution_report.hpp"
 #include "reports/terminal_report.hpp"
@@ -26,11 +29,14 @@
 #include <chrono>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
+
+#include <unistd.h>
 
 namespace {
 
@@ -44,6 +50,8 @@ struct RunOptions {
     std::string json;
     std::string csv;
     std::string out;
+    bool resume = false;
+    bool quiet = false;
     int jobs = 1;
 };
 
@@ -81,6 +89,12 @@ bool same_place(const std::string& first, const std::string& second) {
                                   std::filesystem::weakly_canonical(second, error);
 }
 
+StudyResult run_shown(const Scene& scene, bool quiet, int jobs, std::optional<Checkpoint>& kept) {
+    ProgressLine progress(!quiet);
+    return run_study(scene,
+                     {.jobs = jobs, .progress = &progress, .finished = kept ? &*kept : nullptr});
+}
+
 int run_command(const RunOptions& options) {
     const Scene scene = read_scene(options.scene, options.overrides);
     Destination json(options.json);
@@ -88,8 +102,13 @@ int run_command(const RunOptions& options) {
     std::optional<ReportDirectory> out;
     if (!options.out.empty())
         out.emplace(options.out, scene.report);
-    const StudyResult result = run_study(scene, {.jobs = options.jobs});
-    if (!json.standard_output() && !csv.standard_output())
+    std::optional<Checkpoint> kept;
+    if (out)
+        kept.emplace(options.out, scene, options.resume);
+    const StudyResult result = run_shown(scene, options.quiet, options.jobs, kept);
+    if (kept && result.interrupted())
+        kept->write();
+    if (!options.quiet && !json.standard_output() && !csv.standard_output())
         write_standard_output(terminal_report(result));
     if (json.wanted())
         json.write(json_report(result));
@@ -98,6 +117,13 @@ int run_command(const RunOptions& options) {
     if (out)
         if (const std::string left_out = out->write(result); !left_out.empty())
             report_error(left_out);
+    if (kept && !result.interrupted())
+        kept->remove();
+    if (result.interrupted()) {
+        report_error(std::string("interrupted; the result holds what was finished") +
+                     (out ? ", and --resume goes on from there" : ""));
+        return run_failed;
+    }
     if (result.failed()) {
         report_error("a run failed; the result says which and why");
         return run_failed;
@@ -113,8 +139,15 @@ struct CheckOptions {
     std::string record;
     std::string baseline;
     double tolerance = 1e-6;
+    bool quiet = false;
     int jobs = 1;
 };
+
+/// Colour on a terminal, unless NO_COLOR is set (https://no-color.org).
+bool coloured() {
+    const char* no_color = std::getenv("NO_COLOR");
+    return isatty(STDOUT_FILENO) == 1 && (no_color == nullptr || *no_color == '\0');
+}
 
 /// The first run of a result that failed, in words; empty when none did.
 std::string first_failure(const StudyResult& result) {
@@ -153,7 +186,8 @@ int check_command(const CheckOptions& options) {
     std::vector<CheckedScene> checked;
     for (const auto& scene : scenes) {
         const auto start = std::chrono::steady_clock::now();
-        results.push_back(run_study(scene, {.jobs = options.jobs}));
+        std::optional<Checkpoint> none;
+        results.push_back(run_shown(scene, options.quiet, options.jobs, none));
         const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
         checked.push_back(
             {scene.name, elapsed.count(), first_failure(results.back()), check(results.back())});
@@ -162,8 +196,13 @@ int check_command(const CheckOptions& options) {
             checked.back().expectations.insert(checked.back().expectations.end(), more.begin(),
                                                more.end());
         }
-        if (!junit.standard_output() && !record.standard_output())
-            write_standard_output(check_report(checked.back()));
+        if (!junit.standard_output() && !record.standard_output() &&
+            !(options.quiet && checked.back().passed()))
+            write_standard_output(check_report(checked.back(), coloured()));
+        if (results.back().interrupted()) {
+            report_error("interrupted in " + scene.name);
+            return run_failed;
+        }
     }
     if (junit.wanted())
         junit.write(junit_report(checked));
@@ -196,6 +235,15 @@ int new_command(const std::string& name) {
     write_standard_output("wrote " + files[0].name + " (the solution) and " + files[1].name +
                           " (the scene); now\n  tvbeam run " + files[1].name +
                           "\n  tvbeam derive " + files[0].name + "\n");
+    return done;
+}
+
+int names_command() {
+    std::string text;
+    for (const auto kind : {Shipped::scene, Shipped::solution})
+        for (const auto& file : shipped_files(kind))
+            text += file.name + "\n";
+    write_standard_output(text);
     return done;
 }
 
@@ -255,6 +303,11 @@ int command_line(int argc, char** argv) {
                     "write to a directory what the scene's [report] block asks for; without one, "
                     "JSON, CSV, Markdown, LaTeX and plots")
         ->type_name("DIR");
+    run->add_flag("--resume", options.resume,
+                  "go on with an attempt that was cut short, whose finished runs are in the "
+                  "directory of --out")
+        ->needs("--out");
+    run->add_flag("--quiet", options.quiet, "no table, and no progress line");
     add_jobs(*run, options.jobs);
 
     CheckOptions checks;
@@ -277,6 +330,7 @@ int command_line(int argc, char** argv) {
     check->add_option("--tolerance", checks.tolerance, "relative, both sides, for --baseline")
         ->check(CLI::PositiveNumber)
         ->capture_default_str();
+    check->add_flag("--quiet", checks.quiet, "only the scenes that fail, and no progress line");
     add_jobs(*check, checks.jobs);
 
     std::string csv;
@@ -307,6 +361,13 @@ int command_line(int argc, char** argv) {
 
     auto* list =
         app.add_subcommand("list", "List the shipped scenes and solutions.\nExample: tvbeam list");
+    bool names = false;
+    list->add_flag("--names", names, "the names alone, one a line");
+
+    auto* completion = app.add_subcommand(
+        "completion", "Print a script by which bash (and zsh, after bashcompinit) completes "
+                      "commands, options and names.\n"
+                      "Example: source <(tvbeam completion)");
 
     try {
         app.parse(argc, argv);
@@ -331,7 +392,11 @@ int command_line(int argc, char** argv) {
         return derive_command(name, latex);
     if (*make)
         return new_command(new_name);
-    return *list ? list_command() : bad_input;
+    if (*completion) {
+        write_standard_output(completion_script(app));
+        return done;
+    }
+    return names ? names_command() : list_command();
 }
 
 } // namespace

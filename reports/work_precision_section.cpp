@@ -91,7 +91,8 @@ std::vector<Block> rows_blocks(const SchemeRuns& scheme, const TimedScheme& time
     for (std::size_t k = 0; k < norms.size(); ++k)
         groups.push_back({norms[k].name, {column(scheme, "error", [&](std::size_t i) {
                               const auto& errors = scheme.runs[i].errors;
-                              return errors.empty() ? "failed" : scientific(errors[k], 4);
+                              return errors.empty() ? name_of(scheme.runs[i].status)
+                                                    : scientific(errors[k], 4);
                           })}});
     groups.push_back(time_group(scheme, block));
     for (auto& group : counter_groups(scheme, timed.scheme.algorithm))

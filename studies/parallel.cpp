@@ -18,7 +18,8 @@ std::vector<std::size_t> longest_first(const std::vector<double>& costs) {
 
 void for_each_longest_first(const std::vector<double>& costs, int jobs,
                             const std::function<void(std::size_t)>& work) {
-    const auto order = longest_first(costs);
+    const auto order =
+        longest_first(jobs > 1 ? costs : std::vector<double>(costs.size(), 1.0)); // stable
     std::vector<std::exception_ptr> thrown(order.size());
     std::atomic<std::size_t> next = 0;
     std::atomic<bool> stop = false;

@@ -1,5 +1,6 @@
 // The program as its users call it: exit codes, one message, nothing half written.
 
+#include "tests/called_program.hpp"
 #include "tests/temporary_directory.hpp"
 
 #include <boost/test/unit_test.hpp>
@@ -14,40 +15,9 @@
 #include <limits>
 #include <sstream>
 
-#include <sys/wait.h>
-
 using namespace tvbeam;
 
 namespace {
-
-struct Called {
-    int exit = -1;
-    std::string output; ///< standard output
-    std::string errors; ///< standard error
-};
-
-/// Calls tvbeam with arguments as a shell reads them, after what `first` does.
-Called call(const TemporaryDirectory& directory, const std::string& arguments,
-            const std::string& first = "") {
-    const std::string errors = (directory.path() / "stderr").string();
-    const std::string command =
-        first + std::string(TVBEAM_BINARY) + " " + arguments + " 2>" + errors;
-    Called called;
-    FILE* pipe = popen(command.c_str(), "r");
-    BOOST_REQUIRE(pipe != nullptr);
-    std::array<char, 4096> buffer{};
-    for (std::size_t count = 0; (count = std::fread(buffer.data(), 1, buffer.size(), pipe)) > 0;)
-        called.output.append(buffer.data(), count);
-    const int status = pclose(pipe);
-    called.exit = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-    called.errors = directory.read("stderr");
-    std::filesystem::remove(errors);
-    return called;
-}
-
-bool has(const std::string& text, const std::string& part) {
-    return text.find(part) != std::string::npos;
-}
 
 const std::string small = "run table1 --set 'ladder.elements=[4,8]' --set ladder.dt=0.1 --set "
                           "'ladder.dt=[0.1,0.05]' --set 'ladder.printed={}'";

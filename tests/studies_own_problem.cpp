@@ -92,7 +92,7 @@ BOOST_AUTO_TEST_SUITE(own_problem)
 BOOST_AUTO_TEST_CASE(every_study_of_it_is_that_of_the_same_solution_as_text) {
     const Scene scene = own_scene(beam + studies);
     const ProblemData data = autodiff_problem(OwnSolution{0.1}, scene.beam, 1.0);
-    const StudyResult own = run_study(scene, data, 2);
+    const StudyResult own = run_study(scene, data, {.jobs = 2});
     const StudyResult shared =
         run_study(own_scene("solution = \"./text.toml\"\n" + beam + studies, false));
     for (std::size_t k = 0; k < 2; ++k)
