@@ -149,7 +149,7 @@ private:
         std::string name = norm_words(norm.norm.name);
         if (lines_[k])
             name += ": slope " + fixed(lines_[k]->fit.p, 2);
-        add_legend(fmt::format("linespoints lc rgb '{}' pt {} ps 1.1 dt {} lw 1.6 title {}",
+        add_legend(fmt::format("linespoints lc rgb '{}' pt {} ps 0.9 dt {} lw 1.6 title {}",
                                style.colour, style.point, style.dash, gnuplot_text(name)));
     }
 
@@ -177,7 +177,7 @@ private:
                                   block, x));
             predicted_ = true;
         }
-        add_curve(fmt::format("data index {} using {}:3 with points lc rgb '{}' pt {} ps 1.1 "
+        add_curve(fmt::format("data index {} using {}:3 with points lc rgb '{}' pt {} ps 0.9 "
                               "notitle",
                               block, x, style.colour, style.point));
         if (figures != nullptr) {
@@ -242,7 +242,7 @@ private:
 
     void add_legend_of_marks() {
         if (has_printed_)
-            add_legend("points lc rgb '#000000' pt 4 ps 1.9 lw 1.3 title " +
+            add_legend("points lc rgb '#000000' pt 4 ps 1.5 lw 1.3 title " +
                        gnuplot_text("printed in " + block_.printed->source));
         if (predicted_)
             add_legend("lines lc rgb '#000000' dt 3 lw 1.2 title 'predicted by the two-term model "

@@ -231,7 +231,7 @@ private:
         for (const double h : {box_.least.h, box_.greatest.h})
             rows += fmt::format("{} {}\n", h, std::pow(model.spatial(h) / model.b, 1.0 / model.q));
         add_curve(fmt::format("data index {} using 1:2 with lines lc rgb '#D55E00' dt 2 lw 2.2 "
-                              "title 'balance: space error a h^p = time error b Δt^q'",
+                              "title 'balance of space error and time error'",
                               blocks_));
         add_block("balance a h^p = b dt^q: h, dt", rows);
         ++legend_;

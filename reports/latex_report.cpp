@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <map>
+#include <regex>
 
 namespace tvbeam {
 
@@ -116,8 +117,9 @@ std::string power_of_ten(const WrittenNumber& number) {
     return number.exponent.empty() ? "" : fmt::format("\\times10^{{{}}}", number.exponent);
 }
 
-/// A sentence, its numbers with an exponent as mathematics.
+/// A sentence, its numbers with an exponent as mathematics, and what stands behind a ^ raised.
 std::string latex_sentence(const std::string& text) {
+    static const std::regex raised("\\\\textasciicircum\\{\\}([0-9A-Za-z]+)");
     std::string latex;
     for (const auto& piece : pieces_of(text)) {
         if (const auto& number = piece.number)
@@ -125,7 +127,7 @@ std::string latex_sentence(const std::string& text) {
                      (number->fraction.empty() ? "" : "." + number->fraction) +
                      power_of_ten(*number) + "$";
         else
-            latex += latex_text(piece.text);
+            latex += std::regex_replace(latex_text(piece.text), raised, "$$^{$1}$$");
     }
     return latex;
 }

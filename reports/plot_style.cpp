@@ -12,9 +12,9 @@ namespace tvbeam {
 
 namespace {
 
-constexpr int plot_width = 640;
-constexpr int axes_height = 390;
-constexpr int x_axis = 92; ///< its ticks and title, below the axes
+constexpr int plot_width = 540;
+constexpr int axes_height = 350;
+constexpr int x_axis = 84; ///< its ticks and title, below the axes
 constexpr int legend_line = 22;
 
 std::vector<double> sorted(std::vector<double> values) {

@@ -2,10 +2,12 @@
 
 #include "reports/csv_report.hpp"
 #include "reports/gnuplot.hpp"
+#include "reports/html_report.hpp"
 #include "reports/json_report.hpp"
 #include "reports/latex_report.hpp"
 #include "reports/markdown_report.hpp"
 #include "reports/plot.hpp"
+#include "reports/problem_formulas.hpp"
 #include "reports/result_document.hpp"
 
 #include <list>
@@ -18,6 +20,7 @@ namespace {
 
 const char* const json_name = "result.json";
 const char* const markdown_name = "table.md";
+const char* const html_name = "report.html";
 const char* const latex_name = "table.tex";
 const std::filesystem::path plots_name = "plots";
 
@@ -26,7 +29,8 @@ std::vector<std::string> fixed_names(const ReportBlock& block) {
     std::vector<std::string> names;
     for (const auto& [file, name] : {std::pair{ReportFile::json, json_name},
                                      {ReportFile::markdown, markdown_name},
-                                     {ReportFile::latex, latex_name}})
+                                     {ReportFile::latex, latex_name},
+                                     {ReportFile::html, html_name}})
         if (block.wants(file))
             names.emplace_back(name);
     return names;
@@ -48,6 +52,26 @@ void add_plots(std::vector<NamedText>& texts, const std::vector<Plot>& plots,
             texts.push_back({name + ".png", drawn.plots[i].png});
         }
     }
+}
+
+std::string without_pictures(const DrawnPlots& drawn) {
+    return drawn.failure.empty() ? "" : drawn.failure + ": pictures are left out";
+}
+
+HtmlContents html_contents(const StudyResult& result, const Document& document,
+                           const std::vector<Plot>& plots, const DrawnPlots& drawn) {
+    HtmlContents contents{.document = document,
+                          .failed = result.failed(),
+                          .formulas = {},
+                          .figures = {},
+                          .no_figures = without_pictures(drawn),
+                          .scene_text = result.scene.text};
+    // A stress study has problems of its own.
+    if (!result.runs().empty())
+        contents.formulas = problem_formulas(result.scene);
+    for (std::size_t i = 0; i < plots.size(); ++i)
+        contents.figures.push_back({plots[i].name, plots[i].caption, drawn.plots[i].svg});
+    return contents;
 }
 
 } // namespace
@@ -98,11 +122,15 @@ std::string ReportDirectory::write(const StudyResult& result) {
     if (block_.wants(ReportFile::latex))
         texts.push_back({latex_name, latex_report(document)});
     DrawnPlots drawn;
-    if (block_.wants(ReportFile::plots)) {
-        const auto plots = plots_of(result);
+    const auto plots = (block_.wants(ReportFile::plots) || block_.wants(ReportFile::html))
+                           ? plots_of(result)
+                           : std::vector<Plot>();
+    if (!plots.empty())
         drawn = draw(plots);
+    if (block_.wants(ReportFile::plots))
         add_plots(texts, plots, drawn);
-    }
+    if (block_.wants(ReportFile::html))
+        texts.push_back({html_name, html_report(html_contents(result, document, plots, drawn))});
     std::list<OutputFile> files;
     for (const auto& [name, text] : texts)
         files.emplace_back(path_ / name).prepare(text);

@@ -16,6 +16,7 @@ namespace tvbeam {
 ///     markdown    table.md
 ///     latex       table.tex
 ///     plots       plots/NAME.gp, .dat, .svg, .png for each figure; without gnuplot the first two
+///     html        report.html
 ///
 /// Each appears whole or not at all, and none of them before all could be brought to the disk. A
 /// file of an earlier result is replaced; files that are not asked for are left alone.

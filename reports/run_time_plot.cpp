@@ -35,7 +35,7 @@ std::vector<Plot> plot_of(const WorkPrecisionResult& result, const WorkPrecision
             continue;
         const SeriesStyle style = series_style(j);
         curves += fmt::format(
-            "{}data index {} using 1:2:3:4 with xerrorlines lc rgb '{}' pt {} ps 1.1 dt {} lw 1.6 "
+            "{}data index {} using 1:2:3:4 with xerrorlines lc rgb '{}' pt {} ps 0.9 dt {} lw 1.6 "
             "title {}",
             drawn == 0 ? "" : ", \\\n     ", drawn, style.colour, style.point, style.dash,
             gnuplot_text(block.schemes[j].name));

@@ -301,7 +301,7 @@ int command_line(int argc, char** argv) {
         ->type_name("FILE|-");
     run->add_option("--out", options.out,
                     "write to a directory what the scene's [report] block asks for; without one, "
-                    "JSON, CSV, Markdown, LaTeX and plots")
+                    "JSON, CSV, Markdown, LaTeX, plots and a page of HTML")
         ->type_name("DIR");
     run->add_flag("--resume", options.resume,
                   "go on with an attempt that was cut short, whose finished runs are in the "
