@@ -14,9 +14,9 @@
 
 namespace tvbeam {
 
-/// A number that carries the derivatives of a function of x and t up to ∂_x^orders ∂_t. It takes
-/// part in arithmetic, in comparisons (by value) and in exp, sin, sqrt and so on, found by argument
-/// as in exp(t). Of Boost.Math.
+/// A number that carries the derivatives of a function of x and t up to ∂_x^orders ∂_t; at(i, j) is
+/// ∂_x^i ∂_t^j over i! j!. It takes part in arithmetic, in comparisons (by value) and in exp, sin,
+/// sqrt and so on, found by argument as in exp(t). Of Boost.Math.
 template <std::size_t orders>
 using Jet = boost::math::differentiation::promote<
     std::tuple_element_t<0, decltype(boost::math::differentiation::make_ftuple<double, orders, 1>(
@@ -55,27 +55,26 @@ ProblemData autodiff_problem(ExactSolution solution, const Beam& beam, double fi
     differentiated.theta = [exact](double x, double t) -> TemperatureAt {
         const auto theta = jet_of<2>(
             [&](const auto& at, const auto& when) { return exact->theta(at, when); }, x, t);
-        return {theta.derivative(0, 0), theta.derivative(1, 0), theta.derivative(2, 0),
-                theta.derivative(0, 1)};
+        return {theta.at(0, 0), theta.at(1, 0), 2.0 * theta.at(2, 0), theta.at(0, 1)};
     };
     differentiated.u = [exact](double x, double t) -> DeflectionAt {
         const auto u =
             jet_of<3>([&](const auto& at, const auto& when) { return exact->u(at, when); }, x, t);
-        return {u.derivative(0, 0), u.derivative(1, 0), u.derivative(2, 0),
-                u.derivative(3, 0), u.derivative(2, 1), u.derivative(3, 1)};
+        return {u.at(0, 0),       u.at(1, 0),       2.0 * u.at(2, 0),
+                6.0 * u.at(3, 0), 2.0 * u.at(2, 1), 6.0 * u.at(3, 1)};
     };
     using J = Jet<2>;
     if constexpr (requires(const J& x, const J& t) { exact->sigma(x, t); })
         differentiated.sigma = [exact](double x, double t) -> StressAt {
             const auto sigma = jet_of<2>(
                 [&](const auto& at, const auto& when) { return exact->sigma(at, when); }, x, t);
-            return {sigma.derivative(0, 0), sigma.derivative(1, 0)};
+            return {sigma.at(0, 0), sigma.at(1, 0)};
         };
     else if constexpr (requires(const J& t) { exact->sigma(t); })
         differentiated.sigma = [exact](double /*x*/, double t) -> StressAt {
             const auto sigma = jet_of<2>(
                 [&](const auto& /*at*/, const auto& when) { return exact->sigma(when); }, 1.0, t);
-            return {sigma.derivative(0, 0), 0.0};
+            return {sigma.at(0, 0), 0.0};
         };
     return differentiated_problem(differentiated, beam, final_time);
 }

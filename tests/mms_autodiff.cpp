@@ -306,12 +306,12 @@ BOOST_AUTO_TEST_CASE(a_jump_between_phases_is_found_with_its_time) {
         return x * x * (t <= std::sqrt(2.0) ? t : t + 1e-3) / 100.0;
     };
     contains(refusal({"mine", sine, late, none}),
-             {"mine: (3): u jumps by 1e-05 at t = 1.41421, x = 1; it must be continuous"});
+             {"mine: (3): u_xx jumps by 2e-05 at t = 1.41421, x = ", "it must be continuous"});
     const auto falling = [](const auto& x, const auto& t) {
         return sin(pi * x) * (t <= 0.123 ? 1.0 + t : 1.2 - t);
     };
     contains(refusal({"mine", falling, small, none}),
-             {"mine: (1): theta jumps by -0.046 at t = 0.123, x = 0.5"});
+             {"mine: (1): theta jumps by -0.04", "at t = 0.123, x = 0.54"});
     // A kink and a layer in time, be it thin, are no jumps.
     const auto kinked = [](const auto& x, const auto& t) {
         return x * x * (t <= 1.0 ? t : 2.0 - t) / 100.0;
