@@ -223,10 +223,10 @@ private:
         add_block(ladder_.norms[k].norm.name + ": the triangle of its slope",
                   fmt::format("{0} {2}\n{4} {5}\n{1} {3}\n{0} {2}\n", left, right, low, high,
                               above ? left : right, above ? high : low));
-        labels_ += fmt::format("set label '{}' at {},{} {} front font ',14'\n",
+        labels_ += fmt::format("set label '{}' at {},{} {} front font ',16'\n",
                                fixed(line.fit.p, 2), above ? left : right, std::sqrt(low * high),
                                above ? "right offset -0.5,0" : "left offset 0.5,0");
-        labels_ += fmt::format("set label '1' at {},{} center offset 0,{} front font ',14'\n",
+        labels_ += fmt::format("set label '1' at {},{} center offset 0,{} front font ',16'\n",
                                middle, above ? high : low, above ? 0.6 : -0.7);
     }
 

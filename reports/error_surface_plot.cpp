@@ -221,7 +221,7 @@ private:
         constexpr double room = 0.03;
         if (best > room)
             labels_ += fmt::format("set label '{}' at {:.6g},{:.6g} center boxed front font "
-                                   "',13'\n",
+                                   "',15'\n",
                                    shortest(level), labelled.h, labelled.dt);
     }
 
@@ -273,7 +273,7 @@ private:
     void add_errors_as_labels() {
         for (std::size_t i = 0; i < orders_.runs.size(); ++i) {
             const auto& errors = orders_.runs[i].errors;
-            labels_ += fmt::format("set label '{}' at {},{} center offset 0,0.8 front font ',11'\n",
+            labels_ += fmt::format("set label '{}' at {},{} center offset 0,0.8 front font ',13'\n",
                                    errors.empty() ? "failed" : scientific(errors[k_], 1), box_.h[i],
                                    box_.dt[i]);
         }

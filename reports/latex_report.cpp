@@ -43,7 +43,7 @@ const std::map<std::string, std::string>& commands() {
         {"<", "$<$"},
         {">", "$>$"},
         {"|", "$|$"},
-        {"\"", "\\textquotedbl{}"},
+        {"\"", "{\\ttfamily\\char34}"},
         {"`", "\\textasciigrave{}"},
         {"'", "'"},
         {"-", "{-}"},
