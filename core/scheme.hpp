@@ -3,6 +3,8 @@
 #include "core/linear_elements.hpp"
 #include "core/time_scheme.hpp"
 
+#include <string>
+
 namespace tvbeam {
 
 /// How one step of (24)–(25) is solved.
@@ -16,6 +18,10 @@ enum class Basis {
     automatic, ///< sine coefficients where mesh, data and norms allow, else nodal values
     nodal
 };
+
+/// As scenes have them: "direct", "fixed-point"; "consistent", "lumped".
+std::string name_of(Algorithm algorithm);
+std::string name_of(ThermalMass mass);
 
 /// The discretisation that a run uses, besides mesh and step.
 struct Scheme {

@@ -136,11 +136,10 @@ std::string stress_csv(const StressResult& result) {
                        "wrong_sign,complementarity,path,error,seconds,reason\n";
     for (const auto& one : result.cases) {
         const StressParameters& p = one.parameters;
-        text += fmt::format(
-            "{},{},{},{},{},{},{},{},{},{},{},{},{},{}", p.alpha, p.zeta, p.dt, p.elements, p.steps,
-            p.stops.lower, p.stops.upper, p.load, name_of(p.initial), p.seed, p.time,
-            p.thermal_mass == ThermalMass::lumped ? "lumped" : "consistent",
-            p.algorithm == Algorithm::direct ? "direct" : "fixed-point", name_of(one.outcome));
+        text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{}", p.alpha, p.zeta, p.dt,
+                            p.elements, p.steps, p.stops.lower, p.stops.upper, p.load,
+                            name_of(p.initial), p.seed, p.time, name_of(p.thermal_mass),
+                            name_of(p.algorithm), name_of(one.outcome));
         const auto check = [&](double StressChecks::*member) {
             return finite_field(one.checks ? std::optional((*one.checks).*member) : std::nullopt);
         };

@@ -24,8 +24,7 @@ std::string scheme_text(const Scheme& scheme) {
     std::string line = scheme.algorithm == Algorithm::direct
                            ? "direct algorithm"
                            : "fixed-point algorithm, tolerance " + shortest(scheme.tolerance);
-    return line + ", " + time_scheme_text(scheme.time) + ", " +
-           (scheme.thermal_mass == ThermalMass::lumped ? "lumped" : "consistent") +
+    return line + ", " + time_scheme_text(scheme.time) + ", " + name_of(scheme.thermal_mass) +
            " heat mass matrix";
 }
 

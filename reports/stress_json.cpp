@@ -32,8 +32,8 @@ Json json_of(const StressParameters& p) {
             {"initial", name_of(p.initial)},
             {"seed", p.seed},
             {"time", p.time},
-            {"thermal_mass", p.thermal_mass == ThermalMass::lumped ? "lumped" : "consistent"},
-            {"algorithm", p.algorithm == Algorithm::direct ? "direct" : "fixed-point"}};
+            {"thermal_mass", name_of(p.thermal_mass)},
+            {"algorithm", name_of(p.algorithm)}};
 }
 
 Json json_of(const StressChecks& checks) {

@@ -14,14 +14,6 @@ namespace tvbeam {
 
 namespace {
 
-std::string name_of(ThermalMass mass) {
-    return mass == ThermalMass::lumped ? "lumped" : "consistent";
-}
-
-std::string name_of(Algorithm algorithm) {
-    return algorithm == Algorithm::direct ? "direct" : "fixed-point";
-}
-
 /// The regime of a number by its size: a name that also sorts.
 std::string by_size(double value, double small, double large) {
     if (value == 0.0)

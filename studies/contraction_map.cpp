@@ -24,7 +24,23 @@ double measured_contraction(const Beam& beam, const Mesh& mesh, const Scheme& sc
     return changes.size() < 3 ? std::numeric_limits<double>::quiet_NaN() : changes[2] / changes[1];
 }
 
+constexpr double least_measurable = 1e-6;
+
+/// The ratios that can be measured; a NaN elsewhere, which the extremes of PropagateNumbers pass.
+Eigen::ArrayXXd ratios_of(const ContractionMap& map) {
+    return (map.predicted >= least_measurable)
+        .select(map.measured / map.predicted, std::numeric_limits<double>::quiet_NaN());
+}
+
 } // namespace
+
+double ContractionMap::least_ratio() const {
+    return ratios_of(*this).minCoeff<Eigen::PropagateNumbers>();
+}
+
+double ContractionMap::greatest_ratio() const {
+    return ratios_of(*this).maxCoeff<Eigen::PropagateNumbers>();
+}
 
 ContractionMap measure_contraction(const ContractionBlock& block) {
     const auto rows = static_cast<Eigen::Index>(block.dt.size());

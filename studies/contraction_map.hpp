@@ -14,8 +14,10 @@ struct ContractionMap {
     Eigen::ArrayXXd predicted;
     Eigen::ArrayXXd measured;
 
-    [[nodiscard]] double least_ratio() const { return (measured / predicted).minCoeff(); }
-    [[nodiscard]] double greatest_ratio() const { return (measured / predicted).maxCoeff(); }
+    /// Of measured over predicted, where the third change is not lost in round-off: from
+    /// predicted = 1e-6 on. Not a number where that is nowhere.
+    [[nodiscard]] double least_ratio() const;
+    [[nodiscard]] double greatest_ratio() const;
     [[nodiscard]] Eigen::Index refused() const { return (predicted >= 1.0).count(); }
 };
 

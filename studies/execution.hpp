@@ -49,9 +49,7 @@ struct Execution {
         if (progress != nullptr)
             progress->expect(work);
     }
-    bool advance(double work) const {
-        return progress == nullptr || progress->advance(work);
-    }
+    bool advance(double work) const { return progress == nullptr || progress->advance(work); }
 };
 
 /// What a run costs, about, in node-steps of implicit Euler by the direct algorithm.

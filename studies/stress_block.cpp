@@ -87,7 +87,7 @@ std::vector<double> numbers(TableReader& table, const char* key, double otherwis
         if (!(positive ? values[i] > 0.0 : values[i] >= 0.0))
             throw InputError(
                 table.place(key, i),
-                table.full(key) + " holds " + std::to_string(values[i]) +
+                table.full(key) + " holds " + message_text(values[i]) +
                     (positive ? "; its values must be > 0" : "; its values must be >= 0"));
     return values;
 }
@@ -224,7 +224,7 @@ double single(TableReader& table, const char* key, double otherwise, bool positi
     const double value = table.number(key).value_or(otherwise);
     if (!(positive ? value > 0.0 : value >= 0.0))
         throw InputError(table.place(key),
-                         table.full(key) + " is " + std::to_string(value) +
+                         table.full(key) + " is " + message_text(value) +
                              (positive ? "; it must be > 0" : "; it must be >= 0"));
     return value;
 }

@@ -14,8 +14,7 @@ constexpr std::int64_t most_runs = 10'000;
 constexpr std::size_t longest_name = 28;
 
 std::string default_name(const Scheme& scheme) {
-    return scheme.time.name +
-           (scheme.algorithm == Algorithm::direct ? ", direct" : ", fixed-point") +
+    return scheme.time.name + ", " + name_of(scheme.algorithm) +
            (scheme.thermal_mass == ThermalMass::lumped ? ", lumped" : "");
 }
 

@@ -46,7 +46,7 @@ inline std::vector<Scheme> schemes_of(const std::string& time) {
 }
 
 inline std::ostream& operator<<(std::ostream& stream, ThermalMass mass) {
-    return stream << (mass == ThermalMass::lumped ? "lumped" : "consistent");
+    return stream << name_of(mass);
 }
 
 inline std::ostream& operator<<(std::ostream& stream, Basis basis) {
@@ -55,8 +55,8 @@ inline std::ostream& operator<<(std::ostream& stream, Basis basis) {
 
 /// The name of a scheme in the log of a failing data test.
 inline std::ostream& operator<<(std::ostream& stream, const Scheme& scheme) {
-    return stream << (scheme.algorithm == Algorithm::direct ? "direct" : "fixed point") << ", "
-                  << scheme.time.name << ", " << scheme.thermal_mass << ", " << scheme.basis;
+    return stream << name_of(scheme.algorithm) << ", " << scheme.time.name << ", "
+                  << scheme.thermal_mass << ", " << scheme.basis;
 }
 
 /// A load with amplitude A(t): the heat source f = A(t) φ(x), or the shear load G = A(t), for which

@@ -225,6 +225,7 @@ BOOST_AUTO_TEST_CASE(json_keeps_to_its_schema) {
                      "'ladder.elements=[4,4]' --set 'ladder.dt=[1,1e-4]' --set ladder.printed={}"},
           {"timed", "run table1-work-precision" + timed},
           {"stress", "run stress-contact" + few},
+          {"evolution", "run figure1 --set evolution.every=50"},
           {"map", "run fixed-point-limits --set stress.contraction.elements=4"},
           {"reference", "run figure1-ladder --set reference.elements=16 --set reference.dt=0.01 "
                         "--set ladder.elements=[2,4] --set ladder.dt=[0.1,0.05]"}}) {
