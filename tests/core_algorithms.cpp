@@ -29,15 +29,6 @@ std::vector<std::string> shipped_names() {
     return names;
 }
 
-/// ‖w_1 − w_2‖ of two piecewise linear curvatures.
-double distance(const Mesh& mesh, const DiscontinuousLinear& a, const DiscontinuousLinear& b) {
-    const DiscontinuousLinear d = a - b;
-    return std::sqrt(
-        (mesh.lengths.transpose() * (d.row(0).square() + d.row(0) * d.row(1) + d.row(1).square()))
-            .sum() /
-        3.0);
-}
-
 /// Largest differences of temperature (at nodes) and curvature (L²) over a run.
 struct Difference {
     double temperature = 0.0;

@@ -102,6 +102,16 @@ inline Field unseparated(const Field& field, const ProblemData& problem) {
     return result;
 }
 
+/// ‖w_1 − w_2‖ of two piecewise linear curvatures.
+inline double distance(const Mesh& mesh, const DiscontinuousLinear& a,
+                       const DiscontinuousLinear& b) {
+    const DiscontinuousLinear d = a - b;
+    return std::sqrt(
+        (mesh.lengths.transpose() * (d.row(0).square() + d.row(0) * d.row(1) + d.row(1).square()))
+            .sum() /
+        3.0);
+}
+
 /// Steps a solver of the time scheme given and visits every time level; fails the program's test by
 /// an exception when a step fails.
 inline void march(Solver& solver, const ProblemData& data, const TimeScheme& scheme, double dt,
