@@ -105,6 +105,7 @@ public:
         if (errors_.empty())
             return {};
         const auto [least, greatest] = std::minmax_element(errors_.begin(), errors_.end());
+        extent_ = errors_;
         apart_ = std::pow(*greatest / *least, 0.05) * 1.2;
         for (std::size_t k = 0; k < ladder_.norms.size(); ++k)
             lines_.push_back(line_of(ladder_, k, widths_.abscissa()));
@@ -117,7 +118,7 @@ public:
         const std::string body = fmt::format(
             "set logscale xy\n{}{}set xtics {}\nset format y '10^{{%L}}'\n"
             "set xlabel {} noenhanced\nset ylabel '{}'\n{}plot {}\n",
-            range_text("x", widths_.abscissa(), 1.5), range_text("y", errors_, 2.0 * apart_),
+            range_text("x", widths_.abscissa(), 1.5), range_text("y", extent_, 2.0 * apart_),
             ticks_text(ticks, 6), gnuplot_text(widths_.axis_title()),
             squares ? "squared error" : "error", labels_, curves_);
         return {{"convergence", caption(), plot_script("convergence", legend_, body), data_}};
@@ -223,6 +224,8 @@ private:
         add_block(ladder_.norms[k].norm.name + ": the triangle of its slope",
                   fmt::format("{0} {2}\n{4} {5}\n{1} {3}\n{0} {2}\n", left, right, low, high,
                               above ? left : right, above ? high : low));
+        // The 1 beside the triangle wants room, too.
+        extent_.push_back(above ? high * apart_ : low / apart_);
         labels_ += fmt::format("set label '{}' at {},{} {} front font ',16'\n",
                                fixed(line.fit.p, 2), above ? left : right, std::sqrt(low * high),
                                above ? "right offset -0.5,0" : "left offset 0.5,0");
@@ -262,6 +265,7 @@ private:
     const LadderBlock& block_;
     Widths widths_;
     std::vector<double> errors_;
+    std::vector<double> extent_; ///< what the axis of errors shows
     std::vector<std::optional<FittedLine>> lines_;
     double apart_ = 1.0; ///< how far, as a factor, a triangle lies from its line
     std::string data_;

@@ -2,6 +2,8 @@
 
 #include "mms/derived_formulas.hpp"
 
+#include <fmt/format.h>
+
 namespace tvbeam {
 
 namespace {
@@ -11,10 +13,11 @@ std::vector<Formula> formulas_of(const Solution& solution) {
     std::string begin;
     for (const auto& phase : solution.phases) {
         const std::string end = phase.until ? phase.until->text() : "";
-        const std::string interval = begin.empty() && end.empty() ? ""
-                                     : begin.empty()              ? "t <= " + end
-                                     : end.empty()                ? "t > " + begin
-                                                                  : begin + " < t <= " + end;
+        std::string interval;
+        if (!begin.empty())
+            interval = end.empty() ? "t > " + begin : fmt::format("{} < t <= {}", begin, end);
+        else if (!end.empty())
+            interval = "t <= " + end;
         formulas.push_back({"theta", interval, phase.theta.text()});
         formulas.push_back({"u", interval, phase.u.text()});
         if (phase.sigma)

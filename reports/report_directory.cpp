@@ -11,6 +11,7 @@
 #include "reports/result_document.hpp"
 
 #include <list>
+#include <ranges>
 #include <system_error>
 #include <utility>
 
@@ -89,9 +90,9 @@ ReportDirectory::ReportDirectory(std::filesystem::path path, const ReportBlock& 
 
 ReportDirectory::~ReportDirectory() {
     std::error_code ignored;
-    for (auto directory = made_.rbegin(); directory != made_.rend(); ++directory)
-        if (std::filesystem::is_empty(*directory, ignored) && !ignored)
-            std::filesystem::remove(*directory, ignored);
+    for (const auto& directory : std::ranges::reverse_view(made_))
+        if (std::filesystem::is_empty(directory, ignored) && !ignored)
+            std::filesystem::remove(directory, ignored);
 }
 
 void ReportDirectory::make(const std::filesystem::path& directory) {
