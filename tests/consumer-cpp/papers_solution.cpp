@@ -35,8 +35,9 @@ struct CopettiFernandez {
 } // namespace
 
 int main() {
-    const tvbeam::Scene scene = tvbeam::read_scene(
-        "table1-consistent", {"ladder.elements=[10, 20]", "ladder.dt=[0.05, 0.025]", "ladder.printed={}"});
+    const tvbeam::Scene scene =
+        tvbeam::read_scene("table1-consistent", {"ladder.elements=[10, 20]",
+                                                 "ladder.dt=[0.05, 0.025]", "ladder.printed={}"});
     const auto problem = tvbeam::autodiff_problem(CopettiFernandez{scene.beam.stops.upper},
                                                   scene.beam, scene.ladder->final_time);
     const tvbeam::StudyResult own = tvbeam::run_study(scene, problem);
