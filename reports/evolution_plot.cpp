@@ -31,12 +31,22 @@ std::string file_part(std::string name) {
     return name;
 }
 
+/// What part of the time a figure shows; all of it, or the last two periods.
+struct Window {
+    std::string name; ///< part of the file's
+    std::string words;
+    double begin = 0.0;
+    double end = 0.0;
+};
+
 /// Blocks of columns: t, value; then t, exact value.
-std::string data_of(const EvolutionResult& result, const ProbeHistory& probe) {
+std::string data_of(const EvolutionResult& result, const ProbeHistory& probe,
+                    const Window& window) {
     std::string data = "# t, " + probe.name + "\n";
     const auto add = [&](const std::vector<double>& values) {
         for (std::size_t i = 0; i < values.size(); ++i)
-            if (std::isfinite(values[i]))
+            if (std::isfinite(values[i]) && result.t[i] >= window.begin &&
+                result.t[i] <= window.end)
                 data += fmt::format("{} {}\n", result.t[i], values[i]);
     };
     add(probe.values);
@@ -57,7 +67,19 @@ std::string stop_lines(const Stops& stops) {
     return curves;
 }
 
-Plot plot_of(const EvolutionResult& result, const Scene& scene, std::size_t k) {
+std::vector<Window> windows_of(const EvolutionResult& result, const EvolutionBlock& block) {
+    std::vector<Window> windows{{"", "", 0.0, block.final_time}};
+    if (!result.periods.empty()) {
+        const double period = static_cast<double>(*block.period) * block.rung.dt;
+        const double end = result.periods.back().end;
+        if (end > 2.0 * period * (1.0 + 1e-9))
+            windows.push_back({"_last", ", its last two periods", end - 2.0 * period, end});
+    }
+    return windows;
+}
+
+Plot plot_of(const EvolutionResult& result, const Scene& scene, std::size_t k,
+             const Window& window) {
     const NamedProbe& named = scene.evolution->probes[k];
     const ProbeHistory& probe = result.probes[k];
     const SeriesStyle style = series_style(0);
@@ -78,13 +100,13 @@ Plot plot_of(const EvolutionResult& result, const Scene& scene, std::size_t k) {
         ++legend;
     }
     const std::string words = quantity_words(named);
-    const std::string name = "evolution_" + file_part(named.name);
+    const std::string name = "evolution_" + file_part(named.name) + window.name;
     const std::string body =
-        fmt::format("set xlabel 'time'\nset ylabel {}\nset xrange [0:{}]\nset offsets 0, 0, graph "
+        fmt::format("set xlabel 'time'\nset ylabel {}\nset xrange [{}:{}]\nset offsets 0, 0, graph "
                     "0.05, graph 0.05\nplot {}\n",
-                    gnuplot_text(words), scene.evolution->final_time, curves);
-    return {name, fmt::format("Evolution in time: {}.", words), plot_script(name, legend, body),
-            data_of(result, probe)};
+                    gnuplot_text(words), window.begin, window.end, curves);
+    return {name, fmt::format("Evolution in time: {}{}.", words, window.words),
+            plot_script(name, legend, body), data_of(result, probe, window)};
 }
 
 } // namespace
@@ -93,7 +115,8 @@ std::vector<Plot> evolution_plots(const StudyResult& result) {
     std::vector<Plot> plots;
     if (result.evolution && result.evolution->t.size() > 1)
         for (std::size_t k = 0; k < result.evolution->probes.size(); ++k)
-            plots.push_back(plot_of(*result.evolution, result.scene, k));
+            for (const auto& window : windows_of(*result.evolution, *result.scene.evolution))
+                plots.push_back(plot_of(*result.evolution, result.scene, k, window));
     return plots;
 }
 

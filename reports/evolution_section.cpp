@@ -113,6 +113,10 @@ Section evolution_section(const EvolutionResult& result, const Scene& scene) {
     if (!result.periods.empty()) {
         section.blocks.emplace_back(BlankLine{});
         section.blocks.emplace_back(period_table(result));
+        const auto& last = result.periods.back().changes;
+        section.blocks.emplace_back(Finding{fmt::format(
+            "From the last period but one to the last, no probe changes by more than {}.",
+            scientific(*std::max_element(last.begin(), last.end()), 1))});
     }
     return section;
 }

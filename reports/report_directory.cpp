@@ -68,7 +68,7 @@ HtmlContents html_contents(const StudyResult& result, const Document& document,
                           .no_figures = without_pictures(drawn),
                           .scene_text = result.scene.text};
     // A stress study has problems of its own.
-    if (!result.runs().empty())
+    if (result.scene.poses_problem())
         contents.formulas = problem_formulas(result.scene);
     for (std::size_t i = 0; i < plots.size(); ++i)
         contents.figures.push_back({plots[i].name, plots[i].caption, drawn.plots[i].svg});

@@ -43,6 +43,7 @@ class Axis {
 public:
     Axis(const Parameter& parameter, const std::vector<StressCase>& cases) : name(parameter.name) {
         std::vector<double> values;
+        values.reserve(cases.size());
         for (const auto& one : cases)
             values.push_back(parameter.value(one.parameters));
         for (const double value : values)
