@@ -11,7 +11,6 @@
 #include "reports/result_document.hpp"
 
 #include <list>
-#include <ranges>
 #include <system_error>
 #include <utility>
 
@@ -90,7 +89,7 @@ ReportDirectory::ReportDirectory(std::filesystem::path path, const ReportBlock& 
 
 ReportDirectory::~ReportDirectory() {
     std::error_code ignored;
-    for (const auto& directory : std::ranges::reverse_view(made_))
+    for (const auto& directory : made_)
         if (std::filesystem::is_empty(directory, ignored) && !ignored)
             std::filesystem::remove(directory, ignored);
 }
@@ -107,7 +106,7 @@ void ReportDirectory::make(const std::filesystem::path& directory) {
     if (!std::filesystem::create_directory(directory, error) && error)
         throw OutputError("cannot make the directory '" + directory.string() +
                           "': " + error.message());
-    made_.push_back(directory);
+    made_.insert(made_.begin(), directory);
 }
 
 std::string ReportDirectory::write(const StudyResult& result) {

@@ -41,7 +41,7 @@ private:
 
     std::filesystem::path path_;
     ReportBlock block_;
-    std::vector<std::filesystem::path> made_; ///< outer ones first
+    std::vector<std::filesystem::path> made_; ///< inner ones first
 };
 
 } // namespace tvbeam
