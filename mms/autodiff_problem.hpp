@@ -43,11 +43,12 @@ Jet<orders> jet_of(const Function& g, double x, double t) {
 ///
 /// as functions or as members that hold generic callables. In time it may have phases: it then
 /// branches on t alone, and what holds up to a time holds at it, as in `if (t <= 1.0)`.
+/// Boost.Math's pow has no derivatives where its base is zero: a product has.
 ///
 /// Throws InputError if the solution is not admissible on [0, final_time] (admissibility.hpp).
-template <typename ExactSolution>
-ProblemData autodiff_problem(ExactSolution solution, const Beam& beam, double final_time) {
-    const auto exact = std::make_shared<const ExactSolution>(std::move(solution));
+template <typename CppSolution>
+ProblemData autodiff_problem(CppSolution solution, const Beam& beam, double final_time) {
+    const auto exact = std::make_shared<const CppSolution>(std::move(solution));
     DifferentiatedSolution differentiated;
     differentiated.name = "solution";
     if constexpr (requires { std::string(exact->name); })

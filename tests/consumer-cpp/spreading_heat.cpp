@@ -3,8 +3,7 @@
 
 #include <iostream>
 
-/// Heat spreads from the clamped end; the tip rises to the stop g2, and from t = 1 on presses on
-/// it.
+/// Heat spreads from the clamped end; the tip rises to the stop g2 and from t = 1 on presses on it.
 struct SpreadingHeat {
     double g2;
 
