@@ -77,6 +77,11 @@ ProblemData autodiff_problem(CppSolution solution, const Beam& beam, double fina
                 [&](const auto& /*at*/, const auto& when) { return exact->sigma(when); }, 1.0, t);
             return {sigma.at(0, 0), 0.0};
         };
+    else
+        // One that takes plain numbers alone would be passed over, and the stress be zero.
+        static_assert(
+            !requires { exact->sigma(0.0, 0.0); } && !requires { exact->sigma(0.0); },
+            "sigma must take any type of number, as theta and u do");
     return differentiated_problem(differentiated, beam, final_time);
 }
 

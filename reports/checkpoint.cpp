@@ -128,6 +128,8 @@ Json identity_of(const Scene& scene) {
                   {"build_type", TVBEAM_BUILD_TYPE},
                   {"commit", provenance_of(scene).commit},
                   {"scene", Json::parse(scene.json)}};
+    for (const char* words : {"title", "expect", "report", "short"})
+        identity["scene"].erase(words); // no result depends on them
     if (const auto* solution = std::get_if<Solution>(&scene.problem)) {
         Json& text = identity["solution"] = Json::array();
         for (const auto& parameter : solution->parameters)
@@ -170,8 +172,15 @@ void Checkpoint::read(const Json& identity) {
                              "the two do not fit together" +
                                  advice);
         if (content_.contains("runs"))
-            for (const auto& study : content_.at("runs"))
-                found_ += study.size();
+            for (const auto& [study, entries] : content_.at("runs").items())
+                for (const auto& entry : entries) {
+                    // That it can be read is found out now, not after hours.
+                    if (study == "stress")
+                        stress_case(entry);
+                    else
+                        rung_result(entry);
+                    ++found_;
+                }
     } catch (const nlohmann::json::exception& error) {
         throw InputError({file_.string()},
                          "is not what tvbeam wrote: " + std::string(error.what()) + advice);

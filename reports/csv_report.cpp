@@ -198,7 +198,8 @@ std::vector<StudyCsv> study_csvs(const StudyResult& result) {
 }
 
 std::string csv_report(const StudyResult& result) {
-    return study_csvs(result).front().text;
+    const auto all = study_csvs(result);
+    return all.empty() ? "" : all.front().text; // none of an interrupted study
 }
 
 } // namespace tvbeam

@@ -22,8 +22,8 @@ namespace {
 /// A directory that goes with its object.
 class ScratchDirectory {
 public:
-    ScratchDirectory() {
-        std::string name = (std::filesystem::temp_directory_path() / "tvbeam-XXXXXX").string();
+    explicit ScratchDirectory(const std::filesystem::path& inside) {
+        std::string name = (inside / "tvbeam-XXXXXX").string();
         if (mkdtemp(name.data()) == nullptr)
             throw OutputError("cannot make a directory for plots, '" + name +
                               "': " + std::generic_category().message(errno));
@@ -50,7 +50,7 @@ std::string text_of(const std::filesystem::path& file) {
     return text.str();
 }
 
-/// Runs `gnuplot script` in a directory, what it says going to the file `said`. 0, or the number
+/// Runs `gnuplot -d script` in a directory, what it says going to the file `said`. 0, or the number
 /// of the error that kept it from starting, or −1 where it failed.
 int run_gnuplot(const std::filesystem::path& directory, std::string script,
                 const std::string& said) {
@@ -62,7 +62,8 @@ int run_gnuplot(const std::filesystem::path& directory, std::string script,
                                      O_WRONLY | O_CREAT | O_TRUNC, 0600);
     posix_spawn_file_actions_adddup2(&actions, STDOUT_FILENO, STDERR_FILENO);
     std::string program = "gnuplot";
-    const std::array<char*, 3> arguments{program.data(), script.data(), nullptr};
+    std::string defaults = "-d"; // not what a file of the user's says
+    const std::array<char*, 4> arguments{program.data(), defaults.data(), script.data(), nullptr};
     pid_t process = 0;
     const int error =
         posix_spawnp(&process, "gnuplot", &actions, nullptr, arguments.data(), environ);
@@ -90,7 +91,13 @@ std::string first_words(const std::string& said) {
 
 DrawnPlots draw(const std::vector<Plot>& plots) {
     DrawnPlots drawn{std::vector<DrawnPlot>(plots.size()), {}};
-    const ScratchDirectory scratch;
+    std::error_code error_code;
+    const auto inside = std::filesystem::temp_directory_path(error_code);
+    if (error_code) {
+        drawn.failure = "there is no directory for temporary files: " + error_code.message();
+        return drawn;
+    }
+    const ScratchDirectory scratch(inside);
     for (std::size_t i = 0; i < plots.size() && drawn.failure.empty(); ++i) {
         const Plot& plot = plots[i];
         OutputFile(scratch.path() / (plot.name + ".gp")).commit(plot.script);

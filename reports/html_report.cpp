@@ -235,7 +235,9 @@ std::string verdict_of(const HtmlContents& contents) {
     std::string html =
         contents.failed ? "<section class=\"verdict failed\">\n" : "<section class=\"verdict\">\n";
     html += heading("What it shows");
-    html += contents.failed
+    html += contents.interrupted
+                ? "<p><strong>The study was interrupted; this is what had finished.</strong></p>\n"
+            : contents.failed
                 ? "<p><strong>A run failed; the tables say which and why.</strong></p>\n"
                 : "<p>Every run finished.</p>\n";
     const auto findings = findings_of(contents.document);

@@ -25,6 +25,7 @@ struct Figure {
 struct HtmlContents {
     Document document;
     bool failed = false;           ///< a run did
+    bool interrupted = false;      ///< runs are missing
     std::vector<Formula> formulas; ///< of the problem; empty where each run has one of its own
     std::vector<Figure> figures;
     std::string no_figures; ///< why there are none, or not all; else empty

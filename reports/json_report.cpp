@@ -230,7 +230,8 @@ std::string json_report(const StudyResult& result) {
     Json json{{"schema", "tvbeam-result/1"},
               {"scene", Json::parse(result.scene.json)},
               {"provenance", json_of(provenance_of(result.scene))},
-              {"left_out", result.left_out}};
+              {"left_out", result.left_out},
+              {"interrupted", result.interrupted()}};
     if (result.reference)
         json["reference"] = json_of(*result.reference, *result.scene.reference);
     if (result.orders)

@@ -42,11 +42,10 @@ OutputFile::OutputFile(std::filesystem::path path) : path_(std::move(path)) {
 }
 
 OutputFile::~OutputFile() {
-    if (descriptor_ >= 0) {
+    if (descriptor_ >= 0)
         close(descriptor_);
-        if (!temporary_.empty())
-            unlink(temporary_.c_str());
-    }
+    if (!temporary_.empty())
+        unlink(temporary_.c_str());
 }
 
 void OutputFile::fail() const {
@@ -74,6 +73,9 @@ void OutputFile::prepare(const std::string& text) {
     umask(mask);
     if (fchmod(descriptor_, 0666 & ~mask) != 0 || fsync(descriptor_) != 0)
         fail();
+    // A directory of results has more files than a process may have open.
+    close(descriptor_);
+    descriptor_ = -1;
 }
 
 void OutputFile::publish() {
@@ -81,8 +83,7 @@ void OutputFile::publish() {
         return;
     if (rename(temporary_.c_str(), path_.c_str()) != 0)
         fail();
-    close(descriptor_);
-    descriptor_ = -1;
+    temporary_.clear();
 }
 
 void OutputFile::commit(const std::string& text) {

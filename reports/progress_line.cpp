@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <csignal>
 #include <cstdio>
@@ -17,6 +18,8 @@ constexpr std::chrono::milliseconds before_the_first{1000};
 constexpr std::chrono::milliseconds between{200};
 /// Of the work; below it the pace says little.
 constexpr double telling = 0.01;
+
+constexpr std::array<int, 2> ending_signals{SIGINT, SIGTERM};
 
 std::atomic<bool> asked_to_end = false;
 static_assert(std::atomic<bool>::is_always_lock_free); // so that a signal handler may set it
@@ -39,14 +42,25 @@ std::string duration_text(double seconds) {
     return fmt::format("{} h {} min", whole / hour, whole % hour / minute);
 }
 
-ProgressLine::ProgressLine(bool shown) : shown_(shown && isatty(STDERR_FILENO) == 1) {
-    std::signal(SIGINT, ask_to_end);
-    std::signal(SIGTERM, ask_to_end);
+EndRequests::EndRequests() {
+    for (const int signal : ending_signals)
+        if (std::signal(signal, ask_to_end) == SIG_IGN)
+            std::signal(signal, SIG_IGN);
 }
 
+EndRequests::~EndRequests() {
+    for (const int signal : ending_signals)
+        if (std::signal(signal, SIG_DFL) == SIG_IGN)
+            std::signal(signal, SIG_IGN);
+}
+
+bool EndRequests::made() {
+    return asked_to_end;
+}
+
+ProgressLine::ProgressLine(bool shown) : shown_(shown && isatty(STDERR_FILENO) == 1) {}
+
 ProgressLine::~ProgressLine() {
-    std::signal(SIGINT, SIG_DFL);
-    std::signal(SIGTERM, SIG_DFL);
     if (visible_)
         std::fputs("\r\033[K", stderr);
 }
@@ -62,7 +76,7 @@ bool ProgressLine::advance(double work) {
         if (lock && Clock::now() - drawn_ >= between)
             show(done, expected_);
     }
-    return !asked_to_end;
+    return !EndRequests::made();
 }
 
 void ProgressLine::show(double done, double all) {

@@ -10,6 +10,11 @@
 #include "reports/problem_formulas.hpp"
 #include "reports/result_document.hpp"
 
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <cerrno>
 #include <list>
 #include <system_error>
 #include <utility>
@@ -62,6 +67,7 @@ HtmlContents html_contents(const StudyResult& result, const Document& document,
                            const std::vector<Plot>& plots, const DrawnPlots& drawn) {
     HtmlContents contents{.document = document,
                           .failed = result.failed(),
+                          .interrupted = result.interrupted(),
                           .formulas = {},
                           .figures = {},
                           .no_figures = without_pictures(drawn),
@@ -79,6 +85,7 @@ HtmlContents html_contents(const StudyResult& result, const Document& document,
 ReportDirectory::ReportDirectory(std::filesystem::path path, const ReportBlock& block)
     : path_(std::move(path)), block_(block) {
     make(path_);
+    lock();
     for (const auto& name : fixed_names(block_))
         OutputFile{path_ / name};
     if (block_.wants(ReportFile::plots)) {
@@ -88,6 +95,8 @@ ReportDirectory::ReportDirectory(std::filesystem::path path, const ReportBlock& 
 }
 
 ReportDirectory::~ReportDirectory() {
+    if (lock_ >= 0)
+        close(lock_);
     std::error_code ignored;
     for (const auto& directory : made_)
         if (std::filesystem::is_empty(directory, ignored) && !ignored)
@@ -107,6 +116,28 @@ void ReportDirectory::make(const std::filesystem::path& directory) {
         throw OutputError("cannot make the directory '" + directory.string() +
                           "': " + error.message());
     made_.insert(made_.begin(), directory);
+}
+
+/// A picture of an earlier result beside the data of this one would be taken for its own.
+void ReportDirectory::remove_old_pictures(const std::vector<Plot>& plots,
+                                          const DrawnPlots& drawn) const {
+    std::error_code ignored;
+    for (std::size_t i = 0; i < plots.size(); ++i)
+        if (drawn.plots[i].svg.empty())
+            for (const char* ending : {".svg", ".png"})
+                std::filesystem::remove(path_ / plots_name / (plots[i].name + ending), ignored);
+}
+
+void ReportDirectory::lock() {
+    lock_ = open(path_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (lock_ < 0 || flock(lock_, LOCK_EX | LOCK_NB) != 0) {
+        const std::string reason = std::generic_category().message(errno);
+        const bool taken = lock_ >= 0 && errno == EWOULDBLOCK;
+        throw OutputError("cannot write to '" + path_.string() + "': " +
+                          (taken ? "another tvbeam is writing there; wait for it, or name another "
+                                   "directory"
+                                 : reason));
+    }
 }
 
 std::string ReportDirectory::write(const StudyResult& result) {
@@ -136,6 +167,8 @@ std::string ReportDirectory::write(const StudyResult& result) {
         files.emplace_back(path_ / name).prepare(text);
     for (auto& file : files)
         file.publish();
+    if (block_.wants(ReportFile::plots))
+        remove_old_pictures(plots, drawn);
     return drawn.failure.empty() ? ""
                                  : drawn.failure +
                                        "; the pictures are left out, their scripts "

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "reports/gnuplot.hpp"
 #include "reports/output_file.hpp"
 #include "studies/study.hpp"
 
@@ -22,8 +23,8 @@ namespace tvbeam {
 /// file of an earlier result is replaced; files that are not asked for are left alone.
 class ReportDirectory {
 public:
-    /// Makes the directory where it is missing. Throws OutputError when that fails or when nothing
-    /// can be written there.
+    /// Makes the directory where it is missing, and keeps others from writing there as long as the
+    /// object exists. Throws OutputError when that fails or when nothing can be written there.
     ReportDirectory(std::filesystem::path path, const ReportBlock& block);
     /// Takes away the directories that were made, if nothing was written to them.
     ~ReportDirectory();
@@ -38,9 +39,12 @@ public:
 
 private:
     void make(const std::filesystem::path& directory);
+    void lock();
+    void remove_old_pictures(const std::vector<Plot>& plots, const DrawnPlots& drawn) const;
 
     std::filesystem::path path_;
     ReportBlock block_;
+    int lock_ = -1;                           ///< a descriptor of the directory
     std::vector<std::filesystem::path> made_; ///< inner ones first
 };
 

@@ -94,6 +94,8 @@ Document result_document(const StudyResult& result) {
     const Scene& scene = result.scene;
     Document document{scene.title,           {}, {}, result.left_out, norms_in_words(result),
                       provenance_rows(scene)};
+    if (result.interrupted())
+        document.head.emplace_back("INTERRUPTED: what stands here is what had finished");
     // A stress study has problems of its own.
     if (scene.poses_problem())
         document.head.push_back(problem_line(scene));

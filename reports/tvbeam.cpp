@@ -55,7 +55,7 @@ struct RunOptions {
     int jobs = 1;
 };
 
-void report_error(const std::string& message) {
+void say(const std::string& message) {
     std::fprintf(stderr, "tvbeam: %s\n", message.c_str());
 }
 
@@ -95,37 +95,48 @@ StudyResult run_shown(const Scene& scene, bool quiet, int jobs, std::optional<Ch
                      {.jobs = jobs, .progress = &progress, .finished = kept ? &*kept : nullptr});
 }
 
+/// What there is to say of a run that did not go well; empty when it did.
+std::string trouble_of(const StudyResult& result, bool kept) {
+    if (result.interrupted())
+        return std::string("interrupted; the result holds what was finished") +
+               (kept ? ", and --resume goes on from there" : "");
+    return result.failed() ? "a run failed; the result says which and why" : "";
+}
+
 int run_command(const RunOptions& options) {
+    const EndRequests end_requests;
     const Scene scene = read_scene(options.scene, options.overrides);
+    std::optional<ReportDirectory> out;
+    std::optional<Checkpoint> kept;
+    if (!options.out.empty()) {
+        out.emplace(options.out, scene.report);
+        kept.emplace(options.out, scene, options.resume);
+        if (options.resume && !options.quiet)
+            say("goes on with " + std::to_string(kept->found()) + " finished runs");
+    }
     Destination json(options.json);
     Destination csv(options.csv);
-    std::optional<ReportDirectory> out;
-    if (!options.out.empty())
-        out.emplace(options.out, scene.report);
-    std::optional<Checkpoint> kept;
-    if (out)
-        kept.emplace(options.out, scene, options.resume);
     const StudyResult result = run_shown(scene, options.quiet, options.jobs, kept);
-    if (kept && result.interrupted())
+    // Files first: what standard output goes to may be gone.
+    if (out) {
         kept->write();
-    if (!options.quiet && !json.standard_output() && !csv.standard_output())
-        write_standard_output(terminal_report(result));
-    if (json.wanted())
-        json.write(json_report(result));
-    if (csv.wanted())
-        csv.write(csv_report(result));
-    if (out)
         if (const std::string left_out = out->write(result); !left_out.empty())
-            report_error(left_out);
-    if (kept && !result.interrupted())
-        kept->remove();
-    if (result.interrupted()) {
-        report_error(std::string("interrupted; the result holds what was finished") +
-                     (out ? ", and --resume goes on from there" : ""));
-        return run_failed;
+            say(left_out);
+        if (!result.interrupted())
+            kept->remove();
     }
-    if (result.failed()) {
-        report_error("a run failed; the result says which and why");
+    if (json.wanted() && !json.standard_output())
+        json.write(json_report(result));
+    if (csv.wanted() && !csv.standard_output())
+        csv.write(csv_report(result));
+    if (json.standard_output())
+        json.write(json_report(result));
+    else if (csv.standard_output())
+        csv.write(csv_report(result));
+    else if (!options.quiet)
+        write_standard_output(terminal_report(result));
+    if (const std::string trouble = trouble_of(result, out.has_value()); !trouble.empty()) {
+        say(trouble);
         return run_failed;
     }
     return done;
@@ -165,6 +176,7 @@ std::string first_failure(const StudyResult& result) {
 }
 
 int check_command(const CheckOptions& options) {
+    const EndRequests end_requests;
     // All scenes are read before any is run, so that a mistake in the last is not found after the
     // others' run.
     std::vector<Scene> scenes;
@@ -189,6 +201,11 @@ int check_command(const CheckOptions& options) {
         std::optional<Checkpoint> none;
         results.push_back(run_shown(scene, options.quiet, options.jobs, none));
         const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+        if (results.back().interrupted()) {
+            checked.push_back({scene.name, elapsed.count(), "it was interrupted", {}});
+            say("interrupted in " + scene.name);
+            break;
+        }
         checked.push_back(
             {scene.name, elapsed.count(), first_failure(results.back()), check(results.back())});
         if (baseline) {
@@ -199,14 +216,10 @@ int check_command(const CheckOptions& options) {
         if (!junit.standard_output() && !record.standard_output() &&
             !(options.quiet && checked.back().passed()))
             write_standard_output(check_report(checked.back(), coloured()));
-        if (results.back().interrupted()) {
-            report_error("interrupted in " + scene.name);
-            return run_failed;
-        }
     }
     if (junit.wanted())
         junit.write(junit_report(checked));
-    if (record.wanted())
+    if (record.wanted() && !results.back().interrupted())
         record.write(baseline_of(results));
     const bool failed = std::any_of(results.begin(), results.end(),
                                     [](const StudyResult& result) { return result.failed(); });
@@ -265,13 +278,27 @@ int list_command() {
 void add_jobs(CLI::App& command, int& jobs) {
     constexpr int most = 1024;
     command
-        .add_option("--jobs", jobs,
-                    "runs at a time: of a ladder, or of the grid of [orders]; the results do not "
-                    "depend on it. [work_precision] times one run after the other all the same")
+        .add_option(
+            "--jobs", jobs,
+            "runs at a time: of a ladder, of the grid of [orders], of the cases of [stress]; the "
+            "results do not depend on it. [work_precision] times one run after the other all the "
+            "same")
         ->check(CLI::Range(1, most))
         ->type_name("N")
         ->capture_default_str();
 }
+
+/// Refuses the empty name that an unset variable of a shell makes.
+const CLI::Validator named(
+    [](std::string& name) {
+        return name.empty() ? std::string("its name is empty; name a file or a directory") : "";
+    },
+    "", "named");
+const CLI::Validator no_stream(
+    [](std::string& name) {
+        return name == "-" ? std::string("a directory is wanted, and - is none") : "";
+    },
+    "", "no stream");
 
 int command_line(int argc, char** argv) {
     CLI::App app(
@@ -293,15 +320,20 @@ int command_line(int argc, char** argv) {
         ->take_all();
     run->add_option("--json", options.json,
                     "write the result as JSON; -: to standard output, in place of the table")
+        ->check(named)
         ->type_name("FILE|-");
     run->add_option(
            "--csv", options.csv,
-           "write the ladder as CSV, or the grid, or the timed rows of a scene that has no "
-           "other study; -: to standard output, in place of the table")
+           "write the first of these that the scene has as CSV: ladder, grid of [orders], timed "
+           "rows, evolution, stress cases; -: to standard output, in place of the table. --out "
+           "writes them all")
+        ->check(named)
         ->type_name("FILE|-");
     run->add_option("--out", options.out,
                     "write to a directory what the scene's [report] block asks for; without one, "
                     "JSON, CSV, Markdown, LaTeX, plots and a page of HTML")
+        ->check(named)
+        ->check(no_stream)
         ->type_name("DIR");
     run->add_flag("--resume", options.resume,
                   "go on with an attempt that was cut short, whose finished runs are in the "
@@ -322,8 +354,11 @@ int command_line(int argc, char** argv) {
         ->take_all();
     check->add_flag("--short", checks.short_form,
                     "with the scenes' [short] blocks: the form for CI");
-    check->add_option("--junit", checks.junit, "write JUnit XML")->type_name("FILE|-");
+    check->add_option("--junit", checks.junit, "write JUnit XML")
+        ->check(named)
+        ->type_name("FILE|-");
     check->add_option("--record", checks.record, "write a baseline of every error found")
+        ->check(named)
         ->type_name("FILE|-");
     check->add_option("--baseline", checks.baseline, "hold every error against a recorded baseline")
         ->type_name("FILE");
@@ -407,10 +442,10 @@ int main(int argc, char** argv) {
     try {
         return command_line(argc, argv);
     } catch (const InputError& error) {
-        report_error(error.what());
+        say(error.what());
         return bad_input;
     } catch (const std::exception& error) {
-        report_error(error.what());
+        say(error.what());
         return run_failed;
     }
 }

@@ -62,8 +62,12 @@ std::optional<double> ProbeHistory::greatest_error() const {
         return std::nullopt;
     double greatest = 0.0;
     for (std::size_t i = 0; i < values.size(); ++i)
-        if (!std::isnan(values[i]))
-            greatest = std::max(greatest, std::abs(values[i] - exact[i]));
+        if (!std::isnan(values[i])) {
+            const double error = std::abs(values[i] - exact[i]);
+            if (std::isnan(error))
+                return error;
+            greatest = std::max(greatest, error);
+        }
     return greatest;
 }
 

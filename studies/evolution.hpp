@@ -22,7 +22,7 @@ struct ProbeHistory {
     /// The samples with the least and the greatest value; none where no value is defined.
     [[nodiscard]] std::optional<std::size_t> least() const;
     [[nodiscard]] std::optional<std::size_t> greatest() const;
-    /// The greatest |value − exact|.
+    /// The greatest |value − exact|; not a number where an exact value is none.
     [[nodiscard]] std::optional<double> greatest_error() const;
 };
 

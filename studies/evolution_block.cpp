@@ -58,7 +58,13 @@ std::vector<NamedProbe> read_probes(TableReader& table) {
             names->begin() + static_cast<std::ptrdiff_t>(i))
             throw InputError(table.place("probes", i),
                              table.full("probes") + " names '" + name + "' twice; remove one");
-        probes.push_back({name, read_probe(name, table.place("probes", i))});
+        const Probe probe = read_probe(name, table.place("probes", i));
+        for (const auto& other : probes)
+            if (other.probe.quantity == probe.quantity && other.probe.x == probe.x)
+                throw InputError(table.place("probes", i), "the probe '" + name +
+                                                               "' is the same as '" + other.name +
+                                                               "'; remove one");
+        probes.push_back({name, probe});
     }
     return probes;
 }

@@ -6,14 +6,15 @@ namespace tvbeam {
 
 bool StudyResult::failed() const {
     const auto all = runs();
-    return (stress && stress->failed()) || (evolution && evolution->run.status != RunStatus::ok) ||
+    return interrupted() || (stress && stress->failed()) ||
+           (evolution && evolution->run.status != RunStatus::ok) ||
            std::any_of(all.begin(), all.end(),
                        [](const MeasuredRuns& study) { return any_failed(*study.runs); });
 }
 
 bool StudyResult::interrupted() const {
     const auto all = runs();
-    return (stress && stress->interrupted) ||
+    return (stress && stress->interrupted) || (work_precision && work_precision->interrupted) ||
            (evolution && evolution->run.status == RunStatus::interrupted) ||
            std::any_of(all.begin(), all.end(), [](const MeasuredRuns& study) {
                return std::any_of(
@@ -37,6 +38,14 @@ std::vector<MeasuredRuns> StudyResult::runs() const {
 
 namespace {
 
+/// One problem serves all studies: it is admissible up to the longest of their times.
+double longest_time(const Scene& scene) {
+    return std::max({scene.ladder ? scene.ladder->final_time : 0.0,
+                     scene.orders ? scene.orders->final_time : 0.0,
+                     scene.work_precision ? scene.work_precision->final_time : 0.0,
+                     scene.evolution ? scene.evolution->final_time : 0.0});
+}
+
 double work_of(const Scheme& scheme, const std::vector<Rung>& rungs) {
     double work = 0.0;
     for (const auto& rung : rungs)
@@ -44,9 +53,17 @@ double work_of(const Scheme& scheme, const std::vector<Rung>& rungs) {
     return work;
 }
 
-/// Of all studies of a scene; a reference run, a contraction map and a round-off table aside.
+/// Of a reference run, and of the two coarser ones that it may be extrapolated from.
+double work_of(const ReferenceBlock& reference, double final_time) {
+    return static_cast<double>(reference.elements) * final_time / reference.dt *
+           (reference.richardson ? 2.0 : 1.0);
+}
+
+/// Of all studies of a scene; a contraction map and a round-off table aside.
 double work_of(const Scene& scene) {
     double work = 0.0;
+    if (scene.reference && !scene.norms().empty())
+        work += work_of(*scene.reference, longest_time(scene));
     if (scene.ladder)
         work += work_of(scene.scheme, scene.ladder->rungs);
     if (scene.orders)
@@ -61,14 +78,6 @@ double work_of(const Scene& scene) {
             for (const auto& parameters : sweep.cases)
                 work += work_of(parameters);
     return work;
-}
-
-/// One problem serves all studies: it is admissible up to the longest of their times.
-double longest_time(const Scene& scene) {
-    return std::max({scene.ladder ? scene.ladder->final_time : 0.0,
-                     scene.orders ? scene.orders->final_time : 0.0,
-                     scene.work_precision ? scene.work_precision->final_time : 0.0,
-                     scene.evolution ? scene.evolution->final_time : 0.0});
 }
 
 } // namespace

@@ -34,6 +34,8 @@ public:
         : scene_(scene), block_(block), data_(data), execution_(execution),
           one_run_above_(one_run_above) {}
 
+    [[nodiscard]] bool interrupted() const { return interrupted_; }
+
     std::vector<SchemeRuns> take() {
         for (std::size_t k = 0; k < block_.schemes.size(); ++k)
             enter(k);
@@ -50,8 +52,10 @@ public:
 
 private:
     RungResult run(std::size_t scheme, const Rung& rung, const std::vector<Norm>& norms) {
-        return run_rung(scene_, block_.schemes[scheme].scheme, norms, block_.final_time, rung,
-                        data_, execution_);
+        RungResult result = run_rung(scene_, block_.schemes[scheme].scheme, norms,
+                                     block_.final_time, rung, data_, execution_);
+        interrupted_ = interrupted_ || result.status == RunStatus::interrupted;
+        return result;
     }
 
     void enter(std::size_t scheme) {
@@ -87,6 +91,7 @@ private:
     const ProblemData& data_;
     const Execution& execution_;
     double one_run_above_;
+    bool interrupted_ = false;
     std::vector<SchemeRuns> result_;
     std::vector<Contestant> contestants_;
 };
@@ -189,7 +194,9 @@ WorkPrecisionResult run_work_precision(const Scene& scene, const WorkPrecisionBl
     WorkPrecisionResult result;
     const std::clock_t processor = std::clock();
     const auto start = std::chrono::steady_clock::now();
-    result.schemes = Race(scene, block, data, execution, one_run_above).take();
+    Race race(scene, block, data, execution, one_run_above);
+    result.schemes = race.take();
+    result.interrupted = race.interrupted();
     const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
     result.busy_remark = busy_remark(static_cast<double>(std::clock() - processor) / CLOCKS_PER_SEC,
                                      elapsed.count());

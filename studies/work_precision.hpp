@@ -46,6 +46,7 @@ struct WorkPrecisionResult {
     std::vector<SchemeRuns> schemes; ///< in the order of the block
     std::vector<NormCosts> norms;    ///< in the order of the block
     std::string busy_remark;         ///< see busy_remark
+    bool interrupted = false;        ///< runs are missing, timed ones perhaps
 };
 
 /// A sentence where the runs had less than nine tenths of a core: a run that is shorter than the

@@ -69,10 +69,20 @@ BOOST_AUTO_TEST_CASE(an_attempt_that_was_cut_short_is_neither_lost_nor_mixed_wit
     };
     refused(ladder(directory, many) + out, "go on with it by --resume, or remove the file");
     refused(ladder(directory, few) + out + " --resume", "of another scene");
-    directory.write("out/unfinished.json", "{ \"schema\": ");
-    const Called called = call(directory, ladder(directory, many) + out + " --resume");
-    BOOST_TEST(called.exit == 2);
-    BOOST_TEST(has(called.errors, "is not what tvbeam wrote"), called.errors);
+    auto empty_entry = nlohmann::ordered_json::parse(kept);
+    empty_entry["runs"]["ladder"]["1"] = nlohmann::ordered_json::object();
+    for (const std::string& wrong : {std::string("{ \"schema\": "), empty_entry.dump()}) {
+        directory.write("out/unfinished.json", wrong);
+        const Called called = call(directory, ladder(directory, many) + out + " --resume");
+        BOOST_TEST(called.exit == 2);
+        BOOST_TEST(has(called.errors, "is not what tvbeam wrote"), called.errors);
+    }
+    // What no result depends on may change.
+    directory.write("out/unfinished.json", kept);
+    const Called renamed =
+        call(directory, ladder(directory, many) + out + " --resume --set title=\"other\"",
+             "timeout -s INT 1 ");
+    BOOST_TEST(has(renamed.errors, "goes on with 3 finished runs"), renamed.errors);
 }
 
 BOOST_AUTO_TEST_CASE(a_run_that_ends_leaves_nothing_unfinished) {
@@ -83,6 +93,53 @@ BOOST_AUTO_TEST_CASE(a_run_that_ends_leaves_nothing_unfinished) {
     const Called without = call(directory, ladder(directory, few) + " --resume");
     BOOST_TEST(without.exit == 2);
     BOOST_TEST(has(without.errors, "--out"), without.errors);
+}
+
+// Two writers in one directory would tear each other's results.
+BOOST_AUTO_TEST_CASE(a_directory_that_another_run_writes_to_is_refused) {
+    const TemporaryDirectory directory;
+    const std::string out = " --quiet --out " + (directory.path() / "out").string();
+    const Called second = call(directory, ladder(directory, many) + out,
+                               "timeout -s INT 2 " TVBEAM_BINARY " " + ladder(directory, many) +
+                                   out + " 2>/dev/null & sleep 0.7; ");
+    BOOST_TEST(second.exit == 3);
+    BOOST_TEST(has(second.errors, "another tvbeam is writing there"), second.errors);
+    call(directory, "--version", "sleep 2; "); // until the first has ended
+    const auto json = nlohmann::json::parse(directory.read("out/result.json"));
+    BOOST_TEST(json.at("interrupted") == true);
+}
+
+// A closed pipe: the files are written all the same.
+BOOST_AUTO_TEST_CASE(results_in_files_do_not_depend_on_standard_output) {
+    const TemporaryDirectory directory;
+    const Called called = call(directory, ladder(directory, few) + " --out " +
+                                              (directory.path() / "out").string() + " >/dev/full");
+    BOOST_TEST(called.exit == 3);
+    BOOST_TEST(has(called.errors, "cannot write to standard output"), called.errors);
+    BOOST_TEST(std::filesystem::exists(directory.path() / "out" / "report.html"));
+    BOOST_TEST(!std::filesystem::exists(directory.path() / "out" / "unfinished.json"));
+}
+
+BOOST_AUTO_TEST_CASE(a_check_that_is_interrupted_reports_the_scenes_before) {
+    const TemporaryDirectory directory;
+    const Called cut = call(
+        directory, "check table1 stress-beam --junit " + (directory.path() / "junit.xml").string(),
+        "timeout -s INT 2 ");
+    BOOST_TEST(cut.exit == 124);
+    BOOST_TEST(has(cut.errors, "interrupted in stress-beam"), cut.errors);
+    BOOST_TEST(!has(cut.output, "FAIL"), cut.output);
+    const std::string junit = directory.read("junit.xml");
+    BOOST_TEST(has(junit, "testsuite name=\"table1\""), junit);
+    BOOST_TEST(has(junit, "it was interrupted"), junit);
+}
+
+BOOST_AUTO_TEST_CASE(names_that_are_empty_are_refused) {
+    const TemporaryDirectory directory;
+    for (const std::string option : {"--out ''", "--csv ''", "--json ''", "--out -"}) {
+        const Called called = call(directory, ladder(directory, few) + " " + option);
+        BOOST_TEST(called.exit == 2, option);
+        BOOST_TEST(called.output.empty(), option);
+    }
 }
 
 BOOST_AUTO_TEST_CASE(quiet_is_silent) {

@@ -2,6 +2,7 @@
 
 #include "core/contact_events.hpp"
 #include "core/run.hpp"
+#include "studies/check.hpp"
 #include "studies/evolution.hpp"
 #include "studies/study.hpp"
 #include "studies/toml_reader.hpp"
@@ -54,8 +55,10 @@ EvolutionResult evolution_of(const std::string& text) {
 double greatest_difference(const ProbeHistory& a, const ProbeHistory& b) {
     double greatest = 0.0;
     for (std::size_t i = 0; i < a.values.size(); ++i)
-        if (!std::isnan(a.values[i]))
+        if (!std::isnan(a.values[i])) {
+            BOOST_REQUIRE(!std::isnan(b.values[i]));
             greatest = std::max(greatest, std::abs(a.values[i] - b.values[i]));
+        }
     return greatest;
 }
 
@@ -169,6 +172,32 @@ BOOST_DATA_TEST_CASE(both_algorithms_give_the_curves_of_figure_1, data::make(tim
     BOOST_REQUIRE(one.events.size() == other.events.size());
     for (std::size_t i = 0; i < one.events.size(); ++i)
         BOOST_TEST(std::abs(one.events[i].t - other.events[i].t) < 1e-9);
+}
+
+// sin(x − 0.3)/(x − 0.3) is 1 at 0.3, where its text is 0/0.
+BOOST_AUTO_TEST_CASE(an_exact_value_that_is_none_meets_no_expectation) {
+    const TemporaryDirectory directory;
+    directory.write("hole.toml", "theta = \"cos(t)*sin(pi*x)*sin(x - 0.3)/(x - 0.3)\"\n"
+                                 "u = \"x^2*(3 - x)*sin(t)/100\"\n");
+    const Scene scene = read_scene(directory.write("scene.toml", R"toml(
+solution = "./hole.toml"
+[beam]
+alpha = 0.1
+zeta  = 0.1
+[evolution]
+final_time = 1.0
+elements   = 8
+dt         = 0.1
+probes     = ["theta@0.3"]
+[expect.evolution]
+"theta@0.3.error" = [0.0, 1.0]
+)toml"),
+                                   {}, {.expectations = true});
+    const StudyResult result = run_study(scene);
+    BOOST_TEST(std::isnan(result.evolution->probes[0].greatest_error().value()));
+    const auto checked = check(result);
+    BOOST_REQUIRE(checked.size() == 1U);
+    BOOST_TEST(!checked[0].holds);
 }
 
 // The tip rises to g2 at t = 1/4, rests there while the stress rises to zero at t = 3/4, and falls.
@@ -336,6 +365,7 @@ BOOST_AUTO_TEST_CASE(mistakes_in_the_block_are_pointed_at) {
         {"probes=[\"u@x\"]", "X between 0 and 1"},
         {"probes=[\"thta@0.5\"]", "did you mean 'theta'?"},
         {"probes=[\"u@1\", \"u@1\"]", "twice"},
+        {"probes=[\"u@0.5\", \"stress\", \"u@.5\"]", "the same as"},
         {"elements=0", "a mesh has 1 to"},
         {"dt=0.3", "whole number of steps"},
         {"every=7", "divide the 5000 steps"},

@@ -115,8 +115,7 @@ BOOST_DATA_TEST_CASE(an_interrupted_study_keeps_what_finished_and_says_what_did_
     BOOST_TEST(cut.failed());
     std::size_t finished = 0;
     for (const auto& study : cut.runs())
-        for (std::size_t i = 0; i < study.runs->size(); ++i) {
-            const RungResult& run = (*study.runs)[i];
+        for (const auto& run : *study.runs) {
             if (run.status == RunStatus::ok) {
                 ++finished;
                 continue;
@@ -167,11 +166,21 @@ BOOST_AUTO_TEST_CASE(an_evolution_that_is_interrupted_keeps_its_history) {
     BOOST_TEST(cut.evolution->t.size() < 1100U);
 }
 
-BOOST_AUTO_TEST_CASE(timed_runs_end_when_asked_to) {
-    Meter meter(1000.0);
-    const StudyResult cut = run_study(read_scene("table1-work-precision"), {.progress = &meter});
+// At once, and, in timed runs, when all errors have been measured.
+BOOST_DATA_TEST_CASE(timed_runs_end_when_asked_to, data::make({1000.0, 0.5}), enough) {
+    const Scene scene = read_scene(
+        "table1-work-precision",
+        {"work_precision.runs=50", "work_precision.scheme.0.elements=[4, 8]",
+         "work_precision.scheme.1.elements=[4, 8]", "work_precision.scheme.2.elements=[4, 8]",
+         "work_precision.scheme.3.elements=[4, 8]"});
+    Meter whole;
+    const StudyResult undisturbed = run_study(scene, {.progress = &whole});
+    BOOST_TEST(!undisturbed.interrupted());
+    Meter meter(enough < 1.0 ? enough * whole.done : enough);
+    const StudyResult cut = run_study(scene, {.progress = &meter});
     BOOST_TEST(cut.interrupted());
-    BOOST_TEST(meter.done < 1e7);
+    BOOST_TEST(cut.failed());
+    BOOST_TEST(meter.done < 0.6 * whole.done);
 }
 
 BOOST_AUTO_TEST_SUITE_END()
