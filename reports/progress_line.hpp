@@ -9,8 +9,9 @@
 
 namespace tvbeam {
 
-/// As long as it exists, Ctrl-C and a polite kill (SIGINT, SIGTERM) ask for the end; a second one
-/// ends the program at once. A signal that the caller of the program has set to be ignored is.
+/// As long as it exists, Ctrl-C and a polite kill (SIGINT, SIGTERM) ask for the end; a second one,
+/// half a second later or more, ends the program at once. A signal that the caller of the program
+/// has set to be ignored is.
 class EndRequests {
 public:
     EndRequests();
