@@ -168,8 +168,8 @@ std::string round_off_csv(const RoundOffTable& table) {
     std::string text = "elements,moment,sine,hermite,hermite_predicted,discretisation_error,"
                        "remark\n";
     for (const auto& row : table.rows)
-        text += fmt::format("{}{}{}{}{}{},{}\n", row.elements, finite_field(row.moment),
-                            finite_field(row.sine), finite_field(row.hermite),
+        text += fmt::format("{}{}{}{}{}{},{}\n", row.elements, finite_field(row.moment.value),
+                            finite_field(row.sine), finite_field(row.hermite.value),
                             finite_field(row.hermite_predicted),
                             finite_field(row.discretisation_error), quoted(row.remark));
     return text;

@@ -79,11 +79,15 @@ Json json_of(const RoundOffTable& table) {
     Json rows = Json::array();
     for (const auto& row : table.rows) {
         rows.push_back({{"elements", row.elements},
-                        {"moment", number(row.moment)},
+                        {"moment", number(row.moment.value)},
                         {"sine", number(row.sine)},
-                        {"hermite", number(row.hermite)},
+                        {"hermite", number(row.hermite.value)},
                         {"hermite_predicted", number(row.hermite_predicted)},
                         {"discretisation_error", number(row.discretisation_error)}});
+        if (!row.moment.reason.empty())
+            rows.back()["moment_stopped"] = row.moment.reason;
+        if (!row.hermite.reason.empty())
+            rows.back()["hermite_stopped"] = row.hermite.reason;
         if (!row.remark.empty())
             rows.back()["remark"] = row.remark;
     }

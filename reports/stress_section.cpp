@@ -52,12 +52,20 @@ std::vector<std::string> regimes_of(const StressParameters& p) {
 
 struct Tally {
     std::map<Outcome, int> outcomes;
-    StressChecks worst;
-    double path = 0.0; // over its limit
+    // The worst of each check; none: never made.
+    std::optional<double> energy;
+    std::optional<double> residual;
+    std::optional<double> contact;
+    std::optional<double> path; // over its limit
 };
 
-void raise(double& worst, double value) {
-    if (!(value <= worst))
+/// A NaN is worse than any number.
+bool is_worse(double value, double worst) {
+    return value > worst || std::isnan(value);
+}
+
+void raise(std::optional<double>& worst, double value) {
+    if (!worst || is_worse(value, *worst))
         worst = value;
 }
 
@@ -69,11 +77,11 @@ tallies_of(const std::vector<StressCase>& cases) {
         ++tally.outcomes[one.outcome];
         if (!one.checks)
             return;
-        raise(tally.worst.energy, one.checks->energy);
-        raise(tally.worst.heat_residual,
-              std::max(one.checks->heat_residual, one.checks->beam_residual));
-        raise(tally.worst.penetration, std::max({one.checks->penetration, one.checks->wrong_sign,
-                                                 one.checks->complementarity}));
+        raise(tally.energy, one.checks->energy);
+        raise(tally.residual, std::max(one.checks->heat_residual, one.checks->beam_residual));
+        if (one.parameters.stops.exist())
+            raise(tally.contact, std::max({one.checks->penetration, one.checks->wrong_sign,
+                                           one.checks->complementarity}));
         if (one.checks->path)
             raise(tally.path, *one.checks->path / one.checks->path_limit);
     };
@@ -101,9 +109,9 @@ Table regime_table(const std::vector<StressCase>& cases) {
         outcomes.columns[1].cells.push_back(count(Outcome::refused));
         outcomes.columns[2].cells.push_back(count(Outcome::stopped));
         outcomes.columns[3].cells.push_back(count(Outcome::failed));
-        worst.columns[0].cells.push_back(scientific(tally.worst.energy, 0));
-        worst.columns[1].cells.push_back(fixed(tally.worst.heat_residual, 1));
-        worst.columns[2].cells.push_back(scientific(tally.worst.penetration, 0));
+        worst.columns[0].cells.push_back(scientific(tally.energy, 0));
+        worst.columns[1].cells.push_back(fixed(tally.residual, 1));
+        worst.columns[2].cells.push_back(scientific(tally.contact, 0));
         worst.columns[3].cells.push_back(fixed(tally.path, 2));
     }
     return {
@@ -123,6 +131,10 @@ std::string text_of(const StressParameters& p) {
     return text;
 }
 
+std::string cases_text(std::size_t count) {
+    return std::to_string(count) + (count == 1 ? " case" : " cases");
+}
+
 /// The worst case of each check, by name.
 std::vector<Block> worst_cases(const std::vector<StressCase>& cases) {
     using Value = std::function<std::optional<double>(const StressCase&)>;
@@ -131,13 +143,19 @@ std::vector<Block> worst_cases(const std::vector<StressCase>& cases) {
             return one.checks ? std::optional((*one.checks).*check) : std::nullopt;
         };
     };
+    const auto of_contact = [](double StressChecks::*check) -> Value {
+        return [check](const StressCase& one) {
+            return one.checks && one.parameters.stops.exist() ? std::optional((*one.checks).*check)
+                                                              : std::nullopt;
+        };
+    };
     const std::vector<std::pair<std::string, Value>> checks{
         {"energy law", of(&StressChecks::energy)},
         {"heat residual", of(&StressChecks::heat_residual)},
         {"beam residual", of(&StressChecks::beam_residual)},
-        {"penetration", of(&StressChecks::penetration)},
-        {"wrong sign", of(&StressChecks::wrong_sign)},
-        {"min-residual", of(&StressChecks::complementarity)},
+        {"penetration", of_contact(&StressChecks::penetration)},
+        {"wrong sign", of_contact(&StressChecks::wrong_sign)},
+        {"min-residual", of_contact(&StressChecks::complementarity)},
         {"path",
          [](const StressCase& one) { return one.checks ? one.checks->path : std::nullopt; }},
         {"error/predicted",
@@ -145,17 +163,17 @@ std::vector<Block> worst_cases(const std::vector<StressCase>& cases) {
     std::vector<Block> items{BlankLine{}, Paragraph{"Worst cases:"}};
     for (const auto& [name, value] : checks) {
         const StressCase* worst = nullptr;
-        int count = 0;
+        std::size_t count = 0;
         for (const auto& one : cases)
             if (const auto figure = value(one)) {
                 ++count;
-                if (worst == nullptr || !(*figure <= *value(*worst)))
+                if (worst == nullptr || is_worse(*figure, *value(*worst)))
                     worst = &one;
             }
         if (worst != nullptr)
             items.emplace_back(
-                Item{fmt::format("{}: {} ({} cases): {}", name, scientific(value(*worst), 1), count,
-                                 text_of(worst->parameters)),
+                Item{fmt::format("{}: {} ({}): {}", name, scientific(value(*worst), 1),
+                                 cases_text(count), text_of(worst->parameters)),
                      6});
     }
     return items;
@@ -175,7 +193,7 @@ std::string kind_of(const std::string& reason) {
 }
 
 std::vector<Block> reasons(const std::vector<StressCase>& cases, Outcome outcome) {
-    std::map<std::string, std::pair<int, const StressCase*>> kinds;
+    std::map<std::string, std::pair<std::size_t, const StressCase*>> kinds;
     for (const auto& one : cases)
         if (one.outcome == outcome) {
             auto& [count, example] = kinds[kind_of(one.reason)];
@@ -187,7 +205,7 @@ std::vector<Block> reasons(const std::vector<StressCase>& cases, Outcome outcome
         items = {BlankLine{}, Paragraph{tvbeam::name_of(outcome) + ":"}};
     for (const auto& [kind, found] : kinds)
         items.emplace_back(
-            Item{fmt::format("{} cases, e.g. {}: {}", found.first,
+            Item{fmt::format("{}, e.g. {}: {}", cases_text(found.first),
                              text_of(found.second->parameters), found.second->reason)});
     return items;
 }
@@ -196,19 +214,22 @@ std::vector<Block> reasons(const std::vector<StressCase>& cases, Outcome outcome
 /// map shows the prediction in tenths and marks what is not within a tenth of it.
 Section contraction_section(const ContractionMap& map, const ContractionBlock& block) {
     const std::string legend = fmt::format(
-        "Contraction of the fixed point, zeta = {}, s = {}: across, alpha from {} to {}; down, dt "
-        "from {} to {}. A digit: tenths of the measured contraction; ^: 1 or more, refused; !: the "
-        "measured one is not within 10 % of the predicted",
-        shortest(block.zeta), block.elements, shortest(block.alpha.front()),
-        scientific(block.alpha.back(), 1), shortest(block.dt.front()),
-        scientific(block.dt.back(), 1));
+        "Contraction of the fixed point, {}, {} mass, zeta = {}, s = {}: across, alpha from {} to "
+        "{}; down, dt from {} to {}. A digit: tenths of the measured contraction; ^: 1 or more, "
+        "refused; .: too small to be measured; !: the measured one is not within 10 % of the "
+        "predicted",
+        block.time, name_of(block.thermal_mass), shortest(block.zeta), block.elements,
+        shortest(block.alpha.front()), scientific(block.alpha.back(), 1),
+        shortest(block.dt.front()), scientific(block.dt.back(), 1));
     std::string text;
     for (Eigen::Index i = 0; i < map.predicted.rows(); ++i) {
         text += fmt::format("{:>9} ", scientific(block.dt[static_cast<std::size_t>(i)], 1));
         for (Eigen::Index j = 0; j < map.predicted.cols(); ++j) {
             const double ratio = map.measured(i, j) / map.predicted(i, j);
             text += ' ';
-            if (!(std::abs(ratio - 1.0) <= 0.1))
+            if (map.predicted(i, j) < ContractionMap::least_measurable)
+                text += '.';
+            else if (!(std::abs(ratio - 1.0) <= 0.1))
                 text += '!';
             else if (map.predicted(i, j) >= 1.0)
                 text += '^';
@@ -231,12 +252,12 @@ Section round_off_section(const RoundOffTable& table) {
     Table::Group error{"", {{"discretisation", {}}}};
     for (const auto& row : table.rows) {
         key.columns[0].cells.push_back(std::to_string(row.elements));
-        moment.columns[0].cells.push_back(scientific(row.moment, 1));
+        moment.columns[0].cells.push_back(scientific(row.moment.value, 1));
         moment.columns[1].cells.push_back(scientific(row.sine, 1));
-        hermite.columns[0].cells.push_back(scientific(row.hermite, 1));
+        hermite.columns[0].cells.push_back(scientific(row.hermite.value, 1));
         hermite.columns[1].cells.push_back(scientific(row.hermite_predicted, 1));
         hermite.columns[2].cells.push_back(
-            row.hermite ? fixed(*row.hermite / row.hermite_predicted, 2) : "");
+            row.hermite.value ? fixed(*row.hermite.value / row.hermite_predicted, 2) : "");
         error.columns[0].cells.push_back(scientific(row.discretisation_error, 1));
     }
     Section section{"Floor of round-off",
@@ -244,6 +265,12 @@ Section round_off_section(const RoundOffTable& table) {
                      Table{"Floor of round-off, relative, on the coupled mode sin(pi x).",
                            key,
                            {moment, hermite, error}}}};
+    for (const auto& row : table.rows)
+        for (const auto& [form, floor] :
+             {std::pair{"moment", &row.moment}, std::pair{"Hermite", &row.hermite}})
+            if (!floor->reason.empty())
+                section.blocks.emplace_back(Finding{fmt::format(
+                    "s = {}: the {} form stopped: {}", row.elements, form, floor->reason)});
     for (const auto& row : table.rows)
         if (!row.remark.empty()) {
             section.blocks.emplace_back(
@@ -277,9 +304,9 @@ std::vector<Section> stress_sections(const StressResult& result) {
              Paragraph{"energy: energy law, of its terms (limit 1e-12); resid.: of both equations, "
                        "in units of round-off (64); contact: penetration, wrong sign or "
                        "min-residual, of the tip's scale (1e-13); path: sine basis against nodal "
-                       "values, of their limit (1)"},
-             Finding{fmt::format("Of {} cases {} certified, {} refused, {} stopped, {} failed.",
-                                 result.cases.size(), result.count(Outcome::certified),
+                       "values, of their limit (1); blank: no case has it"},
+             Finding{fmt::format("Of {} {} certified, {} refused, {} stopped, {} failed.",
+                                 cases_text(result.cases.size()), result.count(Outcome::certified),
                                  result.count(Outcome::refused), result.count(Outcome::stopped),
                                  result.count(Outcome::failed)),
                      2, false}}};

@@ -11,6 +11,14 @@ namespace tvbeam {
 
 namespace {
 
+/// The scheme of all steps but the first ones, as a scheme that starts by itself.
+TimeScheme without_history(TimeScheme scheme) {
+    for (Stage& stage : scheme.stages)
+        stage.weights.erase(stage.weights.begin(), stage.weights.begin() + scheme.history);
+    scheme.history = 0;
+    return scheme;
+}
+
 /// Of the last stage of the first step; also where the iteration diverges.
 double measured_contraction(const Beam& beam, const Mesh& mesh, const Scheme& scheme, double dt) {
     ProblemData data;
@@ -24,11 +32,9 @@ double measured_contraction(const Beam& beam, const Mesh& mesh, const Scheme& sc
     return changes.size() < 3 ? std::numeric_limits<double>::quiet_NaN() : changes[2] / changes[1];
 }
 
-constexpr double least_measurable = 1e-6;
-
 /// The ratios that can be measured; a NaN elsewhere, which the extremes of PropagateNumbers pass.
 Eigen::ArrayXXd ratios_of(const ContractionMap& map) {
-    return (map.predicted >= least_measurable)
+    return (map.predicted >= ContractionMap::least_measurable)
         .select(map.measured / map.predicted, std::numeric_limits<double>::quiet_NaN());
 }
 
@@ -53,11 +59,11 @@ ContractionMap measure_contraction(const ContractionBlock& block) {
             Scheme scheme;
             scheme.algorithm = Algorithm::fixed_point;
             scheme.thermal_mass = block.thermal_mass;
-            scheme.time = TimeScheme::named(block.time);
+            scheme.time = without_history(TimeScheme::named(block.time));
             // Two changes are compared; they are not to be lost in round-off.
             scheme.tolerance = std::numeric_limits<double>::min();
             const double dt = block.dt[static_cast<std::size_t>(i)];
-            const double c = scheme.time.at_step(1).stages.front().leading / dt;
+            const double c = scheme.time.stages.back().leading / dt;
             map.predicted(i, j) = contraction(beam, mesh, block.thermal_mass, c);
             map.measured(i, j) = measured_contraction(beam, mesh, scheme, dt);
         }

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <stdexcept>
 
@@ -42,9 +43,8 @@ double largest(const std::vector<Mode>& modes, long double Mode::*field, std::si
     return static_cast<double>(most);
 }
 
-/// The largest error of Θ and w at the nodes; none when the solver stops.
-std::optional<double> nodal_floor(const RoundOffBlock& block, const Beam& beam, const Mesh& mesh,
-                                  Algorithm algorithm, const std::vector<Mode>& modes) {
+Floor nodal_floor(const RoundOffBlock& block, const Beam& beam, const Mesh& mesh,
+                  Algorithm algorithm, const std::vector<Mode>& modes) {
     const ProblemData data = mode_problem();
     const Scheme scheme = scheme_of(block, algorithm);
     try {
@@ -57,8 +57,8 @@ std::optional<double> nodal_floor(const RoundOffBlock& block, const Beam& beam, 
                           block.steps);
         double worst = 0.0;
         for (std::int64_t n = 1; n <= block.steps; ++n) {
-            if (!solver->step(levels.at(n)).empty())
-                return std::nullopt;
+            if (std::string reason = solver->step(levels.at(n)); !reason.empty())
+                return {std::nullopt, reason + " in step " + std::to_string(n)};
             const Mode& mode = modes[static_cast<std::size_t>(n)];
             const Eigen::ArrayXd temperature = solver->temperature();
             const DiscontinuousLinear curvature = solver->curvature();
@@ -71,9 +71,9 @@ std::optional<double> nodal_floor(const RoundOffBlock& block, const Beam& beam, 
                          .maxCoeff() /
                      w});
         }
-        return worst;
-    } catch (const std::domain_error&) {
-        return std::nullopt;
+        return {worst, {}};
+    } catch (const std::domain_error& error) {
+        return {std::nullopt, error.what()};
     }
 }
 
@@ -107,7 +107,7 @@ RoundOffRow row_of(const RoundOffBlock& block, std::int64_t elements) {
                                      elements, {1.0L, 0.0L}, false, block.dt, block.steps);
     RoundOffRow row;
     row.elements = elements;
-    row.moment = nodal_floor(block, beam, mesh, Algorithm::direct, modes).value_or(1.0);
+    row.moment = nodal_floor(block, beam, mesh, Algorithm::direct, modes);
     row.sine = sine_floor(block, beam, mesh, modes);
     if (elements <= block.finest_hermite)
         row.hermite = nodal_floor(block, beam, mesh, Algorithm::fixed_point, modes);
@@ -124,31 +124,38 @@ RoundOffRow row_of(const RoundOffBlock& block, std::int64_t elements) {
     return row;
 }
 
-std::vector<double> hermite_ratios(const std::vector<RoundOffRow>& rows) {
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
+/// Of the rows that were run; a NaN for one that stopped, which the extremes of PropagateNaN keep.
+Eigen::ArrayXd hermite_ratios(const std::vector<RoundOffRow>& rows) {
     std::vector<double> ratios;
     for (const auto& row : rows)
-        if (row.hermite)
-            ratios.push_back(*row.hermite / row.hermite_predicted);
-    return ratios;
+        if (row.hermite.value || !row.hermite.reason.empty())
+            ratios.push_back(row.hermite.value.value_or(unknown) / row.hermite_predicted);
+    return Eigen::Map<const Eigen::ArrayXd>(ratios.data(),
+                                            static_cast<Eigen::Index>(ratios.size()));
 }
 
 } // namespace
 
 double RoundOffTable::greatest_moment_floor() const {
     double greatest = 0.0;
-    for (const auto& row : rows)
-        greatest = std::max({greatest, row.moment, row.sine.value_or(0.0)});
+    for (const auto& row : rows) {
+        if (!row.moment.value)
+            return unknown;
+        greatest = std::max({greatest, *row.moment.value, row.sine.value_or(0.0)});
+    }
     return greatest;
 }
 
 double RoundOffTable::least_hermite_ratio() const {
-    const auto ratios = hermite_ratios(rows);
-    return ratios.empty() ? 0.0 : *std::min_element(ratios.begin(), ratios.end());
+    const Eigen::ArrayXd ratios = hermite_ratios(rows);
+    return ratios.size() == 0 ? unknown : ratios.minCoeff<Eigen::PropagateNaN>();
 }
 
 double RoundOffTable::greatest_hermite_ratio() const {
-    const auto ratios = hermite_ratios(rows);
-    return ratios.empty() ? 0.0 : *std::max_element(ratios.begin(), ratios.end());
+    const Eigen::ArrayXd ratios = hermite_ratios(rows);
+    return ratios.size() == 0 ? unknown : ratios.maxCoeff<Eigen::PropagateNaN>();
 }
 
 RoundOffTable measure_round_off(const RoundOffBlock& block) {

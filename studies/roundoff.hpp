@@ -8,13 +8,19 @@
 
 namespace tvbeam {
 
-/// The floor of round-off on one mesh: the largest error of temperature and curvature at the nodes
-/// over a run, relative to their sizes, against the discrete solution in closed form.
+/// The largest error of temperature and curvature at the nodes over a run, relative to their sizes,
+/// against the discrete solution in closed form.
+struct Floor {
+    std::optional<double> value; ///< none: not run, or stopped
+    std::string reason;          ///< why it stopped; empty: it did not
+};
+
+/// The floor of round-off on one mesh.
 struct RoundOffRow {
     std::int64_t elements = 0;
-    double moment = 0.0;               ///< moment form, nodal values
+    Floor moment;                      ///< moment form, nodal values
     std::optional<double> sine;        ///< moment form, sine basis; by the norms of a run
-    std::optional<double> hermite;     ///< the paper's algorithm; none: not run, or it stopped
+    Floor hermite;                     ///< the paper's algorithm
     double hermite_predicted = 0.0;    ///< hermite_floor()
     double discretisation_error = 0.0; ///< of the curvature, relative, against the exact solution
     std::string remark;                ///< of the Hermite form; empty: none
@@ -25,6 +31,7 @@ struct RoundOffRow {
 struct RoundOffTable {
     std::vector<RoundOffRow> rows;
 
+    // Not a number where a run stopped: what was not measured meets no expectation.
     [[nodiscard]] double greatest_moment_floor() const;
     [[nodiscard]] double least_hermite_ratio() const;    ///< measured/predicted
     [[nodiscard]] double greatest_hermite_ratio() const; ///< measured/predicted

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
+#include <iterator>
 #include <limits>
 #include <sstream>
 
@@ -211,6 +212,25 @@ BOOST_AUTO_TEST_CASE(standard_output_that_cannot_be_written_is_said) {
     const Called called = call(directory, small + " >/dev/full");
     BOOST_TEST(called.exit == 3);
     BOOST_TEST(has(called.errors, "cannot write to standard output"));
+}
+
+BOOST_AUTO_TEST_CASE(what_a_stress_study_did_not_measure_is_blank_or_said) {
+    const TemporaryDirectory directory;
+    const Called stopped = call(directory, "run roundoff --set stress.roundoff.alpha=100 --set "
+                                           "'stress.roundoff.elements=[10]'");
+    BOOST_TEST(has(stopped.output, "s = 10: the Hermite form stopped: the fixed-point iteration"),
+               stopped.output);
+
+    // A prime number of elements has no fast transform, hence no sine basis to compare with.
+    directory.write("scene.toml", "[stress.sweep.a]\nelements = [127]\nsteps = 2\n");
+    const Called few = call(directory, "run " + directory.path().string() + "/scene.toml");
+    // Without stops there is no contact either: the row ends with the residual.
+    const auto row = few.output.find("  all         1       0       0      0");
+    BOOST_REQUIRE(row != std::string::npos);
+    std::istringstream line(few.output.substr(row, few.output.find('\n', row) - row));
+    const std::vector<std::string> words{std::istream_iterator<std::string>(line), {}};
+    BOOST_TEST(words.size() == 7U); // all, four outcomes, energy, residual
+    BOOST_TEST(!has(few.output, "penetration:"));
 }
 
 BOOST_AUTO_TEST_CASE(check_passes_shipped_scenes_and_writes_junit) {

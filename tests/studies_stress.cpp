@@ -1,5 +1,6 @@
 // Stress studies: how cases are sampled and judged.
 
+#include "core/contraction.hpp"
 #include "studies/ladder.hpp"
 #include "studies/scene.hpp"
 #include "studies/stress.hpp"
@@ -129,6 +130,43 @@ BOOST_AUTO_TEST_CASE(outcomes_have_their_reasons) {
     tiny.dt = 1e-4;
     BOOST_TEST(name_of(judge(tiny).outcome) == "stopped");
     BOOST_TEST(judge(tiny).reason.find("underflow") != std::string::npos);
+}
+
+BOOST_AUTO_TEST_CASE(contraction_is_measured_as_it_is_predicted_for_the_running_scheme) {
+    // One solve of the running scheme, whatever its starter does, with c = leading/Δt.
+    for (const auto& time : TimeScheme::names())
+        for (const auto mass : {ThermalMass::consistent, ThermalMass::lumped}) {
+            BOOST_TEST_CONTEXT(time << ", " << name_of(mass)) {
+                const ContractionMap map =
+                    measure_contraction({{1e-5, 0.3, 1.0}, {1e-3, 0.1}, 0.05, 8, time, mass});
+                const double c = TimeScheme::named(time).stages.back().leading / 0.1;
+                BOOST_TEST(map.predicted(1, 2) ==
+                           contraction({.alpha = 1.0, .zeta = 0.05}, Mesh::uniform(8), mass, c));
+                BOOST_TEST(map.least_ratio() >= 1.0 - 1e-4);
+                BOOST_TEST(map.greatest_ratio() <= 1.0 + 1e-4);
+                BOOST_TEST(map.predicted(0, 0) < ContractionMap::least_measurable);
+            }
+        }
+}
+
+BOOST_AUTO_TEST_CASE(a_form_that_stops_says_why_and_meets_no_expectation) {
+    RoundOffBlock block;
+    block.alpha = 100.0;
+    block.dt = 0.1;
+    block.steps = 2;
+    block.time = "euler";
+    block.elements = {4};
+    block.finest_hermite = 4;
+    const RoundOffTable table = measure_round_off(block);
+    BOOST_TEST(!table.rows[0].hermite.value.has_value());
+    BOOST_TEST(table.rows[0].hermite.reason.find("would not contract") != std::string::npos);
+    BOOST_TEST(std::isnan(table.least_hermite_ratio()));
+    BOOST_TEST(std::isnan(table.greatest_hermite_ratio()));
+    BOOST_TEST(std::isfinite(table.greatest_moment_floor()));
+
+    block.finest_hermite = 2; // not run, hence no reason
+    const RoundOffTable without = measure_round_off(block);
+    BOOST_TEST(without.rows[0].hermite.reason.empty());
 }
 
 BOOST_AUTO_TEST_CASE(hermite_form_warns_where_round_off_may_exceed_its_error) {
