@@ -266,6 +266,7 @@ bool SineForm::march_block(std::int64_t steps) {
 void SineForm::count(std::int64_t steps) {
     const std::int64_t solves = steps * stages();
     counters_.steps += steps;
+    counters_.sine_steps += steps;
     counters_.heat_solves += heat_ ? solves : 0;
     counters_.beam_solves += bending_ ? solves : 0;
     counters_.coupling_updates += coupled_ ? solves : 0;

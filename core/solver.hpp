@@ -17,6 +17,7 @@ namespace tvbeam {
 /// What a run did; a part that the problem lacks leaves its counter at zero.
 struct Counters {
     std::int64_t steps = 0;
+    std::int64_t sine_steps = 0;       ///< of them in the sine basis
     std::int64_t heat_solves = 0;      ///< tridiagonal solves of the heat equation
     std::int64_t beam_solves = 0;      ///< updates of the curvature, or solves with the paper's B
     std::int64_t coupling_updates = 0; ///< exchanges between heat and beam; alpha = 0: none

@@ -44,6 +44,7 @@ std::optional<double> optional_number(const Json& json) {
 }
 
 constexpr std::int64_t Counters::*counters[] = {&Counters::steps,
+                                                &Counters::sine_steps,
                                                 &Counters::heat_solves,
                                                 &Counters::beam_solves,
                                                 &Counters::coupling_updates,

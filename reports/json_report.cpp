@@ -14,6 +14,7 @@ using Json = nlohmann::ordered_json;
 
 Json json_of(const Counters& counters) {
     return {{"steps", counters.steps},
+            {"sine_steps", counters.sine_steps},
             {"heat_solves", counters.heat_solves},
             {"beam_solves", counters.beam_solves},
             {"coupling_updates", counters.coupling_updates},

@@ -44,6 +44,27 @@ std::string problem_line(const Scene& scene) {
     return line;
 }
 
+/// In which unknowns the direct algorithm marched, where runs of one scheme show it.
+std::string basis_words(const StudyResult& result) {
+    std::int64_t steps = 0;
+    std::int64_t sine_steps = 0;
+    const auto add = [&](const std::vector<RungResult>& runs) {
+        for (const auto& run : runs) {
+            steps += run.counters.steps;
+            sine_steps += run.counters.sine_steps;
+        }
+    };
+    if (result.ladder)
+        add(result.ladder->rungs);
+    if (result.orders)
+        add(result.orders->runs);
+    if (steps == 0 || result.scene.scheme.algorithm != Algorithm::direct)
+        return "";
+    return sine_steps == 0       ? ", nodal values"
+           : sine_steps == steps ? ", sine basis"
+                                 : ", sine basis or nodal values";
+}
+
 /// What errors are measured against, if not the exact solution.
 std::string reference_line(const Scene& scene, const ReferenceResult& result) {
     const ReferenceBlock& block = *scene.reference;
@@ -100,7 +121,7 @@ Document result_document(const StudyResult& result) {
     if (scene.poses_problem())
         document.head.push_back(problem_line(scene));
     if (result.ladder || result.orders || result.evolution)
-        document.head.push_back(scheme_text(scene.scheme));
+        document.head.push_back(scheme_text(scene.scheme) + basis_words(result));
     if (result.reference)
         document.head.push_back(reference_line(scene, *result.reference));
     if (result.ladder) {

@@ -42,6 +42,7 @@ BOOST_DATA_TEST_CASE(a_full_scene_does_every_part, bases, basis) {
     const Scheme scheme{.basis = basis};
     const Counters counters = result_of(full, both, scheme).counters;
     BOOST_TEST(counters.steps == steps);
+    BOOST_TEST(counters.sine_steps == (basis == Basis::automatic ? steps : 0));
     BOOST_TEST(counters.heat_solves == steps);
     BOOST_TEST(counters.beam_solves == steps);
     BOOST_TEST(counters.coupling_updates == steps);
