@@ -21,6 +21,8 @@ constexpr int most_trials = 100;
 constexpr double smallest_step = 1e-10;
 constexpr double smallest_gradient = 1e-10;
 
+constexpr int most_parameters = 7;
+
 /// Below this the columns of J are one to working precision, and (JᵀJ)⁻¹ has no correct digit.
 constexpr double smallest_rcond = 1e-9;
 
@@ -33,32 +35,31 @@ struct Place {
 };
 
 /// s² (JᵀJ)⁻¹
-template <int size>
 Eigen::MatrixXd covariance(const Eigen::MatrixXd& jacobian, double s2, int dof) {
-    using Matrix = Eigen::Matrix<double, size, size>;
+    const Eigen::Index size = jacobian.cols();
     Eigen::MatrixXd undetermined = Eigen::MatrixXd::Zero(size, size);
     undetermined.diagonal().setConstant(infinity);
     if (dof < 1)
         return undetermined;
-    const Eigen::ColPivHouseholderQR<Eigen::Matrix<double, Eigen::Dynamic, size>> qr(jacobian);
-    const Matrix r = qr.matrixR().topRows(size).template triangularView<Eigen::Upper>();
-    const Matrix inverse = r.template triangularView<Eigen::Upper>().solve(Matrix::Identity());
-    const auto norm = [](const Matrix& matrix) {
+    const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(jacobian);
+    const Eigen::MatrixXd r = qr.matrixR().topRows(size).triangularView<Eigen::Upper>();
+    const Eigen::MatrixXd inverse =
+        r.triangularView<Eigen::Upper>().solve(Eigen::MatrixXd::Identity(size, size));
+    const auto norm = [](const Eigen::MatrixXd& matrix) {
         return matrix.cwiseAbs().colwise().sum().maxCoeff();
     };
     if (!(norm(r) * norm(inverse) * smallest_rcond < 1))
         return undetermined;
-    const Matrix root = qr.colsPermutation() * inverse;
+    const Eigen::MatrixXd root = qr.colsPermutation() * inverse;
     return s2 * root * root.transpose();
 }
 
-/// The search for `size` parameters. GSL has one, but the fits here are so small that most of its
-/// time goes into algebra for matrices of any size; with the size known at compile time a step
-/// costs hardly more than the model.
-template <int size>
+/// The search for the parameters. GSL has one, but the fits here are so small that most of its
+/// time goes into algebra for matrices of any size.
 class Search {
 public:
-    Search(const ModelFunction& model, const Eigen::VectorXd& y, const Eigen::VectorXd& weights)
+    Search(const ModelFunction& model, const Eigen::VectorXd& y, const Eigen::VectorXd& weights,
+           Eigen::Index size)
         : model_(model), y_(y),
           root_weights_(weights.cwiseSqrt()), here_{Eigen::VectorXd(size),
                                                     Eigen::VectorXd(y.size()),
@@ -101,7 +102,7 @@ public:
                 damping *= next_rise;
                 next_rise *= 2;
             }
-            if (stands || gradient_.template lpNorm<Eigen::Infinity>() <=
+            if (stands || gradient_.lpNorm<Eigen::Infinity>() <=
                               smallest_gradient * std::max(1.0, here_.chi2 / 2))
                 break;
         }
@@ -116,15 +117,17 @@ public:
         result.theta = best_.theta;
         result.residuals = -best_.residuals.cwiseQuotient(root_weights_);
         result.chi2 = best_.chi2;
-        result.dof = static_cast<int>(y_.size()) - size;
+        result.dof = static_cast<int>(y_.size() - best_.theta.size());
         const double s = result.scale();
-        result.covariance = covariance<size>(best_.jacobian, s * s, result.dof);
+        result.covariance = covariance(best_.jacobian, s * s, result.dof);
         return result;
     }
 
 private:
-    using Vector = Eigen::Matrix<double, size, 1>;
-    using Matrix = Eigen::Matrix<double, size, size>;
+    // In place, without an allocation.
+    using Vector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, most_parameters, 1>;
+    using Matrix =
+        Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, most_parameters, most_parameters>;
 
     void evaluate(Place& at) const {
         model_(at.theta, at.residuals, &at.jacobian);
@@ -134,11 +137,9 @@ private:
     }
 
     void linearise() {
-        const Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, size>> jacobian(
-            here_.jacobian.data(), y_.size(), size);
         // Coefficient by coefficient: Eigen's blocked product is mostly overhead here.
-        normal_ = jacobian.transpose().lazyProduct(jacobian);
-        gradient_ = jacobian.transpose().lazyProduct(here_.residuals);
+        normal_ = here_.jacobian.transpose().lazyProduct(here_.jacobian);
+        gradient_ = here_.jacobian.transpose().lazyProduct(here_.residuals);
     }
 
     /// A hundredth of a standard error from where an earlier start has ended, this one ends too.
@@ -160,18 +161,6 @@ private:
     Vector gradient_; ///< Jᵀr, here
 };
 
-template <int size>
-std::optional<LeastSquares> best_of(const ModelFunction& model, const Eigen::VectorXd& y,
-                                    const Eigen::VectorXd& weights,
-                                    std::span<const Eigen::VectorXd> starts) {
-    if (y.size() < size)
-        return std::nullopt;
-    Search<size> search(model, y, weights);
-    for (const auto& start : starts)
-        search.descend_from(start);
-    return search.best();
-}
-
 } // namespace
 
 double LeastSquares::scale() const {
@@ -185,22 +174,14 @@ double LeastSquares::standard_error(int k) const {
 std::optional<LeastSquares> least_squares(const ModelFunction& model, const Eigen::VectorXd& y,
                                           const Eigen::VectorXd& weights,
                                           std::span<const Eigen::VectorXd> starts) {
-    if (starts.empty())
+    if (starts.empty() || y.size() < starts.front().size())
         return std::nullopt;
-    switch (starts.front().size()) {
-    case 2:
-        return best_of<2>(model, y, weights, starts);
-    case 3:
-        return best_of<3>(model, y, weights, starts);
-    case 4:
-        return best_of<4>(model, y, weights, starts);
-    case 5:
-        return best_of<5>(model, y, weights, starts);
-    case 7:
-        return best_of<7>(model, y, weights, starts);
-    default:
+    if (starts.front().size() > most_parameters)
         throw std::invalid_argument("no model has so many parameters");
-    }
+    Search search(model, y, weights, starts.front().size());
+    for (const auto& start : starts)
+        search.descend_from(start);
+    return search.best();
 }
 
 double student_half_width(double se, int dof, double level) {
