@@ -202,10 +202,15 @@ std::vector<double> distances(const Mesh& mesh, const History& a, const History&
     return {std::sqrt(theta), w};
 }
 
+/// The short form leaves the others to the orders on uniform meshes, which run the same code.
+std::vector<std::string> solutions_on_graded_meshes() {
+    return TVBEAM_SHORT_TESTS ? std::vector<std::string>{"impact", "moving-front"} : solutions();
+}
+
 // The same on a graded mesh. An order q seen against the step dt/r is too high by
 // (2^q − 1) r^(−q)/ln 2: 0.02 for q = 1 and r = 64, 0.004 for q = 2 and r = 32.
 BOOST_DATA_TEST_CASE(time_error_on_a_graded_mesh_has_the_order_of_the_scheme,
-                     data::make(solutions()), solution) {
+                     data::make(solutions_on_graded_meshes()), solution) {
     Scene scene = scene_of(solution);
     const Mesh mesh = MeshFamily{1.5, {}}.with(32);
     const ProblemData problem = problem_of(scene, scene.ladder->final_time);
