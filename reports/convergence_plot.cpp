@@ -1,3 +1,4 @@
+#include "reports/drawing.hpp"
 #include "reports/norm_words.hpp"
 #include "reports/number_text.hpp"
 #include "reports/plot.hpp"
@@ -115,13 +116,13 @@ public:
         const bool squares = std::all_of(ladder_.norms.begin(), ladder_.norms.end(),
                                          [](const auto& norm) { return norm.norm.squared; });
         const auto ticks = widths_.in_time ? value_ticks(widths_.dt) : width_ticks(widths_.h);
-        const std::string body = fmt::format(
+        const std::string settings = fmt::format(
             "set logscale xy\n{}{}set xtics {}\nset format y '10^{{%L}}'\n"
-            "set xlabel {} noenhanced\nset ylabel '{}'\n{}plot {}\n",
+            "set xlabel {} noenhanced\nset ylabel '{}'\n{}",
             range_text("x", widths_.abscissa(), 1.5), range_text("y", extent_, 2.0 * apart_),
             ticks_text(ticks, 6), gnuplot_text(widths_.axis_title()),
-            squares ? "squared error" : "error", labels_, curves_);
-        return {{"convergence", caption(), plot_script("convergence", legend_, body), data_}};
+            squares ? "squared error" : "error", labels_);
+        return {drawing_.plot("convergence", caption(), settings)};
     }
 
 private:
@@ -130,15 +131,6 @@ private:
             return nullptr;
         const auto found = block_.printed->figures.find(ladder_.norms[k].norm.name);
         return found == block_.printed->figures.end() ? nullptr : &found->second;
-    }
-
-    void add_curve(const std::string& curve) {
-        curves_ += (curves_.empty() ? "" : ", \\\n     ") + curve;
-    }
-
-    void add_block(const std::string& heading, const std::string& rows) {
-        data_ += (blocks_ == 0 ? "# " : "\n\n# ") + heading + "\n" + rows;
-        ++blocks_;
     }
 
     void add_norm(std::size_t k) {
@@ -150,14 +142,9 @@ private:
         std::string name = norm_words(norm.norm.name);
         if (lines_[k])
             name += ": slope " + fixed(lines_[k]->fit.p, 2);
-        add_legend(fmt::format("linespoints lc rgb '{}' pt {} ps 0.9 dt {} lw 1.6 title {}",
-                               style.colour, style.point, style.dash, gnuplot_text(name)));
-    }
-
-    /// A line of the legend, for curves that are drawn without one.
-    void add_legend(const std::string& style_and_title) {
-        add_curve("NaN with " + style_and_title);
-        ++legend_;
+        drawing_.add_curve(fmt::format("NaN with linespoints lc rgb '{}' pt {} ps 0.9 dt {} lw 1.6",
+                                       style.colour, style.point, style.dash),
+                           name);
     }
 
     void add_points(std::size_t k, const LadderNorm& norm) {
@@ -168,23 +155,20 @@ private:
                                 error_of(ladder_.rungs[i], k).value_or(nan),
                                 figures != nullptr ? (*figures)[i] : nan,
                                 norm.predictions.empty() ? nan : norm.predictions[i].value_or(nan));
-        const std::size_t block = blocks_;
-        add_block(norm.norm.name + ": h, dt, error, printed, predicted", rows);
+        const std::string block =
+            drawing_.add_block(norm.norm.name + ": h, dt, error, printed, predicted", rows);
         const SeriesStyle style = series_style(k);
         const int x = widths_.in_time ? 2 : 1;
         if (!norm.predictions.empty()) {
-            add_curve(fmt::format("data index {} using {}:5 with lines lc rgb '#000000' dt 3 lw "
-                                  "1.2 notitle",
-                                  block, x));
+            drawing_.add_curve(
+                fmt::format("{} using {}:5 with lines lc rgb '#000000' dt 3 lw 1.2", block, x));
             predicted_ = true;
         }
-        add_curve(fmt::format("data index {} using {}:3 with points lc rgb '{}' pt {} ps 0.9 "
-                              "notitle",
-                              block, x, style.colour, style.point));
+        drawing_.add_curve(fmt::format("{} using {}:3 with points lc rgb '{}' pt {} ps 0.9", block,
+                                       x, style.colour, style.point));
         if (figures != nullptr) {
-            add_curve(fmt::format("data index {} using {}:4 with points lc rgb '#000000' pt 4 ps "
-                                  "1.9 lw 1.3 notitle",
-                                  block, x));
+            drawing_.add_curve(fmt::format(
+                "{} using {}:4 with points lc rgb '#000000' pt 4 ps 1.9 lw 1.3", block, x));
             has_printed_ = true;
         }
     }
@@ -194,9 +178,10 @@ private:
         std::string rows;
         for (const double width : {line.from, line.to})
             rows += fmt::format("{} {}\n", width, line.fit.error(width));
-        add_curve(fmt::format("data index {} using 1:2 with lines lc rgb '{}' dt {} lw 1.6 notitle",
-                              blocks_, style.colour, style.dash));
-        add_block(ladder_.norms[k].norm.name + ": the fitted line", rows);
+        const std::string block =
+            drawing_.add_block(ladder_.norms[k].norm.name + ": the fitted line", rows);
+        drawing_.add_curve(fmt::format("{} using 1:2 with lines lc rgb '{}' dt {} lw 1.6", block,
+                                       style.colour, style.dash));
         add_triangle(k, line);
     }
 
@@ -218,12 +203,11 @@ private:
         const double apart = above ? apart_ : 1.0 / apart_;
         const double low = line.fit.error(left) * apart;
         const double high = line.fit.error(right) * apart;
-        add_curve(fmt::format("data index {} using 1:2 with lines lc rgb '#444444' lt 1 lw 1 "
-                              "notitle",
-                              blocks_));
-        add_block(ladder_.norms[k].norm.name + ": the triangle of its slope",
-                  fmt::format("{0} {2}\n{4} {5}\n{1} {3}\n{0} {2}\n", left, right, low, high,
-                              above ? left : right, above ? high : low));
+        const std::string block =
+            drawing_.add_block(ladder_.norms[k].norm.name + ": the triangle of its slope",
+                               fmt::format("{0} {2}\n{4} {5}\n{1} {3}\n{0} {2}\n", left, right, low,
+                                           high, above ? left : right, above ? high : low));
+        drawing_.add_curve(block + " using 1:2 with lines lc rgb '#444444' lt 1 lw 1");
         // The 1 beside the triangle wants room, too.
         extent_.push_back(above ? high * apart_ : low / apart_);
         labels_ += fmt::format("set label '{}' at {},{} {} front font ',16'\n",
@@ -245,11 +229,11 @@ private:
 
     void add_legend_of_marks() {
         if (has_printed_)
-            add_legend("points lc rgb '#000000' pt 4 ps 1.5 lw 1.3 title " +
-                       gnuplot_text("printed in " + block_.printed->source));
+            drawing_.add_curve("NaN with points lc rgb '#000000' pt 4 ps 1.5 lw 1.3",
+                               "printed in " + block_.printed->source);
         if (predicted_)
-            add_legend("lines lc rgb '#000000' dt 3 lw 1.2 title 'predicted by the two-term model "
-                       "of [orders]'");
+            drawing_.add_curve("NaN with lines lc rgb '#000000' dt 3 lw 1.2",
+                               "predicted by the two-term model of [orders]");
     }
 
     [[nodiscard]] std::string caption() const {
@@ -268,11 +252,8 @@ private:
     std::vector<double> extent_; ///< what the axis of errors shows
     std::vector<std::optional<FittedLine>> lines_;
     double apart_ = 1.0; ///< how far, as a factor, a triangle lies from its line
-    std::string data_;
-    std::size_t blocks_ = 0;
-    std::string curves_;
+    Drawing drawing_;
     std::string labels_;
-    std::size_t legend_ = 0;
     bool has_printed_ = false;
     bool predicted_ = false;
 };

@@ -1,3 +1,4 @@
+#include "reports/drawing.hpp"
 #include "reports/norm_words.hpp"
 #include "reports/number_text.hpp"
 #include "reports/plot.hpp"
@@ -115,27 +116,17 @@ public:
             add_model();
         add_runs(modelled);
         const std::string name = "error_surface_" + norm_;
-        const std::string body = fmt::format(
+        const std::string settings = fmt::format(
             "set logscale xy\nset xrange [{}:{}]\nset yrange [{}:{}]\nset xtics {}\nset ytics {}\n"
             "set xlabel 'mesh width h'\nset ylabel 'time step Δt'\nset clip two\nset border "
             "15\nunset grid\n"
-            "set style textbox opaque noborder fillcolor 'white' margins 0.6,0.6\n{}plot {}\n",
+            "set style textbox opaque noborder fillcolor 'white' margins 0.6,0.6\n{}",
             box_.least.h, box_.greatest.h, box_.least.dt, box_.greatest.dt,
-            ticks_text(width_ticks(box_.h), 6), ticks_text(value_ticks(box_.dt), 6), labels_,
-            curves_);
-        return {name, caption(modelled), plot_script(name, legend_, body), data_};
+            ticks_text(width_ticks(box_.h), 6), ticks_text(value_ticks(box_.dt), 6), labels_);
+        return drawing_.plot(name, caption(modelled), settings);
     }
 
 private:
-    void add_curve(const std::string& curve) {
-        curves_ += (curves_.empty() ? "" : ", \\\n     ") + curve;
-    }
-
-    void add_block(const std::string& heading, const std::string& rows) {
-        data_ += (blocks_ == 0 ? "# " : "\n\n# ") + heading + "\n" + rows;
-        ++blocks_;
-    }
-
     /// Bands between the lines, the darker the larger the error; the lines; the balance.
     void add_model() {
         const TwoTermModel& model = fit_.model;
@@ -172,10 +163,11 @@ private:
             rows += fmt::format("{:.6g} {:.6g}\n", within.h, within.dt);
         }
         rows += fmt::format("{} {}\n", box_.least.h, box_.least.dt);
-        add_curve(fmt::format("data index {} using 1:2 with filledcurves closed fillstyle solid "
-                              "noborder fillcolor rgb '{}' notitle",
-                              blocks_, shade(part)));
-        add_block(fmt::format("model below {}: h, dt", level), rows);
+        const std::string block =
+            drawing_.add_block(fmt::format("model below {}: h, dt", level), rows);
+        drawing_.add_curve(fmt::format(
+            "{} using 1:2 with filledcurves closed fillstyle solid noborder fillcolor rgb '{}'",
+            block, shade(part)));
     }
 
     /// How far a point lies from what its label would cover: the edges of the figure, runs, the
@@ -215,9 +207,9 @@ private:
         }
         if (!is_seen)
             return;
-        add_curve(fmt::format("data index {} using 1:2 with lines lc rgb '#08519c' lw 1 notitle",
-                              blocks_));
-        add_block(fmt::format("model equal to {}: h, dt", level), rows);
+        const std::string block =
+            drawing_.add_block(fmt::format("model equal to {}: h, dt", level), rows);
+        drawing_.add_curve(block + " using 1:2 with lines lc rgb '#08519c' lw 1");
         constexpr double room = 0.03;
         if (best > room)
             labels_ += fmt::format("set label '{}' at {:.6g},{:.6g} center boxed front font "
@@ -230,11 +222,9 @@ private:
         std::string rows;
         for (const double h : {box_.least.h, box_.greatest.h})
             rows += fmt::format("{} {}\n", h, std::pow(model.spatial(h) / model.b, 1.0 / model.q));
-        add_curve(fmt::format("data index {} using 1:2 with lines lc rgb '#D55E00' dt 2 lw 2.2 "
-                              "title 'balance of space error and time error'",
-                              blocks_));
-        add_block("balance a h^p = b dt^q: h, dt", rows);
-        ++legend_;
+        const std::string block = drawing_.add_block("balance a h^p = b dt^q: h, dt", rows);
+        drawing_.add_curve(block + " using 1:2 with lines lc rgb '#D55E00' dt 2 lw 2.2",
+                           "balance of space error and time error");
     }
 
     /// Runs whose error is measured, used by the fit and not.
@@ -250,20 +240,15 @@ private:
                             errors.empty() ? "NaN" : fmt::format("{}", errors[k_]));
         }
         if (!used.empty()) {
-            add_curve(fmt::format("data index {0} using 1:2 with points pt 7 ps 1 lc rgb '#ffffff' "
-                                  "notitle, \\\n     data index {0} using 1:2 with points pt 6 ps "
-                                  "1 lw 1.5 lc rgb '#000000' title 'runs that the model is fitted "
-                                  "to'",
-                                  blocks_));
-            add_block("runs of the fit: h, dt, error", used);
-            ++legend_;
+            const std::string block = drawing_.add_block("runs of the fit: h, dt, error", used);
+            drawing_.add_curve(block + " using 1:2 with points pt 7 ps 1 lc rgb '#ffffff'");
+            drawing_.add_curve(block + " using 1:2 with points pt 6 ps 1 lw 1.5 lc rgb '#000000'",
+                               "runs that the model is fitted to");
         }
         if (!other.empty()) {
-            add_curve(fmt::format("data index {} using 1:2 with points pt 2 ps 0.9 lw 1.5 lc rgb "
-                                  "'#000000' title '{}'",
-                                  blocks_, modelled ? "runs left out of the fit" : "runs"));
-            add_block("other runs: h, dt, error", other);
-            ++legend_;
+            const std::string block = drawing_.add_block("other runs: h, dt, error", other);
+            drawing_.add_curve(block + " using 1:2 with points pt 2 ps 0.9 lw 1.5 lc rgb '#000000'",
+                               modelled ? "runs left out of the fit" : "runs");
             if (!modelled)
                 add_errors_as_labels();
         }
@@ -295,11 +280,8 @@ private:
     std::string norm_;
     std::size_t k_;
     Box box_;
-    std::string data_;
-    std::size_t blocks_ = 0;
-    std::string curves_;
+    Drawing drawing_;
     std::string labels_;
-    std::size_t legend_ = 0;
 };
 
 } // namespace

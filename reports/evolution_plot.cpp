@@ -1,3 +1,4 @@
+#include "reports/drawing.hpp"
 #include "reports/plot.hpp"
 #include "reports/plot_style.hpp"
 
@@ -39,32 +40,29 @@ struct Window {
     double end = 0.0;
 };
 
-/// Blocks of columns: t, value; then t, exact value.
-std::string data_of(const EvolutionResult& result, const ProbeHistory& probe,
+/// Rows of t and value within the window.
+std::string rows_of(const EvolutionResult& result, const std::vector<double>& values,
                     const Window& window) {
-    std::string data = "# t, " + probe.name + "\n";
-    const auto add = [&](const std::vector<double>& values) {
-        for (std::size_t i = 0; i < values.size(); ++i)
-            if (std::isfinite(values[i]) && result.t[i] >= window.begin &&
-                result.t[i] <= window.end)
-                data += fmt::format("{} {}\n", result.t[i], values[i]);
-    };
-    add(probe.values);
-    if (!probe.exact.empty()) {
-        data += "\n\n# t, exact value\n";
-        add(probe.exact);
-    }
-    return data;
+    std::string rows;
+    for (std::size_t i = 0; i < values.size(); ++i)
+        if (std::isfinite(values[i]) && result.t[i] >= window.begin && result.t[i] <= window.end)
+            rows += fmt::format("{} {}\n", result.t[i], values[i]);
+    return rows;
 }
 
-/// Lines at the stops that the tip can meet.
-std::string stop_lines(const Stops& stops) {
-    std::string curves;
-    for (const double stop : {stops.lower, stops.upper})
-        if (std::isfinite(stop))
-            curves += fmt::format(", \\\n     {} with lines lc rgb '#555555' dt 3 lw 1.2 {}", stop,
-                                  curves.empty() ? "title 'stops'" : "notitle");
-    return curves;
+/// Lines at the stops that the tip can meet, with one title.
+void add_stops(Drawing& drawing, const Stops& stops) {
+    bool titled = false;
+    for (const double stop : {stops.lower, stops.upper}) {
+        if (!std::isfinite(stop))
+            continue;
+        const std::string line = fmt::format("{} with lines lc rgb '#555555' dt 3 lw 1.2", stop);
+        if (titled)
+            drawing.add_curve(line);
+        else
+            drawing.add_curve(line, "stops");
+        titled = true;
+    }
 }
 
 std::vector<Window> windows_of(const EvolutionResult& result, const EvolutionBlock& block) {
@@ -82,31 +80,29 @@ Plot plot_of(const EvolutionResult& result, const Scene& scene, std::size_t k,
              const Window& window) {
     const NamedProbe& named = scene.evolution->probes[k];
     const ProbeHistory& probe = result.probes[k];
-    const SeriesStyle style = series_style(0);
-    std::string curves =
-        fmt::format("data index 0 using 1:2 with lines lc rgb '{}' lw 1.8 title {}", style.colour,
-                    gnuplot_text("computed"));
-    std::size_t legend = 1;
+    Drawing drawing;
+    const std::string computed =
+        drawing.add_block("t, " + probe.name, rows_of(result, probe.values, window));
+    drawing.add_curve(
+        fmt::format("{} using 1:2 with lines lc rgb '{}' lw 1.8", computed, series_style(0).colour),
+        "computed");
     if (!probe.exact.empty()) {
-        const SeriesStyle exact = series_style(1);
-        curves += fmt::format(", \\\n     data index 1 using 1:2 with lines lc rgb '{}' dt {} lw "
-                              "1.8 title 'exact'",
-                              exact.colour, 2);
-        ++legend;
+        const std::string exact =
+            drawing.add_block("t, exact value", rows_of(result, probe.exact, window));
+        drawing.add_curve(fmt::format("{} using 1:2 with lines lc rgb '{}' dt 2 lw 1.8", exact,
+                                      series_style(1).colour),
+                          "exact");
     }
     const bool tip = named.probe.quantity == Probe::Quantity::deflection && named.probe.x == 1.0;
-    if (tip && scene.beam.stops.exist()) {
-        curves += stop_lines(scene.beam.stops);
-        ++legend;
-    }
+    if (tip)
+        add_stops(drawing, scene.beam.stops);
     const std::string words = quantity_words(named);
-    const std::string name = "evolution_" + file_part(named.name) + window.name;
-    const std::string body =
+    const std::string settings =
         fmt::format("set xlabel 'time'\nset ylabel {}\nset xrange [{}:{}]\nset offsets 0, 0, graph "
-                    "0.05, graph 0.05\nplot {}\n",
-                    gnuplot_text(words), window.begin, window.end, curves);
-    return {name, fmt::format("Evolution in time: {}{}.", words, window.words),
-            plot_script(name, legend, body), data_of(result, probe, window)};
+                    "0.05, graph 0.05\n",
+                    gnuplot_text(words), window.begin, window.end);
+    return drawing.plot("evolution_" + file_part(named.name) + window.name,
+                        fmt::format("Evolution in time: {}{}.", words, window.words), settings);
 }
 
 } // namespace

@@ -64,9 +64,14 @@ int run_gnuplot(const std::filesystem::path& directory, std::string script,
     std::string program = "gnuplot";
     std::string defaults = "-d"; // not what a file of the user's says
     const std::array<char*, 4> arguments{program.data(), defaults.data(), script.data(), nullptr};
+    // In a group of its own: Ctrl-C asks tvbeam to end, which it does when the files are written.
+    posix_spawnattr_t attributes;
+    posix_spawnattr_init(&attributes);
+    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
     pid_t process = 0;
     const int error =
-        posix_spawnp(&process, "gnuplot", &actions, nullptr, arguments.data(), environ);
+        posix_spawnp(&process, "gnuplot", &actions, &attributes, arguments.data(), environ);
+    posix_spawnattr_destroy(&attributes);
     posix_spawn_file_actions_destroy(&actions);
     if (error != 0)
         return error;
@@ -98,16 +103,18 @@ DrawnPlots draw(const std::vector<Plot>& plots) {
         return drawn;
     }
     const ScratchDirectory scratch(inside);
-    for (std::size_t i = 0; i < plots.size() && drawn.failure.empty(); ++i) {
+    for (std::size_t i = 0; i < plots.size(); ++i) {
         const Plot& plot = plots[i];
         OutputFile(scratch.path() / (plot.name + ".gp")).commit(plot.script);
         OutputFile(scratch.path() / (plot.name + ".dat")).commit(plot.data);
         const int error = run_gnuplot(scratch.path(), plot.name + ".gp", "said");
-        if (error == ENOENT)
-            drawn.failure = "gnuplot is not installed";
-        else if (error > 0)
-            drawn.failure = "gnuplot cannot be run: " + std::generic_category().message(error);
-        else if (error < 0)
+        if (error > 0) {
+            drawn.failure = error == ENOENT ? "gnuplot is not installed"
+                                            : "gnuplot cannot be run: " +
+                                                  std::generic_category().message(error);
+            break;
+        }
+        if (error < 0)
             drawn.failure = "gnuplot failed on " + plot.name +
                             ".gp: " + first_words(text_of(scratch.path() / "said"));
         else

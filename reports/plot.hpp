@@ -35,4 +35,10 @@ std::vector<Plot> evolution_plots(const StudyResult& result);
 /// The outcomes of [stress] over the two parameters that tell most about them.
 std::vector<Plot> stress_plots(const StudyResult& result);
 
+/// The map of [stress.contraction] over α and Δt, and its predicted level lines.
+std::vector<Plot> contraction_plots(const StudyResult& result);
+
+/// The floors of [stress.roundoff] against the number of elements.
+std::vector<Plot> round_off_plots(const StudyResult& result);
+
 } // namespace tvbeam

@@ -21,11 +21,6 @@ SeriesStyle series_style(std::size_t series);
 /// Text as gnuplot takes it: in single quotes, one line.
 std::string gnuplot_text(const std::string& text);
 
-/// The whole script of a figure: `body` draws it, once for NAME.svg and once for NAME.png. legend:
-/// how many lines its legend has; they stand below the axes, where they cover nothing, and the
-/// picture is made higher by as much.
-std::string plot_script(const std::string& name, std::size_t legend, const std::string& body);
-
 /// Ticks of a logarithmic axis at given values: at most `most` of them, evenly left out.
 struct Tick {
     double value = 0.0;

@@ -1,3 +1,4 @@
+#include "reports/drawing.hpp"
 #include "reports/norm_words.hpp"
 #include "reports/number_text.hpp"
 #include "reports/plot.hpp"
@@ -26,47 +27,42 @@ std::string rows_of(const SchemeRuns& scheme, std::size_t k) {
 std::vector<Plot> plot_of(const WorkPrecisionResult& result, const WorkPrecisionBlock& block,
                           std::size_t k) {
     const Norm& norm = block.norms[k];
-    std::string data;
-    std::string curves;
-    std::size_t drawn = 0;
+    Drawing drawing;
     for (std::size_t j = 0; j < block.schemes.size(); ++j) {
         const std::string rows = rows_of(result.schemes[j], k);
         if (rows.empty())
             continue;
         const SeriesStyle style = series_style(j);
-        curves += fmt::format(
-            "{}data index {} using 1:2:3:4 with xerrorlines lc rgb '{}' pt {} ps 0.9 dt {} lw 1.6 "
-            "title {}",
-            drawn == 0 ? "" : ", \\\n     ", drawn, style.colour, style.point, style.dash,
-            gnuplot_text(block.schemes[j].name));
-        data += fmt::format("{}# {}: median of the seconds, error, lower quartile, upper quartile, "
-                            "elements, dt\n{}",
-                            drawn == 0 ? "" : "\n\n", block.schemes[j].name, rows);
-        ++drawn;
+        const std::string data = drawing.add_block(
+            block.schemes[j].name +
+                ": median of the seconds, error, lower quartile, upper quartile, elements, dt",
+            rows);
+        drawing.add_curve(
+            fmt::format("{} using 1:2:3:4 with xerrorlines lc rgb '{}' pt {} ps 0.9 dt {} lw 1.6",
+                        data, style.colour, style.point, style.dash),
+            block.schemes[j].name);
     }
-    if (drawn == 0)
+    if (drawing.is_empty())
         return {};
     std::string targets;
-    std::size_t legend = drawn;
     if (const auto found = block.targets.find(norm.name); found != block.targets.end()) {
         for (const double target : found->second)
             targets += fmt::format("set arrow from graph 0,first {0} to graph 1,first {0} nohead "
                                    "lc rgb '#555555' dt 3 lw 1.2\n",
                                    target);
-        curves += ", \\\n     NaN with lines lc rgb '#555555' dt 3 lw 1.2 title 'error to "
-                  "reach'";
-        ++legend;
+        drawing.add_curve("NaN with lines lc rgb '#555555' dt 3 lw 1.2", "error to reach");
     }
     const std::string name = "run_time_" + norm.name;
-    const std::string body = fmt::format(
+    const std::string settings = fmt::format(
         "set logscale xy\nset format xy '10^{{%L}}'\nset xlabel 'run time in seconds, median and "
-        "quartiles'\nset ylabel {}\n{}plot {}\n",
-        norm.squared ? "'squared error'" : "'error'", targets, curves);
-    return {{name,
-             fmt::format("Error against run time: {}; medians of up to {} runs with bars from the "
-                         "lower to the upper quartile. Further left and further down is better.",
-                         norm_words(norm.name), block.runs),
-             plot_script(name, legend, body), data}};
+        "quartiles'\nset ylabel {}\n{}",
+        norm.squared ? "'squared error'" : "'error'", targets);
+    return {drawing.plot(
+        name,
+        fmt::format("Error against run time: {}; medians of up to {} runs with bars from the "
+                    "lower to the upper quartile. Further left and further down is better.",
+                    norm_words(norm.name), block.runs),
+        settings)};
 }
 
 } // namespace

@@ -1,3 +1,4 @@
+#include "reports/drawing.hpp"
 #include "reports/number_text.hpp"
 #include "reports/plot.hpp"
 #include "reports/plot_style.hpp"
@@ -187,9 +188,7 @@ std::vector<Plot> stress_plots(const StudyResult& result) {
     if (!axes)
         return {};
     const auto& [x, y] = *axes;
-    std::string data;
-    std::string curves;
-    std::size_t drawn = 0;
+    Drawing drawing;
     for (const Outcome outcome : outcomes) {
         // Cases at one place are one point.
         std::map<std::pair<double, double>, int> points;
@@ -198,30 +197,33 @@ std::vector<Plot> stress_plots(const StudyResult& result) {
                 ++points[{x.places[i], y.places[i]}];
         if (points.empty())
             continue;
-        data += fmt::format("{}# {}: log10 of {}, of {}, number of cases\n",
-                            drawn == 0 ? "" : "\n\n", name_of(outcome), x.name, y.name);
+        std::string rows;
         for (const auto& [place, count] : points)
-            data += fmt::format("{} {} {}\n", place.first, place.second, count);
+            rows += fmt::format("{} {} {}\n", place.first, place.second, count);
+        const std::string block =
+            drawing.add_block(fmt::format("{}: log10 of {}, of {}, number of cases",
+                                          name_of(outcome), x.name, y.name),
+                              rows);
         const OutcomeStyle style = style_of(outcome);
-        curves += fmt::format("{}data index {} using 1:2:(1+0.4*log10($3)) with points pt {} ps "
-                              "variable lc rgb '{}' lw 1.4 title '{}: {}'",
-                              drawn == 0 ? "" : ", \\\n     ", drawn, style.point, style.colour,
-                              name_of(outcome), result.stress->count(outcome));
-        ++drawn;
+        drawing.add_curve(fmt::format("{} using 1:2:(1+0.4*log10($3)) with points pt {} ps "
+                                      "variable lc rgb '{}' lw 1.4",
+                                      block, style.point, style.colour),
+                          fmt::format("{}: {}", name_of(outcome), result.stress->count(outcome)));
     }
     const double room_x = 0.06 * (x.end - x.begin);
     const double room_y = 0.06 * (y.end - y.begin);
-    const std::string body =
+    const std::string settings =
         fmt::format("set xrange [{}:{}]\nset yrange [{}:{}]\nset xtics {}\nset ytics {}\n"
-                    "set xlabel {} noenhanced\nset ylabel {} noenhanced\nset grid\nplot {}\n",
+                    "set xlabel {} noenhanced\nset ylabel {} noenhanced\nset grid\n",
                     x.begin - room_x, x.end + room_x, y.begin - room_y, y.end + room_y, x.ticks(),
-                    y.ticks(), gnuplot_text(x.name), gnuplot_text(y.name), curves);
-    return {{"stress_outcomes",
-             fmt::format("Outcomes of {} cases over the two parameters that tell most about them, "
-                         "{} and {}, on logarithmic axes; the more cases at a place, the larger "
-                         "its symbol.",
-                         cases.size(), x.name, y.name),
-             plot_script("stress_outcomes", drawn, body), data}};
+                    y.ticks(), gnuplot_text(x.name), gnuplot_text(y.name));
+    return {drawing.plot(
+        "stress_outcomes",
+        fmt::format("Outcomes of {} cases over the two parameters that tell most about them, "
+                    "{} and {}, on logarithmic axes; the more cases at a place, the larger "
+                    "its symbol.",
+                    cases.size(), x.name, y.name),
+        settings)};
 }
 
 } // namespace tvbeam

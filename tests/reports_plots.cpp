@@ -1,6 +1,8 @@
 // What the figures show: the numbers in their data, and what is chosen to be shown.
 
+#include "core/contraction.hpp"
 #include "reports/html_report.hpp"
+#include "reports/number_text.hpp"
 #include "reports/plot.hpp"
 #include "reports/plot_style.hpp"
 #include "studies/study.hpp"
@@ -212,6 +214,47 @@ BOOST_AUTO_TEST_CASE(zero_and_no_stops_have_places_of_their_own_on_a_logarithmic
     // A decade below 1e-2, a decade above 1.
     BOOST_TEST(has(plot.script, "('0' -3, '10^{-2}' -2"), plot.script);
     BOOST_TEST(has(plot.script, "'none' 1)"), plot.script);
+}
+
+BOOST_AUTO_TEST_CASE(the_lines_of_a_contraction_map_are_where_it_is_predicted) {
+    StudyResult result = paper();
+    result.stress.emplace();
+    const double zeta = 0.05;
+    result.stress->contraction =
+        measure_contraction({{0.1, 1.0, 10.0}, {1e-3, 0.1}, zeta, 8, "euler", ThermalMass::lumped});
+    const auto blocks = blocks_of(contraction_plots(result).at(0));
+    for (const double level : {0.01, 0.1, 1.0}) {
+        const Rows& line = block(blocks, "predicted: " + shortest(level) + ":");
+        BOOST_TEST(line.size() == 2U);
+        for (const auto& row : line)
+            BOOST_TEST(contraction({.alpha = row[0], .zeta = zeta}, Mesh::uniform(8),
+                                   ThermalMass::lumped, 1.0 / row[1]) == level,
+                       boost::test_tools::tolerance(1e-12));
+    }
+    const Rows& below = block(blocks, "measured: below 1");
+    const Rows& above = block(blocks, "measured: 1 or more");
+    BOOST_TEST(below.size() + above.size() == 6U);
+    for (const auto& row : above)
+        BOOST_TEST(row[2] >= 1.0);
+}
+
+BOOST_AUTO_TEST_CASE(what_a_round_off_study_did_not_measure_is_not_drawn) {
+    StudyResult result = paper();
+    result.stress.emplace();
+    RoundOffRow coarse;
+    coarse.elements = 10;
+    coarse.moment.value = 1e-15;
+    coarse.hermite.value = 1e-14;
+    coarse.hermite_predicted = 1e-13;
+    RoundOffRow fine = coarse;
+    fine.elements = 100;
+    fine.hermite = {std::nullopt, "stopped"};
+    result.stress->roundoff = RoundOffTable{{coarse, fine}};
+    const auto blocks = blocks_of(round_off_plots(result).at(0));
+    BOOST_TEST(block(blocks, "moment form, nodal").size() == 2U);
+    BOOST_TEST(block(blocks, "Hermite form:").size() == 1U);
+    BOOST_TEST(block(blocks, "Hermite form, predicted").size() == 2U);
+    BOOST_TEST(blocks.size() == 3U); // no sine basis, no discretisation error
 }
 
 BOOST_AUTO_TEST_CASE(text_of_a_scene_cannot_leave_its_quotes_in_a_script) {
