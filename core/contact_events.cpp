@@ -7,9 +7,9 @@ namespace tvbeam {
 
 namespace {
 
-/// Of the gap: a tip as near to a stop at t = 0 starts on it. The initial deflection is a sum with
-/// some round-off.
-constexpr double on_the_stop = 1e-12;
+/// Of the stop: a tip as near to it at t = 0 starts on it. The initial deflection has round-off,
+/// which in the Hermite basis grows like h⁻⁴ (round_off.hpp).
+constexpr double on_the_stop = 1e-8;
 
 } // namespace
 

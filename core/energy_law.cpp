@@ -3,20 +3,9 @@
 #include <Eigen/LU>
 
 #include <cmath>
+#include <stdexcept>
 
 namespace tvbeam {
-
-namespace {
-
-/// (p, q) of two piecewise linear functions.
-double inner_product(const Mesh& mesh, const DiscontinuousLinear& p, const DiscontinuousLinear& q) {
-    return (mesh.lengths.transpose() *
-            (p.row(0) * (2.0 * q.row(0) + q.row(1)) + p.row(1) * (q.row(0) + 2.0 * q.row(1))))
-               .sum() /
-           6.0;
-}
-
-} // namespace
 
 ButcherTableau ButcherTableau::of(const TimeScheme& scheme) {
     const auto stages = static_cast<Eigen::Index>(scheme.stages.size());
@@ -112,8 +101,10 @@ double EnergyLaw::end_step(const SolveRecorder& recorder, const SolveRecord& las
                 size += std::abs(dissipated);
             }
         }
+    } else if (last.scheme->name != "bdf2") {
+        throw std::logic_error("no energy law is known of the time scheme " + last.scheme->name);
     } else {
-        // BDF2: one stage, b = 1, and the form of ẏ in y^n, y^{n−1}, y^{n−2} is its G-norm's.
+        // One stage, b = 1, and the form of ẏ in y^n, y^{n−1}, y^{n−2} is its G-norm's.
         const RecordedState& earlier = recorder.before(2);
         const auto combined = [&](double a, double b, double c) {
             const Eigen::VectorXd theta = a * now.theta + b * before.theta + c * earlier.theta;

@@ -88,6 +88,13 @@ double tip_moment(const Mesh& mesh, const DiscontinuousLinear& p) {
            6.0;
 }
 
+double inner_product(const Mesh& mesh, const DiscontinuousLinear& p, const DiscontinuousLinear& q) {
+    return (mesh.lengths.transpose() *
+            (p.row(0) * (2.0 * q.row(0) + q.row(1)) + p.row(1) * (q.row(0) + 2.0 * q.row(1))))
+               .sum() /
+           6.0;
+}
+
 DiscontinuousLinear project(const Mesh& mesh, const SpaceFunction& g) {
     // The element mass matrix h/6 [2 1; 1 2] has the inverse 2/h [2 −1; −1 2].
     const Eigen::Array2Xd moments = end_moments(mesh, g);

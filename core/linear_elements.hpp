@@ -29,6 +29,9 @@ Eigen::VectorXd hat_loads(const Mesh& mesh, const DiscontinuousLinear& p);
 /// ∫ (1 − x) p dx of a piecewise linear p; exact.
 double tip_moment(const Mesh& mesh, const DiscontinuousLinear& p);
 
+/// (p, q) of two piecewise linear functions; exact.
+double inner_product(const Mesh& mesh, const DiscontinuousLinear& p, const DiscontinuousLinear& q);
+
 /// The L² projection of g on P1disc: the projection of (25)'s space for curvatures.
 DiscontinuousLinear project(const Mesh& mesh, const SpaceFunction& g);
 

@@ -17,13 +17,6 @@ bool reads_energy(const std::vector<Probe>& probes) {
                        [](const Probe& probe) { return probe.quantity == Quantity::energy; });
 }
 
-/// ½ ‖w‖², exact for piecewise linear w.
-double bending_energy(const Mesh& mesh, const DiscontinuousLinear& w) {
-    const auto left = w.row(0);
-    const auto right = w.row(1);
-    return (mesh.lengths.transpose() * (left.square() + left * right + right.square())).sum() / 6.0;
-}
-
 } // namespace
 
 Needs needs_of(const std::vector<Probe>& probes) {
@@ -73,7 +66,7 @@ Eigen::VectorXd ProbeReader::read(const Solver& solver, double t) const {
     };
     const auto energy = [&] {
         const Eigen::VectorXd theta = solver.temperature().segment(1, mesh_.elements() - 1);
-        return theta.dot(mass_ * theta) / 2.0 + bending_energy(mesh_, w);
+        return (theta.dot(mass_ * theta) + inner_product(mesh_, w, w)) / 2.0;
     };
     Eigen::VectorXd values(static_cast<Eigen::Index>(probes_.size()));
     for (Eigen::Index k = 0; k < values.size(); ++k) {

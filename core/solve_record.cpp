@@ -101,7 +101,7 @@ const SolveRecord& SolveRecorder::record(const Solve& solve) {
 }
 
 void SolveRecorder::end_step() {
-    const auto history = static_cast<std::size_t>(2);
+    constexpr std::size_t history = 2; // what BDF2 reads, which reads most
     levels_.insert(levels_.begin(), std::move(stages_.back()));
     if (levels_.size() > history)
         levels_.resize(history);

@@ -66,13 +66,6 @@ void finish(std::vector<Residual>& residuals, const std::vector<Sizes>& sizes) {
     }
 }
 
-/// ‖p‖² of a piecewise linear p.
-double squared_norm(const Mesh& mesh, const DiscontinuousLinear& p) {
-    const auto left = p.row(0).transpose();
-    const auto right = p.row(1).transpose();
-    return (mesh.lengths * (left * (left + right) + right * right)).sum() / 3.0;
-}
-
 /// The two residuals in space at one time.
 Residual space_residual(const PiecewiseTape& tape, const Beam& beam, const Mesh& mesh,
                         ThermalMass mass, double t) {
@@ -99,7 +92,7 @@ Residual space_residual(const PiecewiseTape& tape, const Beam& beam, const Mesh&
     balance.row(1) += at_nodes.tail(s).transpose();
     return {.count = s,
             .heat = std::sqrt((residual.array().square() / weights.array()).sum()),
-            .beam = std::sqrt(squared_norm(mesh, balance)),
+            .beam = std::sqrt(inner_product(mesh, balance, balance)),
             .heat_order = std::nullopt,
             .beam_order = std::nullopt};
 }

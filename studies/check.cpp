@@ -2,6 +2,8 @@
 
 #include "mms/nearest_name.hpp"
 
+#include <boost/algorithm/string/join.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <sstream>
@@ -108,12 +110,12 @@ private:
     }
 
     void add_figure(const Expectation& expectation, std::size_t row, const std::string& name,
-                    std::optional<double> figure) {
+                    std::optional<double> figure, const std::string& otherwise = "undefined") {
         const RungResult& run = (*measured(expectation).runs)[row];
         checked_.push_back(
             held(expectation,
                  expectation.study + "." + expectation.norm + ": " + name + " at " + rung_text(run),
-                 figure, absence_of(run, "undefined")));
+                 figure, absence_of(run, otherwise)));
     }
 
     void add_orders(const Expectation& expectation) {
@@ -121,6 +123,9 @@ private:
             observed_orders(records_of(*measured(expectation).runs, norm_index(expectation)));
         for (std::size_t row = 1; row < orders.size(); ++row)
             add_figure(expectation, row, "observed order", orders[row]);
+        if (orders.size() < 2)
+            add_figure(expectation, 0, "observed order", std::nullopt,
+                       "nothing: a ladder of one rung has no order");
     }
 
     void add_ratio(const Expectation& expectation) {
@@ -204,7 +209,8 @@ private:
         checked_.push_back(
             held(expectation, expectation.study + "." + expectation.norm,
                  found == figures.end() ? std::nullopt : std::optional(found->second),
-                 "the study has no figure of this name" + did_you_mean(expectation.norm, names)));
+                 "no figure of this name" + did_you_mean(expectation.norm, names) +
+                     "; the study has " + boost::algorithm::join(names, ", ")));
     }
 
     const StudyResult& result_;
@@ -218,12 +224,7 @@ std::vector<CheckedExpectation> check(const StudyResult& result) {
     Checker checker(result);
     for (const auto& expectation : result.scene.expectations)
         checker.add(expectation);
-    auto checked = checker.take();
-    if (checked.empty() && !result.scene.expectations.empty())
-        checked.push_back({"expectations", "something to check",
-                           "nothing: a ladder of one rung has no order",
-                           result.scene.expectations[0].place, false});
-    return checked;
+    return checker.take();
 }
 
 } // namespace tvbeam

@@ -1,5 +1,6 @@
 #include "studies/csv_records.hpp"
 
+#include "mms/error_text.hpp"
 #include "mms/input_error.hpp"
 #include "mms/nearest_name.hpp"
 
@@ -13,6 +14,7 @@
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <map>
 #include <string_view>
 #include <system_error>
 
@@ -106,6 +108,31 @@ double number(const std::string& field, const Place& place, const std::string& n
     return value;
 }
 
+/// The values over the width that was refined: h, or dt where h stays.
+std::vector<GridValue> values_of(const std::vector<Refinement>& records,
+                                 const std::vector<double>& values, const std::string& file) {
+    const bool in_dt = std::all_of(records.begin(), records.end(), [&](const Refinement& record) {
+        return std::isnan(record.h) || (record.h == records[0].h && !std::isnan(record.dt));
+    });
+    std::vector<GridValue> result;
+    std::map<double, double> other; // the width that goes with it
+    for (std::size_t i = 0; i < records.size(); ++i) {
+        const auto& [h, dt, error, seconds] = records[i];
+        const double width = in_dt ? dt : h;
+        result.push_back({width, values[i]});
+        if (!other.emplace(width, in_dt || std::isnan(dt) ? 0.0 : dt).second)
+            throw InputError({file}, "has two values at " + std::string(in_dt ? "dt" : "h") +
+                                         " = " + number_text(width) +
+                                         "; a limit is found from one value a width");
+    }
+    if (!std::is_sorted(other.begin(), other.end(),
+                        [](const auto& a, const auto& b) { return a.second < b.second; }))
+        throw InputError({file},
+                         "refines h and makes dt coarser; a limit is found along one way of "
+                         "refinement");
+    return result;
+}
+
 } // namespace
 
 RecordFile read_records(const std::string& file, const std::optional<std::string>& error_column) {
@@ -130,6 +157,7 @@ RecordFile read_records(const std::string& file, const std::optional<std::string
     const Columns columns = columns_of(names, error_column, {file, number_of_line});
 
     RecordFile result;
+    std::vector<double> values;
     while (next_line()) {
         const Place place{file, number_of_line};
         const auto fields = fields_of(line, place);
@@ -159,12 +187,13 @@ RecordFile read_records(const std::string& file, const std::optional<std::string
         if (columns.has_errors)
             record.error = value(columns.error);
         else
-            result.values.push_back(
-                {std::isnan(record.h) ? record.dt : record.h, value(columns.error)});
+            values.push_back(value(columns.error));
         result.records.push_back(record);
     }
     if (result.records.empty())
         throw InputError({file}, "has no records below its first line");
+    if (!columns.has_errors)
+        result.values = values_of(result.records, values, file);
     return result;
 }
 

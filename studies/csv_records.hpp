@@ -22,7 +22,8 @@ struct RecordFile {
 /// number too small for a double is 0.
 ///
 /// error_column: the column of the error; without it `error`. Where neither is there a column
-/// `value` is read, a number that was computed at each h, or at each dt in a file without h.
+/// `value` is read, a number that was computed at each h, or at each dt where h stays; there is one
+/// a width, and h and dt are not refined in turns.
 /// Throws InputError at file:line for a missing file or column, a column that is wanted and named
 /// twice, a field that is not a number or too large for one, a width that is not positive, and a
 /// line with too few or too many fields.

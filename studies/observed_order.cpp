@@ -25,6 +25,9 @@ std::optional<double> refinement_ratio(const Refinement& from, const Refinement&
     if ((in_h && !(is_width(from.h) && is_width(to.h))) ||
         (in_dt && !(is_width(from.dt) && is_width(to.dt))))
         return std::nullopt;
+    // One finer, the other coarser: neither record refines the other.
+    if (in_h && in_dt && (from.h > to.h) != (from.dt > to.dt))
+        return std::nullopt;
     return in_h ? from.h / to.h : from.dt / to.dt;
 }
 

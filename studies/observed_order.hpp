@@ -32,8 +32,9 @@ struct Refinement {
 
 /// r > 1 where `to` is finer than `from`, r < 1 where it is coarser. The ratio of h where h
 /// changes, else that of Δt. Where both change by different ratios (Δt ∝ h², say) it is still h's,
-/// so that the order is one in h along the ladder's own coupling. None where neither changes, or
-/// where a width that is there in one record is missing, not finite or not positive in the other.
+/// so that the order is one in h along the ladder's own coupling. None where neither changes,
+/// where one grows and the other shrinks, or where a width that is there in one record is missing,
+/// not finite or not positive in the other.
 std::optional<double> refinement_ratio(const Refinement& from, const Refinement& to);
 
 /// As many values as records. None for the first record, and wherever one of the two errors is

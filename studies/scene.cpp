@@ -160,6 +160,12 @@ std::string json_of(const toml::table& table) {
 
 } // namespace
 
+double Scene::longest_time() const {
+    return std::max({ladder ? ladder->final_time : 0.0, orders ? orders->final_time : 0.0,
+                     work_precision ? work_precision->final_time : 0.0,
+                     evolution ? evolution->final_time : 0.0});
+}
+
 Scene read_scene(const std::string& name_or_file, const std::vector<std::string>& overrides,
                  const Reading& reading) {
     const std::filesystem::path path = find_file(Shipped::scene, name_or_file);
@@ -186,7 +192,10 @@ Scene read_scene(const std::string& name_or_file, const std::vector<std::string>
     auto beam = root.table("beam");
     if (!beam && !stress_only)
         throw InputError({scene.file},
-                         "the block [beam] is missing; it holds alpha, zeta and the stops");
+                         root.has("theta") || root.has("u") || root.has("phase")
+                             ? "is a solution, not a scene; a scene names it: solution = \"./" +
+                                   path.filename().string() + "\" (tvbeam new writes both)"
+                             : "the block [beam] is missing; it holds alpha, zeta and the stops");
     if (beam)
         scene.beam = read_beam(*std::move(beam));
     if (auto mesh = root.table("mesh"))

@@ -74,6 +74,9 @@ struct Scene {
     [[nodiscard]] bool poses_problem() const {
         return ladder || orders || work_precision || evolution;
     }
+
+    /// To which a study of the scene's own problem runs; 0 without one.
+    [[nodiscard]] double longest_time() const;
 };
 
 /// How a scene is read.

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <optional>
+#include <set>
 #include <variant>
 
 namespace tvbeam {
@@ -17,18 +18,16 @@ bool is_scene_file(const std::filesystem::path& file) {
     return read_toml(file.string()).table.contains("beam");
 }
 
-/// The longest time that a study of the scene runs to.
-double final_time_of(const Scene& scene) {
-    return std::max(scene.ladder ? scene.ladder->final_time : 0.0,
-                    scene.orders ? scene.orders->final_time : 0.0);
-}
-
 SolutionSetting setting_of(const Scene& scene) {
+    if (!scene.poses_problem())
+        throw InputError({scene.file},
+                         "[stress] poses problems of its own: there is no solution to derive "
+                         "from; name a scene with another study, or a solution");
     const auto* solution = std::get_if<Solution>(&scene.problem);
     if (solution == nullptr)
         throw InputError({scene.file},
                          "the scene has a [data] block and no exact solution to derive from");
-    return {*solution, scene.beam, final_time_of(scene), "the beam of the scene " + scene.name};
+    return {*solution, scene.beam, scene.longest_time(), "the beam of the scene " + scene.name};
 }
 
 /// The first shipped scene that runs a shipped solution.
@@ -36,18 +35,37 @@ std::optional<Scene> scene_that_runs(const Solution& solution) {
     for (const auto& file : shipped_files(Shipped::scene)) {
         Scene scene = read_scene(file.path.string());
         const auto* own = std::get_if<Solution>(&scene.problem);
-        if (own != nullptr && own->name == solution.name && final_time_of(scene) > 0.0)
+        if (own != nullptr && own->name == solution.name && scene.poses_problem())
             return scene;
     }
     return std::nullopt;
 }
 
-/// NAME-scene.toml beside NAME.toml.
+/// Whether a scene runs the solution of that file.
+bool runs(const Scene& scene, const std::filesystem::path& file) {
+    const auto* own = std::get_if<Solution>(&scene.problem);
+    std::error_code error;
+    return own != nullptr && !own->phases.empty() &&
+           std::filesystem::equivalent(own->phases.front().theta.begin().file, file, error);
+}
+
+/// The first scene, by name, that lies beside a solution and runs it.
 std::optional<Scene> scene_beside(const std::filesystem::path& file) {
-    const auto scene = file.parent_path() / (file.stem().string() + "-scene.toml");
-    if (std::error_code error; !std::filesystem::exists(scene, error))
-        return std::nullopt;
-    return read_scene(scene.string());
+    const auto folder = file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
+    std::set<std::filesystem::path> beside;
+    for (const auto& entry : std::filesystem::directory_iterator(folder))
+        if (entry.path().extension() == ".toml")
+            beside.insert(entry.path());
+    for (const auto& path : beside)
+        try {
+            if (!is_scene_file(path))
+                continue;
+            if (Scene scene = read_scene(path.string()); runs(scene, file))
+                return scene;
+        } catch (const InputError&) {
+            continue; // whoever runs that scene is told what is wrong with it
+        }
+    return std::nullopt;
 }
 
 } // namespace
@@ -63,7 +81,7 @@ SolutionSetting solution_setting(const std::string& name) {
     const std::filesystem::path file = find_file(Shipped::solution, name);
     const Solution solution = read_solution(file);
     if (const auto scene = is_file ? scene_beside(file) : scene_that_runs(solution))
-        return {solution, scene->beam, final_time_of(*scene),
+        return {solution, scene->beam, scene->longest_time(),
                 "the beam of the scene " + scene->name};
     constexpr double papers_final_time = 2.0;
     return {solution, Beam{0.017, 0.1, 0.0, {-0.02, 0.1}}, papers_final_time,

@@ -16,8 +16,8 @@ struct SolutionSetting {
 };
 
 /// What a name on the command line means: a scene and its solution; a shipped solution, with the
-/// first shipped scene that runs it; a solution file, with the scene NAME-scene.toml beside it if
-/// there is one, or else the paper's beam up to t = 2. Throws InputError for a scene without exact
+/// first shipped scene that runs it; a solution file, with the first scene beside it that
+/// runs it, or else the paper's beam up to t = 2. Throws InputError for a scene without exact
 /// solution and whatever read_scene and read_solution refuse.
 SolutionSetting solution_setting(const std::string& name);
 

@@ -1,5 +1,6 @@
 #include "studies/stress_block.hpp"
 
+#include "studies/study_keys.hpp"
 #include "studies/toml_reader.hpp"
 
 #include <gsl/gsl_qrng.h>
@@ -16,7 +17,6 @@ namespace tvbeam {
 namespace {
 
 constexpr std::int64_t most_cases = 100'000;
-constexpr std::int64_t most_elements = 10'000'000;
 constexpr std::int64_t most_work = 10'000'000'000;
 
 /// One list of values: sets the one at an index in a case.
@@ -92,18 +92,8 @@ std::vector<double> numbers(TableReader& table, const char* key, double otherwis
     return values;
 }
 
-std::vector<std::int64_t> read_elements(TableReader& table) {
-    auto values = table.integers("elements").value_or(std::vector<std::int64_t>{10});
-    for (std::size_t i = 0; i < values.size(); ++i)
-        if (values[i] < 1 || values[i] > most_elements)
-            throw InputError(table.place("elements", i),
-                             table.full("elements") + " holds " + std::to_string(values[i]) +
-                                 "; a mesh has 1 to " + std::to_string(most_elements) +
-                                 " elements");
-    if (values.empty())
-        throw InputError(table.place("elements"),
-                         table.full("elements") + " is empty; it must hold a value");
-    return values;
+std::vector<std::int64_t> elements_or_ten(TableReader& table) {
+    return table.has("elements") ? read_elements(table) : std::vector<std::int64_t>{10};
 }
 
 std::int64_t count(TableReader& table, const char* key, std::int64_t otherwise,
@@ -172,7 +162,7 @@ StressSweep read_sweep(TableReader table, const std::string& name) {
     axes.push_back(axis_of(numbers(table, "alpha", 0.5, false), &StressParameters::alpha));
     axes.push_back(axis_of(numbers(table, "zeta", 0.1, false), &StressParameters::zeta));
     axes.push_back(axis_of(numbers(table, "dt", 0.01, true), &StressParameters::dt));
-    axes.push_back(axis_of(read_elements(table), &StressParameters::elements));
+    axes.push_back(axis_of(elements_or_ten(table), &StressParameters::elements));
     const double none = std::numeric_limits<double>::infinity();
     const auto gaps = numbers(table, "gap", none, true, TableReader::Infinity::allowed);
     axes.push_back(gap_axis(gaps, words(table, "sides", {"both", "lower", "upper"})));
@@ -278,7 +268,7 @@ RoundOffBlock read_roundoff(TableReader table) {
     block.steps = count(table, "steps", 3, 1'000'000);
     block.time = read_one_time(table);
     block.thermal_mass = read_one_mass(table);
-    block.elements = read_elements(table);
+    block.elements = elements_or_ten(table);
     block.finest_hermite = count(table, "finest_hermite", 10'000, most_elements);
     table.finish();
     return block;

@@ -38,14 +38,6 @@ std::vector<MeasuredRuns> StudyResult::runs() const {
 
 namespace {
 
-/// One problem serves all studies: it is admissible up to the longest of their times.
-double longest_time(const Scene& scene) {
-    return std::max({scene.ladder ? scene.ladder->final_time : 0.0,
-                     scene.orders ? scene.orders->final_time : 0.0,
-                     scene.work_precision ? scene.work_precision->final_time : 0.0,
-                     scene.evolution ? scene.evolution->final_time : 0.0});
-}
-
 double work_of(const Scheme& scheme, const std::vector<Rung>& rungs) {
     double work = 0.0;
     for (const auto& rung : rungs)
@@ -63,7 +55,7 @@ double work_of(const ReferenceBlock& reference, double final_time) {
 double work_of(const Scene& scene) {
     double work = 0.0;
     if (scene.reference && !scene.norms().empty())
-        work += work_of(*scene.reference, longest_time(scene));
+        work += work_of(*scene.reference, scene.longest_time());
     if (scene.ladder)
         work += work_of(scene.scheme, scene.ladder->rungs);
     if (scene.orders)
@@ -98,7 +90,7 @@ StudyResult run_study(const Scene& scene, ProblemData data, const Execution& exe
     if (!scene.poses_problem())
         return result;
     if (scene.reference && !scene.norms().empty())
-        result.reference = measure_against_reference(scene, longest_time(scene), data, execution);
+        result.reference = measure_against_reference(scene, scene.longest_time(), data, execution);
     result.left_out = left_out(scene, data);
     if (scene.orders)
         result.orders = run_orders(scene, *scene.orders, data, execution);
@@ -113,9 +105,9 @@ StudyResult run_study(const Scene& scene, ProblemData data, const Execution& exe
 }
 
 StudyResult run_study(const Scene& scene, const Execution& execution) {
-    return run_study(scene,
-                     scene.poses_problem() ? problem_of(scene, longest_time(scene)) : ProblemData{},
-                     execution);
+    return run_study(
+        scene, scene.poses_problem() ? problem_of(scene, scene.longest_time()) : ProblemData{},
+        execution);
 }
 
 } // namespace tvbeam

@@ -57,7 +57,7 @@ std::vector<std::int64_t> read_elements(TableReader& table) {
                              " is missing; give the numbers of elements, e.g. [10, 20, 40]");
     if (elements->empty())
         throw InputError(table.place("elements"),
-                         table.full("elements") + " is empty; a ladder has at least one rung");
+                         table.full("elements") + " is empty; it must hold a number of elements");
     for (std::size_t i = 0; i < elements->size(); ++i)
         if ((*elements)[i] < 1 || (*elements)[i] > most_elements)
             throw InputError(table.place("elements", i),

@@ -10,7 +10,8 @@ namespace tvbeam {
 
 class TableReader;
 
-/// One run of a study: s elements of length 1/s and N steps of length dt.
+/// One run of a study: s elements, h = 1/s, and N steps of length dt. On a mesh that is not uniform
+/// h is the mean length, to which those of a family of meshes are in proportion.
 struct Rung {
     std::int64_t elements = 0;
     std::int64_t steps = 0;

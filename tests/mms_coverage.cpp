@@ -177,12 +177,44 @@ BOOST_AUTO_TEST_CASE(a_jump_leaves_a_residual_in_schemes_that_look_across_it) {
 BOOST_AUTO_TEST_CASE(a_solution_linear_in_time_has_no_time_residual) {
     const Solution solution = parse_solution("theta = 'x*(1 - x)*t'\nu = 'x^2*t/100'\n", "my.toml");
     const Beam beam = {0.4, 0.15, 0.0, {}};
-    BOOST_TEST(expected_orders(solution, beam, 1.0).is_linear_in_time);
+    const ExpectedOrders expected = expected_orders(solution, beam, 1.0);
+    BOOST_TEST(!expected.theta_has_time_error);
+    BOOST_TEST(!expected.u_has_time_error);
     for (const auto& scheme : TimeScheme::names()) {
         const auto residuals = time_residuals(solution, beam, 1.0, scheme, {16, 32});
         BOOST_TEST(residuals.back().heat == 0.0);
         BOOST_TEST(residuals.back().beam == 0.0);
     }
+}
+
+// Without coupling each equation has the time error of what it differences itself: the heat
+// equation of theta, the beam equation, if zeta is not 0, of u_xx.
+BOOST_AUTO_TEST_CASE(a_time_error_is_forecast_where_a_residual_is) {
+    for (const std::string theta : {"t", "t^2"})
+        for (const std::string u : {"t", "t^2"})
+            for (const double alpha : {0.0, 0.4})
+                for (const double zeta : {0.0, 0.15}) {
+                    const Solution solution = parse_solution(
+                        "theta = 'sin(pi*x)*" + theta + "'\nu = 'x^2*" + u + "/100'\n", "my.toml");
+                    const Beam beam{alpha, zeta, 0.0, {}};
+                    const ExpectedOrders expected = expected_orders(solution, beam, 1.0);
+                    const Residual residual =
+                        time_residuals(solution, beam, 1.0, "euler", {16, 32}).back();
+                    const bool heat = residual.heat > 0.0;
+                    const bool bending = residual.beam > 0.0;
+                    BOOST_TEST_CONTEXT(theta << ", " << u << ", " << alpha << ", " << zeta) {
+                        // The coupling passes an error on.
+                        BOOST_TEST(expected.theta_has_time_error ==
+                                   (heat || (alpha != 0.0 && bending)));
+                        BOOST_TEST(expected.u_has_time_error ==
+                                   (bending || (alpha != 0.0 && heat)));
+                        for (const ExpectedOrder& order : expected.orders)
+                            BOOST_TEST(order.euler.has_value() ==
+                                       (order.norm.starts_with("theta")
+                                            ? expected.theta_has_time_error
+                                            : expected.u_has_time_error));
+                    }
+                }
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -99,6 +99,14 @@ BOOST_AUTO_TEST_CASE(the_ratio_is_that_of_h_where_h_is_refined) {
     BOOST_TEST(*observed_orders(in_time)[1] == 2.0, boost::test_tools::tolerance(few_ulp));
 }
 
+BOOST_AUTO_TEST_CASE(one_width_finer_and_the_other_coarser_is_no_refinement) {
+    const Refinement fine_in_h{.h = 0.05, .dt = 0.1, .error = 0.9};
+    const Refinement fine_in_dt{.h = 0.1, .dt = 0.05, .error = 0.5};
+    BOOST_TEST(!refinement_ratio(fine_in_h, fine_in_dt).has_value());
+    BOOST_TEST(!refinement_ratio(fine_in_dt, fine_in_h).has_value());
+    BOOST_TEST(!observed_orders(std::array{fine_in_dt, fine_in_h})[1].has_value());
+}
+
 // 1e200 / 1e-200 is not a double; its logarithm is.
 BOOST_AUTO_TEST_CASE(no_overflow_between_far_errors) {
     const std::vector<Refinement> ladder{{.h = 1.0, .error = 1e200}, {.h = 0.1, .error = 1e-200}};

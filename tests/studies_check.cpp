@@ -89,6 +89,12 @@ BOOST_AUTO_TEST_CASE(a_scene_whose_expectations_find_nothing_to_check_does_not_p
                              {"ladder.elements=[10]", "ladder.dt=[1e-3]", "ladder.printed={}"});
     BOOST_TEST(all.size() == 1u);
     BOOST_TEST(violations(all) == 1u);
+    // Nor does it hide behind another expectation that holds.
+    const auto two = checked("[expect.ladder.theta_L2L2_sq]\norders = [3.9, 4.1]\nerrors = "
+                             "[1.2455e-3]\n",
+                             {"ladder.elements=[10]", "ladder.dt=[1e-3]", "ladder.printed={}"});
+    BOOST_TEST(two.size() == 2u);
+    BOOST_TEST(violations(two) == 1u);
 }
 
 BOOST_AUTO_TEST_CASE(an_order_that_is_known_less_well_than_its_band_is_wide_does_not_hold) {

@@ -241,6 +241,19 @@ BOOST_AUTO_TEST_CASE(a_penalised_stop_yields_and_is_not_passed) {
     BOOST_TEST(contact.events().size() == 1U);
 }
 
+// The Hermite basis has the initial deflection to its round-off only.
+BOOST_DATA_TEST_CASE(a_tip_that_starts_on_a_stop_has_its_onset_at_zero,
+                     data::make(std::vector<std::string>{"direct", "fixed-point"}), algorithm) {
+    const EvolutionResult result =
+        evolution_of("solution = 'pressed-on-g1'\n[beam]\nalpha = 0.3\nzeta = 0.1\n"
+                     "stops = [-0.05, 0.1]\n[scheme]\nalgorithm = '" +
+                     algorithm +
+                     "'\n[evolution]\nfinal_time = 0.1\nelements = 20\ndt = 0.01\n"
+                     "probes = ['u@1']\n");
+    BOOST_REQUIRE(!result.events.empty());
+    BOOST_TEST(result.events[0].t == 0.0);
+}
+
 // The first onset and the first release of Figure 1, against a run of 1e5 steps a period.
 BOOST_DATA_TEST_CASE(events_converge_with_the_order_of_the_scheme, data::make(time_schemes), time) {
     const auto fine = figure1(direct("sdirk2"), 20, 1e-5, 0.6);

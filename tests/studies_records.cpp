@@ -186,6 +186,23 @@ BOOST_AUTO_TEST_CASE(values_without_errors_are_extrapolated) {
     BOOST_TEST(analysis.values->limit->limit == 2.0, boost::test_tools::tolerance(1e-8));
 }
 
+BOOST_AUTO_TEST_CASE(values_are_extrapolated_along_the_width_that_is_refined) {
+    const TemporaryDirectory directory;
+    const auto analysis = analyse(read_records(
+        directory.write("v.csv", "h,dt,value\n0.1,0.05,2.0075\n0.1,0.1,2.03\n0.1,0.2,2.12\n"), {}));
+    BOOST_TEST(analysis.values->finest->order == 2.0, boost::test_tools::tolerance(1e-10));
+    const std::vector<std::pair<std::string, std::string>> wrong{
+        {"h,dt,value\n0.1,0.1,1\n0.05,0.1,2\n0.05,0.05,3\n", "has two values at h = 0.05"},
+        {"h,dt,value\n0.1,0.1,1\n0.05,0.2,2\n", "makes dt coarser"},
+        {"dt,value\n0.1,1\n0.1,2\n", "has two values at dt = 0.1"}};
+    for (const auto& [text, message] : wrong)
+        BOOST_CHECK_EXCEPTION(read_records(directory.write("w.csv", text), {}), InputError,
+                              [&message = message](const InputError& error) {
+                                  return std::string(error.what()).find(message) !=
+                                         std::string::npos;
+                              });
+}
+
 BOOST_AUTO_TEST_CASE(too_few_or_oscillating_values_have_no_order) {
     BOOST_TEST(!analyse_values({{0.4, 1}, {0.2, 2}, {0.2, 3}}).finest);
     BOOST_TEST(analyse_values({{0.4, 1}, {0.2, 2}}).no_extrapolation.find("three") !=

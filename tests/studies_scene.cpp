@@ -114,7 +114,7 @@ const std::vector<Wrong> wrong_scenes{
     {"dt         = [1e-3, 5e-4]", "dt         = \"0.01/(s\"", "16:20", "'(' is never closed"},
     {"dt         = [1e-3, 5e-4]\n", "", "", "ladder.dt is missing"},
     {"elements   = [10, 20]", "elements   = []", "15:14",
-     "ladder.elements is empty; a ladder has at least one rung"},
+     "ladder.elements is empty; it must hold a number of elements"},
     {"elements   = [10, 20]", "elements   = [10, 0]", "15:19",
      "ladder.elements holds 0; a mesh has 1 to 10000000 elements"},
     {"elements   = [10, 20]", "elements   = [1000000000000, 20]", "15:15",
