@@ -8,8 +8,9 @@
 
 namespace tvbeam {
 
-/// The errors of every run of some scenes, as JSON (schema tvbeam-baseline/1), to hold later runs
-/// against.
+/// The errors of every run of some scenes, and the figures() of their evolutions and stress
+/// studies that are above round-off, as JSON (schema tvbeam-baseline/1), to hold later runs
+/// against. Throws InputError where two scenes have one name, or one has nothing to keep.
 std::string baseline_of(const std::vector<StudyResult>& results);
 
 /// A recorded baseline.

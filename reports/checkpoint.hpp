@@ -27,6 +27,9 @@ public:
     std::optional<StressCase> find_case(std::size_t index) override;
     void add_case(std::size_t index, const StressCase& result) override;
 
+    /// Whether something is kept now.
+    [[nodiscard]] bool holds_runs() const { return content_.contains("runs"); }
+
     [[nodiscard]] std::size_t found() const { return found_; } ///< results of the earlier attempt
 
     void write();  ///< what is not yet on the disk; throws OutputError

@@ -4,8 +4,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <optional>
+#include <utility>
 
 namespace tvbeam {
 
@@ -195,6 +198,20 @@ std::vector<StudyCsv> study_csvs(const StudyResult& result) {
     if (result.stress && result.stress->roundoff)
         all.push_back({"roundoff", round_off_csv(*result.stress->roundoff)});
     return all;
+}
+
+bool is_study_csv(const std::string& name, const std::string& first_line) {
+    constexpr std::pair<const char*, const char*> known[] = {
+        {"ladder.csv", "elements,h,dt,steps,status,"},
+        {"orders.csv", "elements,h,dt,steps,status,"},
+        {"work_precision.csv", "scheme,elements,h,dt,steps,status,"},
+        {"evolution.csv", "t,"},
+        {"stress.csv", "alpha,zeta,dt,elements,steps,"},
+        {"contraction.csv", "alpha,dt,predicted,"},
+        {"roundoff.csv", "elements,moment,sine,"}};
+    return std::any_of(std::begin(known), std::end(known), [&](const auto& one) {
+        return name == one.first && first_line.starts_with(one.second);
+    });
 }
 
 std::string csv_report(const StudyResult& result) {

@@ -17,6 +17,9 @@ struct StudyCsv {
 /// Every study's table, as csv_report has the first of them.
 std::vector<StudyCsv> study_csvs(const StudyResult& result);
 
+/// Whether a file with that name and first line is one of them.
+bool is_study_csv(const std::string& name, const std::string& first_line);
+
 /// The ladder as CSV (RFC 4180, but with \n), or the grid of a scene that has no ladder: one row a
 /// run, columns elements, h, dt, steps, status, then for each norm its error, and of a ladder also
 /// the printed figure (where the scene has them), order and prediction (where there is a model),

@@ -64,7 +64,11 @@ Table event_table(const std::vector<ContactEvent>& events) {
     return {"The tip meets a stop (onset) and leaves it (release).", key, {what}};
 }
 
+/// What never happened is said of a whole run only.
 void add_contact(Section& section, const EvolutionResult& result, const Stops& stops) {
+    const bool whole = result.run.status == RunStatus::ok;
+    if (!whole && result.events.empty())
+        return;
     section.blocks.emplace_back(BlankLine{});
     if (result.events.empty())
         section.blocks.emplace_back(Finding{"The tip never presses on a stop."});
@@ -73,7 +77,7 @@ void add_contact(Section& section, const EvolutionResult& result, const Stops& s
     if (result.events.size() > shown_events)
         section.blocks.emplace_back(Paragraph{fmt::format("of {} events the first and the last {}",
                                                           result.events.size(), shown_events / 2)});
-    if (stops.epsilon == 0.0)
+    if (whole && stops.epsilon == 0.0)
         section.blocks.emplace_back(Finding{
             result.beyond_stops > 0.0
                 ? "The tip passes a stop by " + scientific(result.beyond_stops, 1) + " at most."
@@ -82,15 +86,15 @@ void add_contact(Section& section, const EvolutionResult& result, const Stops& s
 
 Table period_table(const EvolutionResult& result) {
     Table::Group key{"", {{"period to t", {}}}};
-    Table::Group changes{"greatest change from the period before", {}};
+    std::vector<Table::Group> changes; // of one column each: a wide table breaks between groups
     for (const auto& probe : result.probes)
-        changes.columns.push_back({probe.name, {}});
+        changes.push_back({"", {{probe.name, {}}}});
     for (const auto& period : result.periods) {
         key.columns[0].cells.push_back(shortest(period.end));
         for (std::size_t k = 0; k < period.changes.size(); ++k)
-            changes.columns[k].cells.push_back(scientific(period.changes[k], 1));
+            changes[k].columns[0].cells.push_back(scientific(period.changes[k], 1));
     }
-    return {"The greatest change of each probe from one period to the next.", key, {changes}};
+    return {"The greatest change of each probe from one period to the next.", key, changes};
 }
 
 } // namespace
@@ -104,7 +108,9 @@ Section evolution_section(const EvolutionResult& result, const Scene& scene) {
     section.blocks.emplace_back(BlankLine{});
     if (result.run.status != RunStatus::ok)
         section.blocks.emplace_back(
-            Finding{"The run failed, and this is what it reached: " + result.run.reason});
+            Finding{std::string(result.run.status == RunStatus::failed ? "The run failed"
+                                                                       : "The run did not end") +
+                    "; this is what it reached: " + result.run.reason});
     section.blocks.emplace_back(probe_table(result));
     if (has_exact(result))
         section.blocks.emplace_back(Paragraph{"error: greatest distance from the exact solution"});
@@ -112,6 +118,8 @@ Section evolution_section(const EvolutionResult& result, const Scene& scene) {
         add_contact(section, result, scene.beam.stops);
     if (!result.periods.empty()) {
         section.blocks.emplace_back(BlankLine{});
+        section.blocks.emplace_back(
+            Paragraph{"greatest change from the period before, by period and probe:"});
         section.blocks.emplace_back(period_table(result));
         const auto& last = result.periods.back().changes;
         section.blocks.emplace_back(Finding{fmt::format(

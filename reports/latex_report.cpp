@@ -3,6 +3,7 @@
 #include "reports/text_table.hpp"
 #include "reports/written_number.hpp"
 
+#include <boost/algorithm/string/replace.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -281,11 +282,17 @@ std::string points(const std::vector<std::string>& sentences) {
     return text;
 }
 
+/// A list without spaces may break behind its commas.
+std::string breakable(std::string latex) {
+    boost::algorithm::replace_all(latex, ",", ",\\allowbreak{}");
+    return latex;
+}
+
 /// A table of two columns of text.
 std::string pairs(const std::vector<std::pair<std::string, std::string>>& rows) {
     std::string text = "\\noindent\\begin{tabular}{@{}lp{0.75\\linewidth}@{}}\n";
     for (const auto& [name, value] : rows)
-        text += "  " + latex_text(name) + " & " + latex_text(value) + " \\\\\n";
+        text += "  " + latex_text(name) + " & " + breakable(latex_text(value)) + " \\\\\n";
     return text + "\\end{tabular}\n\n";
 }
 

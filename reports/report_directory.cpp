@@ -15,6 +15,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <fstream>
 #include <list>
 #include <system_error>
 #include <utility>
@@ -118,14 +119,32 @@ void ReportDirectory::make(const std::filesystem::path& directory) {
     made_.insert(made_.begin(), directory);
 }
 
-/// A picture of an earlier result beside the data of this one would be taken for its own.
-void ReportDirectory::remove_old_pictures(const std::vector<Plot>& plots,
-                                          const DrawnPlots& drawn) const {
+/// Plots and tables that an earlier result has left would be taken for a part of this one. They are
+/// known by their first lines; files of another origin stay.
+void ReportDirectory::remove_earlier(const std::set<std::string>& written) const {
+    std::vector<std::filesystem::path> earlier;
     std::error_code ignored;
-    for (std::size_t i = 0; i < plots.size(); ++i)
-        if (drawn.plots[i].svg.empty())
-            for (const char* ending : {".svg", ".png"})
-                std::filesystem::remove(path_ / plots_name / (plots[i].name + ending), ignored);
+    const auto first_line = [](const std::filesystem::path& file) {
+        std::ifstream stream(file);
+        std::string line;
+        std::getline(stream, line);
+        return line;
+    };
+    if (block_.wants(ReportFile::csv))
+        for (const auto& entry : std::filesystem::directory_iterator(path_, ignored))
+            if (is_study_csv(entry.path().filename(), first_line(entry.path())))
+                earlier.push_back(entry.path().filename());
+    if (block_.wants(ReportFile::plots))
+        for (const auto& entry : std::filesystem::directory_iterator(path_ / plots_name, ignored)) {
+            const std::string stem = entry.path().stem();
+            if (entry.path().extension() == ".gp" &&
+                first_line(entry.path()).starts_with("# Draws " + stem + ".svg"))
+                for (const char* ending : {".gp", ".dat", ".svg", ".png"})
+                    earlier.push_back(plots_name / (stem + ending));
+        }
+    for (const auto& file : earlier)
+        if (!written.contains(file))
+            std::filesystem::remove(path_ / file, ignored);
 }
 
 void ReportDirectory::lock() {
@@ -163,12 +182,14 @@ std::string ReportDirectory::write(const StudyResult& result) {
     if (block_.wants(ReportFile::html))
         texts.push_back({html_name, html_report(html_contents(result, document, plots, drawn))});
     std::list<OutputFile> files;
-    for (const auto& [name, text] : texts)
+    std::set<std::string> written;
+    for (const auto& [name, text] : texts) {
         files.emplace_back(path_ / name).prepare(text);
+        written.insert(name);
+    }
     for (auto& file : files)
         file.publish();
-    if (block_.wants(ReportFile::plots))
-        remove_old_pictures(plots, drawn);
+    remove_earlier(written);
     return drawn.failure.empty() ? ""
                                  : drawn.failure +
                                        "; the pictures are left out, their scripts "

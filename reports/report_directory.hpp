@@ -5,6 +5,7 @@
 #include "studies/study.hpp"
 
 #include <filesystem>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -20,7 +21,8 @@ namespace tvbeam {
 ///     html        report.html
 ///
 /// Each appears whole or not at all, and none of them before all could be brought to the disk. A
-/// file of an earlier result is replaced; files that are not asked for are left alone.
+/// file of an earlier result is replaced, and its plots and CSV files go where this result has none
+/// of their names; kinds of files that are not asked for are left alone.
 class ReportDirectory {
 public:
     /// Makes the directory where it is missing, and keeps others from writing there as long as the
@@ -40,7 +42,7 @@ public:
 private:
     void make(const std::filesystem::path& directory);
     void lock();
-    void remove_old_pictures(const std::vector<Plot>& plots, const DrawnPlots& drawn) const;
+    void remove_earlier(const std::set<std::string>& written) const;
 
     std::filesystem::path path_;
     ReportBlock block_;

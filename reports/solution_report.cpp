@@ -91,8 +91,8 @@ std::string time_table(const SolutionSetting& setting) {
 }
 
 std::string orders_table(const ExpectedOrders& expected) {
-    const auto order = [&](double value) {
-        return expected.is_linear_in_time ? std::string("-") : fmt::format("{:g}", value);
+    const auto order = [](std::optional<double> value) {
+        return value ? fmt::format("{:g}", *value) : std::string("-");
     };
     Table::Column norm{"norm", {}};
     Table::Column in_h{"in h", {}};
@@ -100,7 +100,7 @@ std::string orders_table(const ExpectedOrders& expected) {
     Table::Column second{"bdf2, sdirk2", {}};
     for (const ExpectedOrder& row : expected.orders) {
         norm.cells.push_back(row.norm);
-        in_h.cells.push_back(row.in_h ? fmt::format("{:g}", *row.in_h) : "-");
+        in_h.cells.push_back(order(row.in_h));
         euler.cells.push_back(order(row.euler));
         second.cells.push_back(order(row.of_second_order));
     }

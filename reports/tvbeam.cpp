@@ -99,7 +99,7 @@ StudyResult run_shown(const Scene& scene, bool quiet, int jobs, std::optional<Ch
 std::string trouble_of(const StudyResult& result, bool kept) {
     if (result.interrupted())
         return std::string("interrupted; the result holds what was finished") +
-               (kept ? ", and --resume goes on from there" : "");
+               (kept ? "; --resume goes on from the runs that are kept" : "");
     return result.failed() ? "a run failed; the result says which and why" : "";
 }
 
@@ -135,7 +135,8 @@ int run_command(const RunOptions& options) {
         csv.write(csv_report(result));
     else if (!options.quiet)
         write_standard_output(terminal_report(result));
-    if (const std::string trouble = trouble_of(result, out.has_value()); !trouble.empty()) {
+    if (const std::string trouble = trouble_of(result, kept && kept->holds_runs());
+        !trouble.empty()) {
         say(trouble);
         return run_failed;
     }

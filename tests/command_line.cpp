@@ -336,6 +336,24 @@ BOOST_AUTO_TEST_CASE(the_examples_of_the_readme_run_as_they_stand) {
     }
 }
 
+BOOST_AUTO_TEST_CASE(a_baseline_keeps_figures_and_refuses_what_it_would_lose) {
+    const TemporaryDirectory directory;
+    const std::string file = (directory.path() / "base.json").string();
+    const std::string shorter = "check figure1 --set expect={} --set evolution.final_time=2 ";
+    BOOST_TEST(call(directory, shorter + "--record " + file).exit == 0);
+    BOOST_TEST(has(directory.read("base.json"), "evolution.u@1.greatest"));
+    BOOST_TEST(call(directory, shorter + "--baseline " + file).exit == 0);
+    const Called changed = call(directory, shorter + "--set scheme.time=bdf2 --baseline " + file);
+    BOOST_TEST(changed.exit == 1);
+    BOOST_TEST(has(changed.output, "baseline: evolution.theta@0.5.least"), changed.output);
+    // Two scenes of one name would be one record.
+    const Called twice =
+        call(directory, "check free-oscillation free-oscillation --short --record " + file);
+    BOOST_TEST(twice.exit == 2);
+    BOOST_TEST(has(twice.errors, "is the second scene that is called free-oscillation"));
+    BOOST_TEST(has(directory.read("base.json"), "figure1")); // as it was
+}
+
 BOOST_AUTO_TEST_CASE(a_work_precision_study_has_json_csv_and_a_baseline_of_its_errors) {
     const TemporaryDirectory directory;
     const std::string scene =
@@ -404,6 +422,40 @@ BOOST_AUTO_TEST_CASE(derive_prints_formulas_for_a_scene_and_a_solution) {
     BOOST_TEST(has(latex.output, "\\sin"));
     BOOST_TEST(has(latex.output, "&& 0 \\le t \\le \\sqrt{2} \\\\"));
     BOOST_TEST(!has(latex.output, "\\text{"));
+}
+
+BOOST_AUTO_TEST_CASE(derive_answers_for_every_shipped_name) {
+    const TemporaryDirectory directory;
+    std::istringstream names(call(directory, "list --names").output);
+    int count = 0;
+    for (std::string name; std::getline(names, name); ++count) {
+        const Called called = call(directory, "derive " + name);
+        const bool none = has(called.errors, "to derive from");
+        BOOST_TEST(called.exit == (none ? 2 : 0), name << ": " << called.errors);
+        BOOST_TEST(!has(called.output, "not admissible"), name << ": " << called.output);
+    }
+    BOOST_TEST(count > 30);
+    BOOST_TEST(
+        has(call(directory, "derive stress-beam").errors, "[stress] poses problems of its own"));
+}
+
+BOOST_AUTO_TEST_CASE(a_solution_is_looked_at_on_the_beam_of_the_scene_beside_it_that_runs_it) {
+    const TemporaryDirectory directory;
+    const std::string solution =
+        directory.write("mine.toml", "theta = \"t*sin(pi*x)\"\nu = \"x^2*t/100\"\n");
+    const auto scene = [](const std::string& runs) {
+        return "solution = \"./" + runs + "\"\n[beam]\nalpha = 0.3\nzeta = 0.7\n[ladder]\n" +
+               "final_time = 1\nelements = [4]\ndt = [0.1]\n";
+    };
+    directory.write("mine-scene.toml", scene("other.toml"));
+    directory.write("other.toml", "theta = \"sin(pi*x)\"\nu = \"x^2/100\"\n");
+    directory.write("torn.toml", "[beam");
+    BOOST_TEST(has(call(directory, "derive " + solution).output, "as no scene names another"));
+    directory.write("my-scene.toml", scene("mine.toml"));
+    BOOST_TEST(has(call(directory, "derive " + solution).output, "the beam of the scene my-scene"));
+    const Called run = call(directory, "run " + solution);
+    BOOST_TEST(run.exit == 2);
+    BOOST_TEST(has(run.errors, "is a solution, not a scene"), run.errors);
 }
 
 BOOST_AUTO_TEST_CASE(derive_says_what_a_solution_tests_and_what_to_expect) {

@@ -92,6 +92,25 @@ BOOST_AUTO_TEST_CASE(the_block_says_what_is_written_and_nothing_else_is) {
     BOOST_TEST(directory.count() == 1u);
 }
 
+BOOST_AUTO_TEST_CASE(what_another_scene_has_left_goes_and_what_is_not_ours_stays) {
+    const TemporaryDirectory directory;
+    BOOST_TEST(call(directory,
+                    "run fixed-point-limits --set stress.contraction.elements=4 " + out(directory))
+                   .exit == 0);
+    BOOST_TEST(written(directory).contains("contraction.csv"));
+    BOOST_TEST(written(directory).contains("plots/contraction.svg"));
+    directory.write("r/stress.csv", "who,felt\nme,fine\n");
+    directory.write("r/plots/mine.gp", "plot x\n");
+    directory.write("r/plots/mine.svg", "<svg/>");
+    BOOST_TEST(call(directory, small + out(directory)).exit == 0);
+    const auto names = written(directory);
+    for (const std::string gone : {"contraction.csv", "plots/contraction.svg",
+                                   "plots/contraction.png", "plots/contraction.dat"})
+        BOOST_TEST(!names.contains(gone), gone);
+    for (const std::string kept : {"stress.csv", "plots/mine.gp", "plots/mine.svg", "ladder.csv"})
+        BOOST_TEST(names.contains(kept), kept);
+}
+
 BOOST_AUTO_TEST_CASE(a_block_that_names_what_is_not_known_is_refused) {
     const TemporaryDirectory directory;
     for (const auto& [block, message] :
