@@ -31,7 +31,7 @@ std::map<std::string, double> errors_of(const StudyResult& result) {
     const auto add = [&errors](const std::string& study, const auto& figures) {
         for (const auto& [name, figure] : figures)
             if (!is_round_off(name))
-                errors[study + "." + name] = figure;
+                errors[fmt::format("{}.{}", study, name)] = figure;
     };
     if (result.evolution)
         add("evolution", result.evolution->figures());

@@ -2,6 +2,7 @@
 
 #include "mms/derived_formulas.hpp"
 #include "mms/input_error.hpp"
+#include "mms/nearest_name.hpp"
 #include "reports/analysis_report.hpp"
 #include "reports/baseline.hpp"
 #include "reports/check_report.hpp"
@@ -301,6 +302,15 @@ const CLI::Validator no_stream(
     },
     "", "no stream");
 
+std::vector<std::string> names_of_commands(const CLI::App& app) {
+    const auto all = app.get_subcommands([](const CLI::App*) { return true; });
+    std::vector<std::string> commands;
+    commands.reserve(all.size());
+    for (const auto* command : all)
+        commands.push_back(command->get_name());
+    return commands;
+}
+
 int command_line(int argc, char** argv) {
     CLI::App app(
         "Verification and convergence studies for a thermoviscoelastic beam between two stops.\n"
@@ -408,6 +418,11 @@ int command_line(int argc, char** argv) {
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
+        const auto words = app.remaining();
+        if (app.get_subcommands().empty() && !words.empty() && !words[0].starts_with('-'))
+            throw InputError({"'" + words[0] + "'"},
+                             "is not a command" + did_you_mean(words[0], names_of_commands(app)) +
+                                 "; tvbeam --help lists them");
         return app.exit(error) == 0 ? done : bad_input;
     }
     if (*run) {

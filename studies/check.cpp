@@ -203,6 +203,7 @@ private:
         const auto figures = expectation.study == "stress" ? result_.stress->figures()
                                                            : result_.evolution->figures();
         std::vector<std::string> names;
+        names.reserve(figures.size());
         for (const auto& [name, figure] : figures)
             names.push_back(name);
         const auto found = figures.find(expectation.norm);
