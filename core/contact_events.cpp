@@ -5,14 +5,6 @@
 
 namespace tvbeam {
 
-namespace {
-
-/// Of the stop: a tip as near to it at t = 0 starts on it. The initial deflection has round-off,
-/// which in the Hermite basis grows like h⁻⁴ (round_off.hpp).
-constexpr double on_the_stop = 1e-8;
-
-} // namespace
-
 using Kind = ContactEvent::Kind;
 using Stop = ContactEvent::Stop;
 
@@ -23,8 +15,6 @@ void ContactEvents::Levels::push(double time, double reading) {
 }
 
 double ContactEvents::Levels::reaches(double target, double lowest, double highest) const {
-    if (count == 1 && t[0] == 0.0 && std::abs(value[0] - target) <= on_the_stop * std::abs(target))
-        return 0.0;
     if (count < 2)
         return highest;
     const double slope = (value[0] - value[1]) / (t[0] - t[1]);
@@ -33,7 +23,8 @@ double ContactEvents::Levels::reaches(double target, double lowest, double highe
     return at >= lowest && at <= highest ? at : highest;
 }
 
-ContactEvents::ContactEvents(const Stops& stops, double tip) : stops_(stops) {
+ContactEvents::ContactEvents(const Stops& stops, double tip, double round_off)
+    : stops_(stops), round_off_(round_off) {
     free_.push(0.0, tip);
 }
 
@@ -53,7 +44,10 @@ void ContactEvents::add(double t, double tip, double stress) {
         if (pressed_.count == 0) {
             const Stop stop = stress > 0.0 ? Stop::lower : Stop::upper;
             const double gap = stop == Stop::lower ? stops_.lower : stops_.upper;
-            events_.push_back({Kind::onset, stop, free_.reaches(gap, before_, t)});
+            const bool starts_there = free_.count == 1 && free_.t[0] == 0.0 &&
+                                      std::abs(free_.value[0] - gap) <= round_off_ * std::abs(gap);
+            events_.push_back(
+                {Kind::onset, stop, starts_there ? 0.0 : free_.reaches(gap, before_, t)});
         }
         pressed_.push(t, stress);
     } else {

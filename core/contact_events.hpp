@@ -28,8 +28,9 @@ struct ContactEvent {
 /// that starts on a stop and is held there by the first step has its onset at t = 0.
 class ContactEvents {
 public:
-    /// At the state of t = 0.
-    ContactEvents(const Stops& stops, double tip);
+    /// At the state of t = 0. round_off: of the tip there, relative; one as near to a stop starts
+    /// on it.
+    ContactEvents(const Stops& stops, double tip, double round_off = 1e-12);
 
     /// The level after those before; stress: λ, which says on which stop the tip is (8).
     void add(double t, double tip, double stress);
@@ -52,6 +53,7 @@ private:
     };
 
     Stops stops_;
+    double round_off_;
     Levels free_;         // tips of the free levels since the last contact
     Levels pressed_;      // stresses since the last onset
     double before_ = 0.0; // t of the level before

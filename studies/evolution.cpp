@@ -1,5 +1,6 @@
 #include "studies/evolution.hpp"
 
+#include "core/round_off.hpp"
 #include "core/run.hpp"
 
 #include <algorithm>
@@ -45,6 +46,14 @@ std::vector<PeriodChange> changes_of(const std::vector<double>& t,
         periods.push_back(std::move(change));
     }
     return periods;
+}
+
+/// Of the initial deflection, relative: the moment form's is a sum, the Hermite form solves for it.
+double tip_round_off(const Scheme& scheme, std::int64_t elements) {
+    const double of_sum = 1e-12;
+    return scheme.algorithm == Algorithm::direct
+               ? of_sum
+               : std::max(of_sum, hermite_solve_round_off(elements));
 }
 
 } // namespace
@@ -121,7 +130,8 @@ EvolutionResult run_evolution(const Scene& scene, const EvolutionBlock& block,
             if (contact)
                 contact->add(t, solver.tip_displacement(), solver.contact_stress());
             else
-                contact.emplace(scene.beam.stops, solver.tip_displacement());
+                contact.emplace(scene.beam.stops, solver.tip_displacement(),
+                                tip_round_off(scene.scheme, block.rung.elements));
         }
         if (step++ % block.every != 0)
             return;

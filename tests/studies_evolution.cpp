@@ -241,15 +241,16 @@ BOOST_AUTO_TEST_CASE(a_penalised_stop_yields_and_is_not_passed) {
     BOOST_TEST(contact.events().size() == 1U);
 }
 
-// The Hermite basis has the initial deflection to its round-off only.
+// The Hermite form solves for the initial deflection, with the round-off that grows like h⁻⁴: 9e-12
+// of the tip at s = 20, 1.4e-8 at 320.
 BOOST_DATA_TEST_CASE(a_tip_that_starts_on_a_stop_has_its_onset_at_zero,
-                     data::make(std::vector<std::string>{"direct", "fixed-point"}), algorithm) {
+                     data::make({"direct", "fixed-point"}) * data::make({20, 320}), algorithm,
+                     elements) {
     const EvolutionResult result =
-        evolution_of("solution = 'pressed-on-g1'\n[beam]\nalpha = 0.3\nzeta = 0.1\n"
-                     "stops = [-0.05, 0.1]\n[scheme]\nalgorithm = '" +
-                     algorithm +
-                     "'\n[evolution]\nfinal_time = 0.1\nelements = 20\ndt = 0.01\n"
-                     "probes = ['u@1']\n");
+        evolution_of(std::string("solution = 'pressed-on-g1'\n[beam]\nalpha = 0.4\nzeta = 0.15\n") +
+                     "stops = [-0.05, 0.1]\n[scheme]\nalgorithm = '" + algorithm +
+                     "'\n[evolution]\nfinal_time = 0.02\nelements = " + std::to_string(elements) +
+                     "\ndt = 0.01\nprobes = ['u@1']\n");
     BOOST_REQUIRE(!result.events.empty());
     BOOST_TEST(result.events[0].t == 0.0);
 }
