@@ -1,6 +1,6 @@
 #include "core/contraction.hpp"
 
-#include "core/linear_elements.hpp"
+#include "core/space/linear_elements.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 #include "core/problem.hpp"
 #include "core/scheme.hpp"
 
-#include "core/mesh.hpp"
+#include "core/space/mesh.hpp"
 
 namespace tvbeam {
 

@@ -1,7 +1,7 @@
 #include "core/hermite_form.hpp"
 
-#include "core/contact.hpp"
-#include "core/quadrature.hpp"
+#include "core/contact/contact.hpp"
+#include "core/space/quadrature.hpp"
 
 #include <algorithm>
 #include <array>

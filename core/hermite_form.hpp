@@ -1,10 +1,10 @@
 #pragma once
 
-#include "core/deflection.hpp"
 #include "core/problem.hpp"
 #include "core/scheme.hpp"
 #include "core/solver.hpp"
-#include "core/tridiagonal.hpp"
+#include "core/space/deflection.hpp"
+#include "core/space/tridiagonal.hpp"
 
 #include <Eigen/SparseCholesky>
 #include <Eigen/SparseCore>

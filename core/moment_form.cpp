@@ -1,6 +1,6 @@
 #include "core/moment_form.hpp"
 
-#include "core/contact.hpp"
+#include "core/contact/contact.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,9 +1,9 @@
 #pragma once
 
 #include "core/problem.hpp"
-#include "core/profile.hpp"
 #include "core/scheme.hpp"
 #include "core/solver.hpp"
+#include "core/space/profile.hpp"
 
 #include <Eigen/Core>
 

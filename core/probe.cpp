@@ -1,6 +1,6 @@
 #include "core/probe.hpp"
 
-#include "core/deflection.hpp"
+#include "core/space/deflection.hpp"
 
 #include <algorithm>
 #include <limits>

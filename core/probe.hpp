@@ -1,10 +1,10 @@
 #pragma once
 
-#include "core/mesh.hpp"
 #include "core/problem.hpp"
 #include "core/scheme.hpp"
 #include "core/solver.hpp"
-#include "core/tridiagonal.hpp"
+#include "core/space/mesh.hpp"
+#include "core/space/tridiagonal.hpp"
 
 #include <Eigen/Core>
 

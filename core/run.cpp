@@ -1,11 +1,11 @@
 #include "core/run.hpp"
 
 #include "core/contraction.hpp"
-#include "core/error_norms.hpp"
 #include "core/hermite_form.hpp"
 #include "core/moment_form.hpp"
-#include "core/sine_form.hpp"
-#include "core/time_levels.hpp"
+#include "core/norms/error_norms.hpp"
+#include "core/sine/form.hpp"
+#include "core/time/time_levels.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,10 +1,10 @@
 #pragma once
 
-#include "core/mesh.hpp"
-#include "core/norms.hpp"
+#include "core/norms/norms.hpp"
 #include "core/problem.hpp"
 #include "core/scheme.hpp"
 #include "core/solver.hpp"
+#include "core/space/mesh.hpp"
 
 #include <cstdint>
 #include <functional>

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "core/linear_elements.hpp"
-#include "core/time_scheme.hpp"
+#include "core/space/linear_elements.hpp"
+#include "core/time/time_scheme.hpp"
 
 #include <string>
 

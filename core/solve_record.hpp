@@ -1,9 +1,9 @@
 #pragma once
 
-#include "core/linear_elements.hpp"
-#include "core/mesh.hpp"
 #include "core/problem.hpp"
 #include "core/solver.hpp"
+#include "core/space/linear_elements.hpp"
+#include "core/space/mesh.hpp"
 
 #include <Eigen/Core>
 

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "core/linear_elements.hpp"
-#include "core/time_levels.hpp"
-#include "core/time_scheme.hpp"
+#include "core/space/linear_elements.hpp"
+#include "core/time/time_levels.hpp"
+#include "core/time/time_scheme.hpp"
 
 #include <Eigen/Core>
 

@@ -1,7 +1,7 @@
 #include "mms/derivation.hpp"
 
-#include "mms/algebra.hpp"
-#include "mms/symbols.hpp"
+#include "mms/expression/algebra.hpp"
+#include "mms/expression/symbols.hpp"
 
 #include <string>
 

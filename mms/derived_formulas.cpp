@@ -1,9 +1,9 @@
 #include "mms/derived_formulas.hpp"
 
-#include "mms/algebra.hpp"
 #include "mms/derivation.hpp"
-#include "mms/printing.hpp"
-#include "mms/symbols.hpp"
+#include "mms/expression/algebra.hpp"
+#include "mms/expression/printing.hpp"
+#include "mms/expression/symbols.hpp"
 
 #include <algorithm>
 #include <map>

@@ -1,6 +1,6 @@
 #include "mms/differentiated_problem.hpp"
 
-#include "mms/admissibility.hpp"
+#include "mms/admissible/admissibility.hpp"
 
 #include <utility>
 

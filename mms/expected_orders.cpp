@@ -1,9 +1,9 @@
 #include "mms/expected_orders.hpp"
 
-#include "mms/algebra.hpp"
-#include "mms/error_text.hpp"
-#include "mms/piecewise_tape.hpp"
-#include "mms/symbols.hpp"
+#include "mms/expression/algebra.hpp"
+#include "mms/expression/piecewise_tape.hpp"
+#include "mms/expression/symbols.hpp"
+#include "mms/text/error_text.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,13 +1,13 @@
 #include "mms/given_problem.hpp"
 
-#include "mms/admissibility_check.hpp"
-#include "mms/algebra.hpp"
-#include "mms/error_text.hpp"
-#include "mms/expression_parser.hpp"
+#include "mms/admissible/admissibility_check.hpp"
+#include "mms/expression/algebra.hpp"
+#include "mms/expression/expression_parser.hpp"
+#include "mms/expression/symbols.hpp"
+#include "mms/expression/tape_compiler.hpp"
 #include "mms/problem_builder.hpp"
 #include "mms/separation.hpp"
-#include "mms/symbols.hpp"
-#include "mms/tape_compiler.hpp"
+#include "mms/text/error_text.hpp"
 
 #include <array>
 #include <cmath>

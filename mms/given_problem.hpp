@@ -1,7 +1,7 @@
 #pragma once
 
 #include "core/problem.hpp"
-#include "mms/source_text.hpp"
+#include "mms/text/source_text.hpp"
 
 #include <optional>
 

@@ -1,8 +1,8 @@
 #include "mms/manufactured_problem.hpp"
 
-#include "mms/admissibility_check.hpp"
-#include "mms/algebra.hpp"
+#include "mms/admissible/admissibility_check.hpp"
 #include "mms/derivation.hpp"
+#include "mms/expression/algebra.hpp"
 #include "mms/problem_builder.hpp"
 
 #include <string>

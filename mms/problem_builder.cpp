@@ -1,7 +1,7 @@
 #include "mms/problem_builder.hpp"
 
+#include "mms/expression/tape_compiler.hpp"
 #include "mms/separation.hpp"
-#include "mms/tape_compiler.hpp"
 
 #include <algorithm>
 #include <map>

@@ -1,8 +1,8 @@
 #include "mms/separation.hpp"
 
-#include "mms/algebra.hpp"
-#include "mms/canonical.hpp"
-#include "mms/symbols.hpp"
+#include "mms/expression/algebra.hpp"
+#include "mms/expression/canonical.hpp"
+#include "mms/expression/symbols.hpp"
 
 #include <algorithm>
 #include <array>

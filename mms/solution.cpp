@@ -1,9 +1,9 @@
 #include "mms/solution.hpp"
 
-#include "mms/algebra.hpp"
-#include "mms/nearest_name.hpp"
+#include "mms/expression/algebra.hpp"
+#include "mms/expression/symbols.hpp"
 #include "mms/solution_expressions.hpp"
-#include "mms/symbols.hpp"
+#include "mms/text/nearest_name.hpp"
 
 #include <toml++/toml.h>
 

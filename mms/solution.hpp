@@ -1,6 +1,6 @@
 #pragma once
 
-#include "mms/source_text.hpp"
+#include "mms/text/source_text.hpp"
 
 #include <filesystem>
 #include <optional>

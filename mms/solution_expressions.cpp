@@ -1,9 +1,9 @@
 #include "mms/solution_expressions.hpp"
 
-#include "mms/algebra.hpp"
-#include "mms/expression_parser.hpp"
-#include "mms/numeric_value.hpp"
-#include "mms/symbols.hpp"
+#include "mms/expression/algebra.hpp"
+#include "mms/expression/expression_parser.hpp"
+#include "mms/expression/numeric_value.hpp"
+#include "mms/expression/symbols.hpp"
 
 #include <limits>
 #include <sstream>

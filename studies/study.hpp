@@ -1,12 +1,12 @@
 #pragma once
 
-#include "studies/evolution.hpp"
-#include "studies/ladder.hpp"
-#include "studies/orders.hpp"
-#include "studies/reference_solution.hpp"
-#include "studies/scene.hpp"
-#include "studies/stress.hpp"
-#include "studies/work_precision.hpp"
+#include "studies/evolution/evolution.hpp"
+#include "studies/ladder/grid.hpp"
+#include "studies/ladder/ladder.hpp"
+#include "studies/reference/reference_solution.hpp"
+#include "studies/scene/scene.hpp"
+#include "studies/stress/stress.hpp"
+#include "studies/work_precision/work_precision.hpp"
 
 #include <optional>
 #include <string>

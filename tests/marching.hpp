@@ -1,8 +1,8 @@
 #pragma once
 
-#include "core/linear_elements.hpp"
 #include "core/run.hpp"
-#include "core/time_levels.hpp"
+#include "core/space/linear_elements.hpp"
+#include "core/time/time_levels.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 #include "tests/bench/settings.hpp"
 
 #include "mms/manufactured_problem.hpp"
-#include "studies/shipped.hpp"
+#include "studies/scene/shipped.hpp"
 #include "tests/marching.hpp"
 
 #include <utility>

@@ -1,6 +1,6 @@
 // A solver that has nothing to do with beams: its orders in the mesh width and in the time step.
 
-#include "studies/solver_analysis.hpp"
+#include "studies/data/solver_analysis.hpp"
 
 #include <cmath>
 #include <iostream>

@@ -1,5 +1,5 @@
 #include "mms/autodiff_problem.hpp"
-#include "studies/check.hpp"
+#include "studies/gates/check.hpp"
 
 #include <iostream>
 

@@ -1,0 +1,68 @@
+#include "core/certify/residuals.hpp"
+
+#include <cmath>
+#include <limits>
+
+namespace tvbeam {
+
+namespace {
+
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
+
+/// residual/(ε·size), where 0/0 is none.
+double in_round_off(double residual, double size) {
+    return residual == 0.0 ? 0.0 : residual / (epsilon * size);
+}
+
+double heat_residual(const Beam& beam, const Mesh& mesh, ThermalMass mass,
+                     const SolveRecord& record, double underflow) {
+    const Eigen::Index s = mesh.elements();
+    const Eigen::Index inner = s - 1;
+    if (inner == 0)
+        return 0.0;
+    const double c = record.leading;
+    const Eigen::VectorXd& theta = record.now.theta;
+    const Eigen::VectorXd flux =
+        ((theta.tail(s) - theta.head(s)).array() / mesh.lengths).matrix(); // Θ_x
+    const DiscontinuousLinear change = record.now.w - record.star.w;
+    const Eigen::VectorXd residual =
+        c * (thermal_mass_matrix(mesh, mass) * (theta - record.star.theta).segment(1, inner)) +
+        flux.head(inner) - flux.tail(inner) -
+        (beam.alpha * c) * hat_loads(mesh, change).segment(1, inner) -
+        record.heat_load.segment(1, inner);
+    const double temperature = record.now.temperature_size + underflow;
+    const double h = mesh.lengths.maxCoeff();
+    const double size =
+        c * h * temperature + 4.0 / mesh.lengths.minCoeff() * temperature +
+        beam.alpha * c * h * (record.now.curvature_size + record.star.curvature_size + underflow) +
+        record.heat_load.cwiseAbs().maxCoeff() + underflow;
+    return in_round_off(residual.cwiseAbs().maxCoeff(), size);
+}
+
+double beam_residual(const Beam& beam, const Mesh& mesh, const SolveRecord& record,
+                     double underflow, double unit_theta_A) {
+    const Eigen::Index s = mesh.elements();
+    const double viscous = beam.zeta * record.leading;
+    const Eigen::VectorXd lever = (1.0 - mesh.nodes).matrix();
+    const Eigen::VectorXd continuous =
+        beam.alpha * record.now.theta + (beam.alpha * unit_theta_A - record.stress) * lever;
+    DiscontinuousLinear residual =
+        record.now.w + viscous * (record.now.w - record.star.w) + record.moment;
+    residual.row(0) += continuous.head(s).transpose().array();
+    residual.row(1) += continuous.tail(s).transpose().array();
+    const double now = record.now.curvature_size + underflow;
+    const double size = now + viscous * (now + record.star.curvature_size + underflow) +
+                        beam.alpha * (record.now.temperature_size + std::abs(unit_theta_A)) +
+                        record.moment.abs().maxCoeff() + std::abs(record.stress) + underflow;
+    return in_round_off(residual.abs().maxCoeff(), size);
+}
+
+} // namespace
+
+Residuals residuals(const Beam& beam, const Mesh& mesh, ThermalMass mass, const SolveRecord& record,
+                    double underflow) {
+    return {heat_residual(beam, mesh, mass, record, underflow),
+            beam_residual(beam, mesh, record, underflow, beam.theta_A / record.unit)};
+}
+
+} // namespace tvbeam

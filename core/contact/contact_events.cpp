@@ -1,0 +1,59 @@
+#include "core/contact/contact_events.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tvbeam {
+
+using Kind = ContactEvent::Kind;
+using Stop = ContactEvent::Stop;
+
+void ContactEvents::Levels::push(double time, double reading) {
+    t = {time, t[0]};
+    value = {reading, value[0]};
+    count = std::min(count + 1, 2);
+}
+
+double ContactEvents::Levels::reaches(double target, double lowest, double highest) const {
+    if (count < 2)
+        return highest;
+    const double slope = (value[0] - value[1]) / (t[0] - t[1]);
+    const double at = t[0] + (target - value[0]) / slope;
+    // A motion that turns around between the levels gives a time before them, or none.
+    return at >= lowest && at <= highest ? at : highest;
+}
+
+ContactEvents::ContactEvents(const Stops& stops, double tip, double round_off)
+    : stops_(stops), round_off_(round_off) {
+    free_.push(0.0, tip);
+}
+
+void ContactEvents::add(double t, double tip, double stress) {
+    if (stops_.epsilon == 0.0)
+        beyond_ = std::max({beyond_, tip - stops_.upper, stops_.lower - tip});
+    const bool pressed = pressed_.count > 0;
+    const bool presses = stress != 0.0;
+    const bool changes_sides = pressed && presses && stress * pressed_.value[0] < 0.0;
+    if (pressed && (!presses || changes_sides)) {
+        events_.push_back({Kind::release, pressed_.value[0] > 0.0 ? Stop::lower : Stop::upper,
+                           pressed_.reaches(0.0, before_, t)});
+        pressed_ = {};
+        free_ = {};
+    }
+    if (presses) {
+        if (pressed_.count == 0) {
+            const Stop stop = stress > 0.0 ? Stop::lower : Stop::upper;
+            const double gap = stop == Stop::lower ? stops_.lower : stops_.upper;
+            const bool starts_there = free_.count == 1 && free_.t[0] == 0.0 &&
+                                      std::abs(free_.value[0] - gap) <= round_off_ * std::abs(gap);
+            events_.push_back(
+                {Kind::onset, stop, starts_there ? 0.0 : free_.reaches(gap, before_, t)});
+        }
+        pressed_.push(t, stress);
+    } else {
+        free_.push(t, tip);
+    }
+    before_ = t;
+}
+
+} // namespace tvbeam

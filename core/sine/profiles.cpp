@@ -1,0 +1,224 @@
+#include "core/sine/profiles.hpp"
+
+#include "core/space/linear_elements.hpp"
+#include "core/space/profile.hpp"
+#include "core/space/quadrature.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <utility>
+
+namespace tvbeam {
+
+namespace {
+
+/// Of values of size 1, what is taken for round-off.
+constexpr double round_off = 4.0 * std::numeric_limits<double>::epsilon();
+
+/// One of the functions g_j.
+struct Column {
+    Eigen::Index profile = -1; // of which it is the φ°; −1: 1 − x or x
+    Eigen::VectorXd nodal;     // g_j at the nodes of 1 − x and x
+    Eigen::VectorXd hat_load;  // (φ°, χ_i)
+    Eigen::ArrayXd modes;      // (g_j, φ̂_k)
+    Eigen::Index extent = 0;   // how many of them are not zero
+    // For norms:
+    Eigen::Index error = -1;  // its place among the error profiles
+    Eigen::VectorXd defect;   // (φ° − I_hφ°, χ_i)
+    Eigen::ArrayXd deviation; // (φ° − I_hφ°, φ̂_k)
+
+    [[nodiscard]] bool is_linear() const { return profile < 0; }
+};
+
+/// φ, which must outlive the result, without the linear function of these end values.
+SpaceFunction without_ends(const SpaceFunction& phi, double left, double right) {
+    return [&phi, left, right](const Eigen::ArrayXd& x) -> Eigen::ArrayXd {
+        return phi(x) - (left * (1.0 - x) + right * x);
+    };
+}
+
+/// Whether φ is linear, from its values at the nodes and one more in every element. The place of
+/// that one, a Gauss point, is irrational: a wave that the nodes alias to zero does not vanish
+/// there.
+bool is_linear(const Mesh& mesh, const SpaceFunction& phi, const Eigen::ArrayXd& at_nodes,
+               double bound) {
+    const Eigen::Index s = mesh.elements();
+    const double left = at_nodes(0);
+    const double right = at_nodes(s);
+    const auto vanishes = [&](const Eigen::ArrayXd& x, const Eigen::ArrayXd& values) {
+        return ((values - (left * (1.0 - x) + right * x)).abs() <= bound).all();
+    };
+    if (!vanishes(mesh.nodes, at_nodes))
+        return false;
+    const Eigen::ArrayXd within = mesh.nodes.head(s) + element_rule().points(1) * mesh.lengths;
+    return vanishes(within, phi(within));
+}
+
+/// Cuts off the coefficients behind the last that is more than round-off.
+void cut_off(Column& column) {
+    const double bound = column.modes.size() == 0 ? 0.0 : round_off * column.modes.abs().maxCoeff();
+    column.extent = column.modes.size();
+    while (column.extent > 0 && !(std::abs(column.modes(column.extent - 1)) > bound))
+        --column.extent;
+    column.modes.tail(column.modes.size() - column.extent).setZero();
+}
+
+/// M_c v of nodal values that are zero at both ends.
+Eigen::VectorXd mass_times(const Mesh& mesh, const Eigen::VectorXd& nodal) {
+    DiscontinuousLinear p(2, mesh.elements());
+    p.row(0) = nodal.head(mesh.elements()).transpose().array();
+    p.row(1) = nodal.tail(mesh.elements()).transpose().array();
+    return hat_loads(mesh, p);
+}
+
+/// 1 − x, and x where some profile ends in a value that is not zero.
+std::vector<Column> linear_columns(const Mesh& mesh, const SineBasis& basis, bool right) {
+    std::vector<Column> columns(right ? 2 : 1);
+    columns[0].nodal = (1.0 - mesh.nodes).matrix();
+    columns[0].modes = basis.left_hat();
+    if (right) {
+        columns[1].nodal = mesh.nodes.matrix();
+        columns[1].modes = basis.right_hat();
+    }
+    return columns;
+}
+
+/// Reads the errors of interpolation into the columns, and their modes from them.
+void read_defects(const Mesh& mesh, const SineBasis& basis, const ErrorProfiles& errors,
+                  std::vector<Column>& columns) {
+    for (std::size_t j = 0; j < columns.size(); ++j) {
+        Column& column = columns[j];
+        column.error = static_cast<Eigen::Index>(j);
+        column.defect = errors.defect_load.col(column.error);
+        column.deviation = basis.of_load(column.defect);
+        Eigen::VectorXd nodal = errors.nodal.col(column.error);
+        nodal(0) = 0.0;
+        nodal(mesh.elements()) = 0.0;
+        column.modes = basis.of_nodal(nodal) + column.deviation;
+        column.hat_load = mass_times(mesh, nodal) + column.defect;
+    }
+}
+
+/// (g_i − P_0g_i, g_j − P_0g_j). Of φ° only the error of interpolation counts, because I_hφ° lies
+/// in S_0^h; so every entry is small where its functions are smooth.
+double remainder_entry(const Column& i, const Column& j, const ErrorProfiles& errors) {
+    if (i.is_linear() && j.is_linear()) {
+        const double product = i.nodal(0) == j.nodal(0) ? 1.0 / 3.0 : 1.0 / 6.0;
+        return product - (i.modes * j.modes).sum();
+    }
+    if (i.is_linear())
+        return i.nodal.dot(j.defect) - (i.modes * j.deviation).sum();
+    if (j.is_linear())
+        return remainder_entry(j, i, errors);
+    return errors.interpolation(i.error, j.error) - (i.deviation * j.deviation).sum();
+}
+
+} // namespace
+
+ModeArrays::ModeArrays(Eigen::Index modes, Eigen::Index arrays) {
+    const Eigen::Index group = packs_in_group * Pack::size;
+    stride_ = (modes + group - 1) / group * packs_in_group;
+    packs_.resize(static_cast<std::size_t>(stride_ * arrays));
+}
+
+ModeArrays::Array ModeArrays::operator[](Eigen::Index array) {
+    if (packs_.empty()) // a single element has no modes
+        return {nullptr, 0};
+    return {packs_.front().lanes + array * stride_ * Pack::size, stride_ * Pack::size};
+}
+
+std::int64_t ModeArrays::size() const {
+    return static_cast<std::int64_t>(packs_.size()) * Pack::size;
+}
+
+SineProfiles::SineProfiles(const Mesh& mesh, const SineBasis& basis,
+                           const std::vector<SpaceFunction>& profiles,
+                           const std::vector<bool>& used, bool with_modes, bool with_norms) {
+    const auto lever = static_cast<Eigen::Index>(profiles.size());
+    Eigen::MatrixXd at_ends = Eigen::MatrixXd::Zero(2, lever + 1);
+    at_ends(0, lever) = 1.0;
+
+    std::vector<Column> inner;
+    std::vector<SpaceFunction> functions;
+    for (Eigen::Index r = 0; r < lever; ++r) {
+        if (!used[static_cast<std::size_t>(r)])
+            continue;
+        const SpaceFunction& phi = profiles[static_cast<std::size_t>(r)];
+        const Eigen::ArrayXd values = phi(mesh.nodes);
+        const double scale = values.abs().maxCoeff();
+        for (Eigen::Index end = 0; end < 2; ++end)
+            if (const double value = values(end * mesh.elements());
+                !(std::abs(value) <= round_off * scale))
+                at_ends(end, r) = value;
+        if (is_linear(mesh, phi, values, round_off * scale))
+            continue;
+        SpaceFunction function = without_ends(phi, at_ends(0, r), at_ends(1, r));
+        Column column;
+        column.profile = r;
+        column.hat_load = hat_loads(mesh, function);
+        // Of a linear profile nothing is left but round-off.
+        if (column.hat_load.cwiseAbs().maxCoeff() <= round_off * scale * mesh.lengths(0))
+            continue;
+        inner.push_back(std::move(column));
+        functions.push_back(std::move(function));
+    }
+
+    ErrorProfiles errors;
+    if (with_norms) {
+        errors = error_profiles(mesh, functions);
+        read_defects(mesh, basis, errors, inner);
+    } else if (with_modes) {
+        for (auto& column : inner)
+            column.modes = basis.of_load(column.hat_load);
+    }
+    for (auto& column : inner)
+        cut_off(column);
+    // Those that reach far come first, so that every group of modes reads a head of them.
+    std::stable_sort(inner.begin(), inner.end(), [](const Column& left, const Column& right) {
+        return left.extent > right.extent;
+    });
+
+    const bool right = (at_ends.row(1).array() != 0.0).any();
+    std::vector<Column> columns = linear_columns(mesh, basis, right);
+    linear = static_cast<Eigen::Index>(columns.size());
+    std::move(inner.begin(), inner.end(), std::back_inserter(columns));
+    const auto count = static_cast<Eigen::Index>(columns.size());
+
+    expansion = Eigen::MatrixXd::Zero(count, lever + 1);
+    expansion.topRows(linear) = at_ends.topRows(linear);
+    tip_moments = (at_ends.row(0) / 3.0 + at_ends.row(1) / 6.0).transpose();
+    for (Eigen::Index j = linear; j < count; ++j) {
+        const Column& column = columns[static_cast<std::size_t>(j)];
+        expansion(j, column.profile) = 1.0;
+        tip_moments(column.profile) += column.hat_load.dot(columns.front().nodal);
+    }
+    if (with_modes) {
+        table = ModeArrays(basis.size(), count);
+        active.assign(static_cast<std::size_t>(table.groups()), linear);
+        const Eigen::Index group = packs_in_group * Pack::size;
+        for (Eigen::Index j = 0; j < count; ++j) {
+            const Column& column = columns[static_cast<std::size_t>(j)];
+            table[j].head(basis.size()) = column.modes;
+            for (Eigen::Index g = 0; g * group < column.extent; ++g)
+                active[static_cast<std::size_t>(g)] = j + 1;
+        }
+    }
+    if (with_norms) {
+        remainder.resize(count, count);
+        modes_gram.resize(count, count);
+        projection = Eigen::MatrixXd::Zero(count, count);
+        for (Eigen::Index i = 0; i < count; ++i)
+            for (Eigen::Index j = 0; j < count; ++j) {
+                const Column& row = columns[static_cast<std::size_t>(i)];
+                const Column& column = columns[static_cast<std::size_t>(j)];
+                remainder(i, j) = remainder_entry(row, column, errors);
+                modes_gram(i, j) = (row.modes * column.modes).sum();
+                if (i >= linear && j >= linear)
+                    projection(i, j) = errors.projection(row.error, column.error);
+            }
+    }
+}
+
+} // namespace tvbeam

@@ -1,0 +1,53 @@
+#include "core/space/quadrature.hpp"
+
+#include <gsl/gsl_integration.h>
+
+#include <memory>
+#include <new>
+
+namespace tvbeam {
+
+GaussRule GaussRule::of(Eigen::Index points) {
+    using Table = std::unique_ptr<gsl_integration_glfixed_table,
+                                  decltype(&gsl_integration_glfixed_table_free)>;
+    const Table table(gsl_integration_glfixed_table_alloc(static_cast<std::size_t>(points)),
+                      &gsl_integration_glfixed_table_free);
+    if (!table)
+        throw std::bad_alloc();
+    GaussRule rule{Eigen::ArrayXd(points), Eigen::ArrayXd(points)};
+    for (Eigen::Index q = 0; q < points; ++q)
+        gsl_integration_glfixed_point(0.0, 1.0, static_cast<std::size_t>(q), &rule.points(q),
+                                      &rule.weights(q), table.get());
+    return rule;
+}
+
+GaussRule GaussRule::repeated(Eigen::Index parts) const {
+    const auto count = static_cast<double>(parts);
+    GaussRule rule{Eigen::ArrayXd(parts * points.size()), Eigen::ArrayXd(parts * points.size())};
+    for (Eigen::Index part = 0; part < parts; ++part) {
+        const Eigen::Index first = part * points.size();
+        rule.points.segment(first, points.size()) = (points + static_cast<double>(part)) / count;
+        rule.weights.segment(first, points.size()) = weights / count;
+    }
+    return rule;
+}
+
+const GaussRule& element_rule() {
+    static const GaussRule rule = GaussRule::of(element_rule_size);
+    return rule;
+}
+
+Eigen::ArrayXXd element_points(const Mesh& mesh, Eigen::Index first, Eigen::Index count) {
+    const GaussRule& rule = element_rule();
+    Eigen::ArrayXXd points(rule.points.size(), count);
+    for (Eigen::Index j = 0; j < count; ++j)
+        points.col(j) = mesh.nodes(first + j) + mesh.lengths(first + j) * rule.points;
+    return points;
+}
+
+Eigen::ArrayXXd at_points(const SpaceFunction& phi, const Eigen::ArrayXXd& points) {
+    const Eigen::ArrayXd values = phi(points.reshaped());
+    return values.reshaped(points.rows(), points.cols());
+}
+
+} // namespace tvbeam

@@ -1,0 +1,251 @@
+#include "mms/admissible/admissibility.hpp"
+
+#include "mms/admissible/admissibility_check.hpp"
+#include "mms/admissible/contact_rules.hpp"
+#include "mms/admissible/repair.hpp"
+#include "mms/admissible/sampled_rules.hpp"
+#include "mms/expression/algebra.hpp"
+#include "mms/expression/symbols.hpp"
+#include "mms/expression/tape_compiler.hpp"
+#include "mms/text/error_text.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+namespace tvbeam {
+
+using Eigen::ArrayXd;
+using Eigen::Index;
+using GiNaC::ex;
+
+namespace {
+
+/// The largest sizes of the solution's parts over all phases; tolerances are relative to them.
+struct Scales {
+    double theta = 0.0;
+    double u = 0.0;
+    double u_x = 0.0;
+    double u_xx = 0.0;
+    double sigma = 0.0;
+};
+
+class AdmissibilityCheck {
+public:
+    AdmissibilityCheck(const Solution& solution, const DerivedSolution& derived, const Beam& beam,
+                       double final_time)
+        : solution_(solution), derived_(derived), beam_(beam), final_time_(final_time) {}
+
+    void run() {
+        // Finite first: no comparison below can be trusted with a NaN.
+        for (std::size_t i = 0; i < phase_count(); ++i)
+            require_finite(i);
+        const ContactRules contact = contact_rules();
+        for (std::size_t i = 0; i < phase_count(); ++i) {
+            require_end_values(i);
+            contact.require(i);
+            if (i + 1 < phase_count())
+                require_continuity(i);
+        }
+    }
+
+private:
+    /// Phases that begin at the final time or later are not looked at.
+    [[nodiscard]] std::size_t phase_count() const {
+        const auto& phases = derived_.phases;
+        return static_cast<std::size_t>(
+            std::count_if(phases.begin(), phases.end(), [this](const PhaseExpressions& phase) {
+                return phase.begin_value < final_time_;
+            }));
+    }
+
+    [[nodiscard]] ArrayXd times(std::size_t i, Index count) const {
+        const PhaseExpressions& phase = derived_.phases[i];
+        return ArrayXd::LinSpaced(count, phase.begin_value, std::min(phase.end_value, final_time_));
+    }
+
+    // Finite values.
+
+    void require_finite(std::size_t i) {
+        const DerivedPhase& phase = derived_.derived[i];
+        const SolutionPhase& source = solution_.phases[i];
+        const SourceText& sigma = source.sigma ? *source.sigma : source.u;
+        scales_.theta = std::max(scales_.theta, largest(i, phase.theta, source.theta, "theta"));
+        scales_.u = std::max(scales_.u, largest(i, phase.u, source.u, "u"));
+        scales_.u_x = std::max(scales_.u_x, largest(i, phase.u_x, source.u, "u_x"));
+        scales_.u_xx = std::max(scales_.u_xx, largest(i, phase.u_xx, source.u, "u_xx"));
+        scales_.sigma = std::max(scales_.sigma, largest(i, phase.sigma, sigma, "sigma"));
+        largest(i, phase.theta_x, source.theta, "theta_x");
+        for (const ex& term : phase.theta_terms)
+            largest(i, term, source.theta, "a derivative of theta");
+        for (const ex& term : phase.u_terms)
+            largest(i, term, source.u, "a derivative of u");
+        largest(i, phase.body_force, sigma, "q of (2)");
+        largest(i, phase.heat_source, source.theta, "f of (1)");
+        largest(i, phase.couple_load, source.u, "G of (3)");
+        largest(i, phase.moment_load, source.u, "the integral of G of (3)");
+    }
+
+    /// The largest absolute value on the grid; InputError where it is not finite.
+    double largest(std::size_t i, const ex& formula, const SourceText& source,
+                   const std::string& what) const {
+        if (formula.is_zero())
+            return 0.0;
+        const Tape tape = located(source, what, [&] { return compile_tape({formula}); });
+        const auto values = [&](const ArrayXd& x, double t) -> ArrayXd {
+            return tape.evaluate(x, ArrayXd::Constant(1, t)).row(0);
+        };
+        return largest_on_grid(values, times(i, grid_points), final_time_, source.begin(), what);
+    }
+
+    // End values (5), (10).
+
+    /// An expression at one end of the beam.
+    [[nodiscard]] ex at_end(const ex& formula, int x, const SourceText& source,
+                            const std::string& what) const {
+        return located(source, what + " at x = " + std::to_string(x), [&] {
+            return substituted(formula, {{model_symbols().x, x}});
+        });
+    }
+
+    [[nodiscard]] ArrayXd series(const ex& formula, const ArrayXd& in_time,
+                                 const SourceText& source, const std::string& what) const {
+        const Tape tape = located(source, what, [&] { return compile_tape({formula}); });
+        return tape.evaluate(ArrayXd::Zero(1), in_time).row(0);
+    }
+
+    void require_end_values(std::size_t i) const {
+        const DerivedPhase& phase = derived_.derived[i];
+        const SolutionPhase& source = solution_.phases[i];
+        const ex x = model_symbols().x;
+        const ex theta_A = exact_rational(beam_.theta_A);
+        const auto at = [&](const ex& formula, int end, const SourceText& text,
+                            const std::string& what) { return at_end(formula, end, text, what); };
+        const ex u = at(phase.u, 0, source.u, "(5): u(0,t)");
+        const ex u_x = at(phase.u_x, 0, source.u, "(5): u_x(0,t)");
+        const ex theta_0 = at(phase.theta, 0, source.theta, "(10): theta(0,t)");
+        const ex theta_1 = at(phase.theta, 1, source.theta, "(10): theta(1,t)");
+        const std::string clamped = "0 at the clamped end: ";
+        const std::string or_factor = ", or give u a factor x^2";
+        require_formula(i, u, 0.0, scales_.u, source.u, "(5): u(0,t)",
+                        clamped + subtraction(u, "u(0,t)", "u") + or_factor);
+        require_formula(i, u_x, 0.0, scales_.u_x, source.u, "(5): u_x(0,t)",
+                        clamped + subtraction(u_x * x, "u_x(0,t)*x", "u") + or_factor);
+        require_formula(i, theta_0, beam_.theta_A, scales_.theta, source.theta, "(10): theta(0,t)",
+                        number_text(beam_.theta_A) + " = theta_A: " +
+                            (theta_0.is_zero()
+                                 ? "add theta_A*(1 - x) to theta"
+                                 : subtraction((theta_0 - theta_A) * (1 - x),
+                                               "(theta(0,t) - theta_A)*(1 - x)", "theta")));
+        require_formula(i, theta_1, 0.0, scales_.theta, source.theta, "(10): theta(1,t)",
+                        "0: " + subtraction(theta_1 * x, "theta(1,t)*x", "theta"));
+    }
+
+    /// That the formula, in t alone, has this value. rule: what it must be, and the repair.
+    void require_formula(std::size_t i, const ex& formula, double value, double scale,
+                         const SourceText& source, const std::string& what,
+                         const std::string& rule) const {
+        const ex difference = formula - exact_rational(value);
+        if (is_identically_zero(difference))
+            return;
+        const ArrayXd in_time = times(i, time_points);
+        require_value(series(difference, in_time, source, what), in_time, value,
+                      relative_tolerance * scale, source.begin(), what, rule);
+    }
+
+    // The stops (6) and the contact stress (7), (8).
+
+    [[nodiscard]] ContactRules contact_rules() const {
+        std::vector<ContactPhase> phases;
+        for (std::size_t i = 0; i < phase_count(); ++i) {
+            const DerivedPhase& phase = derived_.derived[i];
+            const SolutionPhase& source = solution_.phases[i];
+            const ex tip = at_end(phase.u, 1, source.u, "u");
+            Tape tape = located(source.u, "u(1,t)", [&] {
+                return compile_tape({tip, phase.contact_stress});
+            });
+            ContactPhase contact;
+            contact.times = times(i, time_points);
+            contact.ends = [tape = std::move(tape)](const ArrayXd& in_time) {
+                return tape.evaluate(ArrayXd::Zero(1), in_time);
+            };
+            contact.u = source.u.begin();
+            if (source.sigma) {
+                contact.sigma = source.sigma->begin();
+                contact.sigma_formula = source.sigma->text();
+            }
+            phases.push_back(std::move(contact));
+        }
+        return {beam_, std::move(phases), scales_.u, scales_.sigma};
+    }
+
+    // Continuity in time.
+
+    void require_continuity(std::size_t i) const {
+        const DerivedPhase& before = derived_.derived[i];
+        const DerivedPhase& after = derived_.derived[i + 1];
+        const SolutionPhase& source = solution_.phases[i + 1];
+        require_no_jump(i, before.theta, after.theta, scales_.theta, source.theta, "(1)", "theta");
+        require_no_jump(i, before.u, after.u, scales_.u, source.u, "(3)", "u");
+        require_no_jump(i, before.u_xx, after.u_xx, scales_.u_xx, source.u, "(3)", "u_xx");
+    }
+
+    void require_no_jump(std::size_t i, const ex& before, const ex& after, double scale,
+                         const SourceText& source, const std::string& equation,
+                         const std::string& what) const {
+        const PhaseExpressions& phase = derived_.phases[i];
+        const ex jump = after - before;
+        const ex at_time = located(source, what, [&] {
+            return substituted(jump, {{model_symbols().t, phase.end}});
+        });
+        if (is_identically_zero(at_time))
+            return;
+        const ArrayXd x = ArrayXd::LinSpaced(grid_points, 0.0, 1.0);
+        const Tape tape = located(source, what, [&] { return compile_tape({at_time, jump}); });
+        const ArrayXd values = tape.evaluate(x, ArrayXd::Constant(1, phase.end_value)).row(0);
+        Index largest = 0;
+        const double size = values.abs().maxCoeff(&largest);
+        if (size <= relative_tolerance * scale)
+            return;
+        const auto distance = [&](double t) {
+            return tape.evaluate(x, ArrayXd::Constant(1, t)).row(1).abs().maxCoeff();
+        };
+        const double last = std::min(derived_.phases[i + 1].end_value, final_time_);
+        const auto meeting = meeting_time(distance, phase.begin_value, last, 1e-9 * scale);
+        throw InputError(
+            source.begin(),
+            jump_text(equation + ": " + what, values(largest), phase.end_value, x(largest)) +
+                subtraction(at_time, "the difference of the phases there",
+                            what + " of the later phase") +
+                (meeting && *meeting > phase.begin_value
+                     ? ", or move until to " + number_text(*meeting) + ", where the phases meet"
+                     : ""));
+    }
+
+    const Solution& solution_;
+    const DerivedSolution& derived_;
+    const Beam& beam_;
+    double final_time_;
+    Scales scales_;
+};
+
+} // namespace
+
+void require_final_time(double final_time) {
+    if (!(final_time > 0.0) || !std::isfinite(final_time))
+        throw InputError({}, "the final time is " + number_text(final_time) +
+                                 "; it must be positive and finite");
+}
+
+void check_admissible(const Solution& solution, const DerivedSolution& derived, const Beam& beam,
+                      double final_time) {
+    AdmissibilityCheck(solution, derived, beam, final_time).run();
+}
+
+void require_admissible(const Solution& solution, const Beam& beam, double final_time) {
+    require_final_time(final_time);
+    check_admissible(solution, derive_on(solution, beam), beam, final_time);
+}
+
+} // namespace tvbeam

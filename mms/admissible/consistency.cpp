@@ -1,0 +1,179 @@
+#include "mms/admissible/consistency.hpp"
+
+#include "core/space/mesh.hpp"
+#include "core/time/time_scheme.hpp"
+#include "mms/expression/algebra.hpp"
+#include "mms/expression/piecewise_tape.hpp"
+#include "mms/expression/symbols.hpp"
+#include "mms/text/error_text.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tvbeam {
+
+using Eigen::ArrayXd;
+using Eigen::Index;
+using Eigen::VectorXd;
+using GiNaC::ex;
+
+namespace {
+
+constexpr Index time_samples = 17;
+constexpr Index grid_points = 33;
+
+/// Below so much of the terms that a residual is the sum of, it is rounding: zero.
+constexpr double rounding = 1e-14;
+
+enum Row : Index { theta, u_xx, theta_t, u_xxt, f, mu, stress };
+
+/// The rows, where `wanted` begins; those behind it are left out.
+PiecewiseTape rows(const DerivedSolution& derived, const Solution& solution, bool with_loads) {
+    return located(solution.phases.front().u, "the solution", [&] {
+        return PiecewiseTape(derived, [&](const DerivedPhase& phase) {
+            std::vector<ex> result = {phase.theta, phase.u_xx, phase.theta_terms[0],
+                                      derivative(phase.u_xx, model_symbols().t)};
+            if (with_loads)
+                result.insert(result.end(),
+                              {phase.heat_source, phase.moment_load, phase.contact_stress});
+            return result;
+        });
+    });
+}
+
+/// The size of the terms that the residuals of one refinement are sums of.
+struct Sizes {
+    double heat = 0.0;
+    double beam = 0.0;
+};
+
+void finish(std::vector<Residual>& residuals, const std::vector<Sizes>& sizes) {
+    for (std::size_t i = 0; i < residuals.size(); ++i) {
+        Residual& fine = residuals[i];
+        if (fine.heat <= rounding * sizes[i].heat)
+            fine.heat = 0.0;
+        if (fine.beam <= rounding * sizes[i].beam)
+            fine.beam = 0.0;
+        if (i == 0)
+            continue;
+        const Residual& coarse = residuals[i - 1];
+        const double ratio =
+            std::log(static_cast<double>(fine.count) / static_cast<double>(coarse.count));
+        if (fine.heat > 0.0 && coarse.heat > 0.0)
+            fine.heat_order = std::log(coarse.heat / fine.heat) / ratio;
+        if (fine.beam > 0.0 && coarse.beam > 0.0)
+            fine.beam_order = std::log(coarse.beam / fine.beam) / ratio;
+    }
+}
+
+/// The two residuals in space at one time.
+Residual space_residual(const PiecewiseTape& tape, const Beam& beam, const Mesh& mesh,
+                        ThermalMass mass, double t) {
+    const auto row = [&](Row which) -> SpaceFunction {
+        return [&tape, which, t](const ArrayXd& x) -> ArrayXd { return tape.at(x, t).row(which); };
+    };
+    const Index s = mesh.elements();
+    const Eigen::ArrayXXd nodal = tape.at(mesh.nodes, t);
+    const VectorXd homogeneous =
+        (nodal.row(theta).transpose() - beam.theta_A * (1.0 - mesh.nodes)).matrix();
+    const VectorXd rate = nodal.row(theta_t).transpose().matrix();
+    const DiscontinuousLinear curvature_rate = project(mesh, row(u_xxt));
+    const VectorXd loads = hat_loads(mesh, row(f)) + beam.alpha * hat_loads(mesh, curvature_rate);
+    const VectorXd residual = thermal_mass_matrix(mesh, mass) * VectorXd(rate.segment(1, s - 1)) +
+                              stiffness_matrix(mesh) * VectorXd(homogeneous.segment(1, s - 1)) -
+                              loads.segment(1, s - 1);
+    const VectorXd weights = thermal_mass_matrix(mesh, ThermalMass::lumped).diagonal;
+
+    DiscontinuousLinear balance =
+        project(mesh, row(u_xx)) + beam.zeta * curvature_rate + project(mesh, row(mu));
+    const ArrayXd at_nodes =
+        beam.alpha * nodal.row(theta).transpose() - nodal(stress, 0) * (1.0 - mesh.nodes);
+    balance.row(0) += at_nodes.head(s).transpose();
+    balance.row(1) += at_nodes.tail(s).transpose();
+    return {.count = s,
+            .heat = std::sqrt((residual.array().square() / weights.array()).sum()),
+            .beam = std::sqrt(inner_product(mesh, balance, balance)),
+            .heat_order = std::nullopt,
+            .beam_order = std::nullopt};
+}
+
+/// The defects of θ̃ and u_xx in one step, of t_n at the end; shape: 2 × points.
+Eigen::ArrayXXd step_defect(const PiecewiseTape& tape, const ArrayXd& x, const TimeScheme& scheme,
+                            double t, double dt) {
+    const auto state = [&](double time) -> Eigen::ArrayXXd { return tape.at(x, time).topRows(2); };
+    std::vector<Eigen::ArrayXXd> increments;
+    for (int j = 1; j <= scheme.history; ++j)
+        increments.emplace_back(state(t - j * dt) - state(t - (j + 1) * dt));
+    for (const Stage& stage : scheme.stages) {
+        const double time = t - (1.0 - stage.fraction) * dt;
+        Eigen::ArrayXXd increment = dt / stage.leading * tape.at(x, time).middleRows(2, 2);
+        for (std::size_t j = 0; j < stage.weights.size(); ++j)
+            increment += stage.weights[j] * increments[j];
+        increments.push_back(increment);
+    }
+    return scheme.stages.back().leading / dt * (increments.back() - (state(t) - state(t - dt)));
+}
+
+double root_mean_square(const ArrayXd& values) {
+    return std::sqrt(values.square().mean());
+}
+
+} // namespace
+
+std::vector<Residual> space_residuals(const Solution& solution, const Beam& beam, double final_time,
+                                      ThermalMass mass, const std::vector<std::int64_t>& elements) {
+    const DerivedSolution derived = derive_on(solution, beam);
+    const PiecewiseTape tape = rows(derived, solution, true);
+    const ArrayXd grid = ArrayXd::LinSpaced(grid_points, 0.0, 1.0);
+    std::vector<Residual> result(elements.size());
+    std::vector<Sizes> terms(elements.size());
+    for (const double t : ArrayXd::LinSpaced(time_samples, 0.0, final_time)) {
+        const ArrayXd sizes = tape.at(grid, t).abs().rowwise().maxCoeff();
+        for (std::size_t i = 0; i < elements.size(); ++i) {
+            const Residual here = space_residual(tape, beam, Mesh::uniform(elements[i]), mass, t);
+            // K has entries of the size s, and the norm multiplies by s once more.
+            const auto s = static_cast<double>(elements[i]);
+            terms[i].heat =
+                std::max(terms[i].heat, sizes(theta_t) + sizes(f) + s * s * sizes(theta));
+            terms[i].beam = std::max(terms[i].beam, sizes(u_xx) + sizes(mu));
+            result[i].count = here.count;
+            result[i].heat = std::max(result[i].heat, here.heat);
+            result[i].beam = std::max(result[i].beam, here.beam);
+        }
+    }
+    finish(result, terms);
+    return result;
+}
+
+std::vector<Residual> time_residuals(const Solution& solution, const Beam& beam, double final_time,
+                                     const std::string& scheme,
+                                     const std::vector<std::int64_t>& steps) {
+    const DerivedSolution derived = derive_on(solution, beam);
+    const PiecewiseTape tape = rows(derived, solution, false);
+    const TimeScheme& method = TimeScheme::named(scheme);
+    const ArrayXd x = ArrayXd::LinSpaced(grid_points, 0.0, 1.0);
+    std::vector<Residual> result;
+    std::vector<Sizes> terms;
+    for (const std::int64_t count : steps) {
+        Residual residual;
+        Sizes size;
+        residual.count = count;
+        const double dt = final_time / static_cast<double>(count);
+        for (std::int64_t n = 1 + method.history; n <= count; ++n) {
+            const double t = final_time * static_cast<double>(n) / static_cast<double>(count);
+            const Eigen::ArrayXXd defect = step_defect(tape, x, method, t, dt);
+            residual.heat = std::max(residual.heat,
+                                     root_mean_square(defect.row(0) - beam.alpha * defect.row(1)));
+            residual.beam = std::max(residual.beam, beam.zeta * root_mean_square(defect.row(1)));
+            const ArrayXd sizes = tape.at(x, t).abs().rowwise().maxCoeff();
+            size.heat = std::max(size.heat, (sizes(theta) + beam.alpha * sizes(u_xx)) / dt);
+            size.beam = std::max(size.beam, beam.zeta * sizes(u_xx) / dt);
+        }
+        result.push_back(residual);
+        terms.push_back(size);
+    }
+    finish(result, terms);
+    return result;
+}
+
+} // namespace tvbeam

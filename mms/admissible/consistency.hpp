@@ -1,0 +1,46 @@
+#pragma once
+
+#include "core/problem.hpp"
+#include "core/space/linear_elements.hpp"
+#include "mms/solution.hpp"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace tvbeam {
+
+/// What is left of the two discrete equations when the exact solution is put into them. It tells,
+/// without a run, from which h and dt on a scheme sees the solution as smooth, and that f, G and m
+/// belong to it: the derivatives come from the solution, the loads from the derived problem.
+struct Residual {
+    std::int64_t count = 0;           ///< elements, or steps up to final_time
+    double heat = 0.0;                ///< of the heat equation, the largest L² norm over time
+    double beam = 0.0;                ///< of the beam equation, likewise
+    std::optional<double> heat_order; ///< against the refinement before; none: first, or zero
+    std::optional<double> beam_order;
+};
+
+/// In space, the time derivatives exact: with the nodal interpolant I, the L² projection Π on
+/// P1disc,
+///
+///     M Iθ̃_t + K Iθ̃ − α (Πu_xxt, χ) − (f, χ)     in the norm (rᵀ M_l⁻¹ r)^½ of its L²
+///     representative, Πu_xx + ζ Πu_xxt + α Iθ̃ + Πμ − σ̃(1,t) (1 − x),
+///
+/// the largest over 17 times in [0, final_time].
+std::vector<Residual> space_residuals(const Solution& solution, const Beam& beam, double final_time,
+                                      ThermalMass mass, const std::vector<std::int64_t>& elements);
+
+/// In time, space exact: τ(θ̃) − α τ(u_xx) and ζ τ(u_xx), where τ(y) is the defect of a step of the
+/// scheme with exact y_t in its stages. With the increments e of TimeScheme,
+///
+///     e_i = Δt y_t(t_i)/leading_i + Σ_j weights_ij e_j,     τ = leading/Δt (e_last − (y_n −
+///     y_{n−1})),
+///
+/// the largest over all steps but those that the scheme leaves to its starter.
+std::vector<Residual> time_residuals(const Solution& solution, const Beam& beam, double final_time,
+                                     const std::string& scheme,
+                                     const std::vector<std::int64_t>& steps);
+
+} // namespace tvbeam

@@ -1,0 +1,144 @@
+#include "mms/admissible/contact_rules.hpp"
+
+#include "mms/admissible/repair.hpp"
+#include "mms/admissible/sampled_rules.hpp"
+#include "mms/text/error_text.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace tvbeam {
+
+using Eigen::ArrayXd;
+using Eigen::Index;
+
+ContactRules::ContactRules(const Beam& beam, std::vector<ContactPhase> phases, double u_scale,
+                           double sigma_scale)
+    : stops_(beam.stops), phases_(std::move(phases)), tip_tolerance_(relative_tolerance * u_scale),
+      stress_tolerance_(relative_tolerance * sigma_scale) {}
+
+bool ContactRules::at_lower(double tip) const {
+    return tip <= stops_.lower + tip_tolerance_;
+}
+
+bool ContactRules::at_upper(double tip) const {
+    return tip >= stops_.upper - tip_tolerance_;
+}
+
+void ContactRules::require(std::size_t index) const {
+    const ContactPhase& phase = phases_[index];
+    const Eigen::ArrayXXd values = phase.ends(phase.times);
+    for (Index k = 0; k < phase.times.size(); ++k) {
+        require_between_stops(phase, phase.times(k), values(0, k));
+        if (phase.sigma)
+            require_stress(phase, phase.times(k), values(0, k), values(1, k));
+    }
+}
+
+void ContactRules::require_between_stops(const ContactPhase& phase, double t, double tip) const {
+    const bool below = tip < stops_.lower - tip_tolerance_;
+    const bool above = tip > stops_.upper + tip_tolerance_;
+    if (!below && !above)
+        return;
+    throw InputError(phase.u, "(6): u(1,t) is " + number_text(tip) + " at t = " + number_text(t) +
+                                  "; it must be at " + (below ? "least g1 = " : "most g2 = ") +
+                                  number_text(below ? stops_.lower : stops_.upper) + "; " +
+                                  repair_of_tip(below));
+}
+
+/// What brings the tip back between the stops: measured where it is farthest out.
+std::string ContactRules::repair_of_tip(bool below) const {
+    double least = 0.0;
+    double greatest = 0.0;
+    double least_at = 0.0;
+    double greatest_at = 0.0;
+    bool pressed = false;
+    for (const ContactPhase& phase : phases_) {
+        const Eigen::ArrayXXd values = phase.ends(phase.times);
+        pressed = pressed || values.row(1).abs().maxCoeff() > stress_tolerance_;
+        for (Index k = 0; k < phase.times.size(); ++k) {
+            if (values(0, k) < least) {
+                least = values(0, k);
+                least_at = phase.times(k);
+            }
+            if (values(0, k) > greatest) {
+                greatest = values(0, k);
+                greatest_at = phase.times(k);
+            }
+        }
+    }
+    const double stop = below ? stops_.lower : stops_.upper;
+    const double extreme = below ? least : greatest;
+    const std::string name = below ? "g1" : "g2";
+    const std::string text = std::string("it is ") + (below ? "least, " : "greatest, ") +
+                             number_text(extreme) +
+                             ", at t = " + number_text(below ? least_at : greatest_at) + ": ";
+    // A solution that presses on a stop would come off it if all of u were made smaller.
+    if (pressed)
+        return text + "change u(1,t) by " + number_text(rounded_out(stop - extreme)) +
+               " there; (3*x^2 - x^3)/2 is a deflection that is 1 at the tip";
+    const double factor = std::min({1.0, least < 0.0 ? stops_.lower / least : 1.0,
+                                    greatest > 0.0 ? stops_.upper / greatest : 1.0});
+    return text + "multiply u by " + number_text(rounded_in(factor)) + ", or move " + name +
+           " to " + number_text(rounded_out(extreme));
+}
+
+void ContactRules::require_stress(const ContactPhase& phase, double t, double tip,
+                                  double stress) const {
+    if (std::abs(stress) <= stress_tolerance_)
+        return;
+    const auto fail = [&](const std::string& equation, const std::string& rule) {
+        throw InputError(*phase.sigma, equation + ": sigma(1,t) is " + number_text(stress) +
+                                           " at t = " + number_text(t) + ", where u(1,t) is " +
+                                           number_text(tip) + "; it must be " + rule);
+    };
+    if (!stops_.exist())
+        fail("(7)", "0, as the beam has no stops; leave sigma out or give the beam stops");
+    if (!at_lower(tip) && !at_upper(tip))
+        fail("(7)", "0 strictly between the stops: " + repair_of_free_stress(tip));
+    if (at_lower(tip) && !at_upper(tip) && stress < 0.0)
+        fail("(8)", "at least 0 at the stop g1: " + repair_of_sign(phase, t));
+    if (at_upper(tip) && !at_lower(tip) && stress > 0.0)
+        fail("(8)", "at most 0 at the stop g2: " + repair_of_sign(phase, t));
+}
+
+/// A stress while the tip is free.
+std::string ContactRules::repair_of_free_stress(double tip) const {
+    const double to_upper = stops_.upper - tip;
+    const double to_lower = tip - stops_.lower;
+    const bool upper = to_upper <= to_lower;
+    return std::string("set sigma to 0 in this phase, or bring the tip to ") +
+           (upper ? "g2, " : "g1, ") + number_text(upper ? to_upper : to_lower) + " away";
+}
+
+/// A stress of the wrong sign: all of it, or from the time on when it changes sign.
+std::string ContactRules::repair_of_sign(const ContactPhase& phase, double t) const {
+    const auto is_positive = [&](double time) {
+        return phase.ends(ArrayXd::Constant(1, time))(1, 0) > 0.0;
+    };
+    const bool positive = is_positive(t);
+    const ArrayXd& times = phase.times;
+    const ArrayXd stress = phase.ends(times).row(1);
+    const bool all =
+        positive ? stress.minCoeff() >= -stress_tolerance_ : stress.maxCoeff() <= stress_tolerance_;
+    if (all)
+        return "change its sign" + (phase.sigma_formula.empty()
+                                        ? std::string()
+                                        : ", sigma = \"-(" + phase.sigma_formula + ")\"");
+    const auto has_sign = [&](double time) { return is_positive(time) == positive; };
+    const bool from_start = has_sign(times(0)) && std::abs(stress(0)) > stress_tolerance_;
+    double other = t;
+    for (Index k = 0; k < times.size(); ++k)
+        if (std::abs(stress(k)) > stress_tolerance_ && (stress(k) > 0.0) != positive &&
+            (from_start ? times(k) > t : times(k) < t)) {
+            other = times(k);
+            if (from_start)
+                break;
+        }
+    const double change = switch_time(has_sign, std::min(t, other), std::max(t, other));
+    return "it changes its sign at t = " + number_text(change) +
+           (from_start ? "; begin the contact there" : "; end the phase there");
+}
+
+} // namespace tvbeam

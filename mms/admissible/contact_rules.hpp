@@ -1,0 +1,55 @@
+#pragma once
+
+#include "core/problem.hpp"
+#include "mms/text/input_error.hpp"
+
+#include <Eigen/Core>
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace tvbeam {
+
+/// What contact sees of one phase of an exact solution.
+struct ContactPhase {
+    Eigen::ArrayXd times; ///< that it is sampled at
+    /// Two rows, u(1,t) and σ̃(1,t); one column a time.
+    std::function<Eigen::ArrayXXd(const Eigen::ArrayXd& times)> ends;
+    Place u;
+    std::optional<Place> sigma; ///< none: σ̃ is not given, and zero
+    std::string sigma_formula;  ///< for the repair of its sign; may be empty
+};
+
+/// The rules of the stops on an exact solution, sampled:
+///
+///     (6)       g1 ≤ u(1,t) ≤ g2
+///     (7)(8)    σ̃(1,t) = 0 where g1 < u(1,t) < g2 (always, without stops); ≥ 0 at g1, ≤ 0 at g2
+class ContactRules {
+public:
+    /// The scales are the largest |u| and |σ̃|; what is relative_tolerance of them counts as zero.
+    ContactRules(const Beam& beam, std::vector<ContactPhase> phases, double u_scale,
+                 double sigma_scale);
+
+    /// Throws InputError where the phase of this index breaks a rule; it names the equation, the
+    /// time, the value and a repair.
+    void require(std::size_t index) const;
+
+private:
+    [[nodiscard]] bool at_lower(double tip) const;
+    [[nodiscard]] bool at_upper(double tip) const;
+    void require_between_stops(const ContactPhase& phase, double t, double tip) const;
+    void require_stress(const ContactPhase& phase, double t, double tip, double stress) const;
+    [[nodiscard]] std::string repair_of_tip(bool below) const;
+    [[nodiscard]] std::string repair_of_free_stress(double tip) const;
+    [[nodiscard]] std::string repair_of_sign(const ContactPhase& phase, double t) const;
+
+    Stops stops_;
+    std::vector<ContactPhase> phases_;
+    double tip_tolerance_;
+    double stress_tolerance_;
+};
+
+} // namespace tvbeam

@@ -1,0 +1,243 @@
+#include "mms/expression/algebra.hpp"
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstdlib>
+#include <string_view>
+
+namespace tvbeam {
+
+using GiNaC::ex;
+using GiNaC::ex_to;
+using GiNaC::is_a;
+using GiNaC::numeric;
+
+namespace {
+
+constexpr int largest_exponent = 1000;
+constexpr int largest_bits = 8192;
+constexpr std::size_t largest_derivative = 20'000;
+constexpr double largest_expansion = 500;
+
+int bits_of(const numeric& value) {
+    if (!value.is_rational())
+        return 64;
+    return std::max(value.numer().int_length(), value.denom().int_length());
+}
+
+/// The largest number of bits of any integer in the expression.
+int bits_within(const ex& expression) {
+    if (is_a<numeric>(expression))
+        return bits_of(ex_to<numeric>(expression));
+    int bits = 0;
+    for (const ex& operand : expression)
+        bits = std::max(bits, bits_within(operand));
+    return bits;
+}
+
+bool is_real_throughout(const ex& expression) {
+    if (is_a<numeric>(expression))
+        return ex_to<numeric>(expression).is_real();
+    for (const ex& operand : expression)
+        if (!is_real_throughout(operand))
+            return false;
+    return true;
+}
+
+std::size_t add_nodes(const ex& expression, std::size_t count, std::size_t limit) {
+    ++count;
+    for (const ex& operand : expression) {
+        if (count > limit)
+            break;
+        count = add_nodes(operand, count, limit);
+    }
+    return count;
+}
+
+/// Runs an operation of GiNaC; its complaints become `complaint`.
+template <typename Operation>
+ex guarded(const Operation& operation, const std::string& complaint) {
+    ex result;
+    try {
+        result = operation();
+    } catch (const AlgebraError&) {
+        throw;
+    } catch (const std::exception&) {
+        throw AlgebraError(complaint);
+    }
+    return result;
+}
+
+/// About how many terms expanding makes; infinite when out of the question.
+double expanded_size(const ex& expression) {
+    double size = 1;
+    if (is_a<GiNaC::add>(expression)) {
+        size = 0;
+        for (const ex& term : expression)
+            size += expanded_size(term);
+    } else if (is_a<GiNaC::mul>(expression)) {
+        for (const ex& factor : expression)
+            size *= expanded_size(factor);
+    } else if (is_a<GiNaC::power>(expression) && expression.op(1).info(GiNaC::info_flags::posint)) {
+        const double base = expanded_size(expression.op(0));
+        if (base > 1)
+            size = std::pow(base, ex_to<numeric>(expression.op(1)).to_double());
+    }
+    return size;
+}
+
+ex function_value(const std::string& name, const ex& argument) {
+    using Function = ex (*)(const ex&);
+    static const std::map<std::string, Function> functions = {
+        {"sin", [](const ex& a) -> ex { return GiNaC::sin(a); }},
+        {"cos", [](const ex& a) -> ex { return GiNaC::cos(a); }},
+        {"tan", [](const ex& a) -> ex { return GiNaC::tan(a); }},
+        {"asin", [](const ex& a) -> ex { return GiNaC::asin(a); }},
+        {"acos", [](const ex& a) -> ex { return GiNaC::acos(a); }},
+        {"atan", [](const ex& a) -> ex { return GiNaC::atan(a); }},
+        {"sinh", [](const ex& a) -> ex { return GiNaC::sinh(a); }},
+        {"cosh", [](const ex& a) -> ex { return GiNaC::cosh(a); }},
+        {"tanh", [](const ex& a) -> ex { return GiNaC::tanh(a); }},
+        {"exp", [](const ex& a) -> ex { return GiNaC::exp(a); }},
+        {"log", [](const ex& a) -> ex { return GiNaC::log(a); }},
+        {"sqrt", [](const ex& a) -> ex { return checked_power(a, numeric(1, 2)); }},
+    };
+    return functions.at(name)(argument);
+}
+
+} // namespace
+
+const std::vector<std::string>& function_names() {
+    static const std::vector<std::string> names = {"sin",  "cos",  "tan",  "asin", "acos", "atan",
+                                                   "sinh", "cosh", "tanh", "exp",  "log",  "sqrt"};
+    return names;
+}
+
+ex checked_sum(const ex& a, const ex& b) {
+    return guarded([&] { return a + b; }, "the sum cannot be evaluated");
+}
+
+ex checked_difference(const ex& a, const ex& b) {
+    return guarded([&] { return a - b; }, "the difference cannot be evaluated");
+}
+
+ex checked_product(const ex& a, const ex& b) {
+    return guarded([&] { return a * b; }, "the product cannot be evaluated");
+}
+
+ex checked_quotient(const ex& a, const ex& b) {
+    if (is_identically_zero(b))
+        throw AlgebraError("division by zero");
+    return checked_product(a, checked_power(b, -1));
+}
+
+ex checked_power(const ex& base, const ex& exponent) {
+    if (is_a<numeric>(exponent)) {
+        const auto& number = ex_to<numeric>(exponent);
+        if (!number.is_rational())
+            throw AlgebraError("the exponent is not a real number");
+        if (GiNaC::abs(number) > largest_exponent || number.denom() > largest_exponent)
+            throw AlgebraError("a constant exponent must be at most " +
+                               std::to_string(largest_exponent) +
+                               " in size, and so must its denominator");
+        if (base.is_zero() && number.is_negative())
+            throw AlgebraError("division by zero: 0 has no negative power");
+        if (base.is_zero() && number.is_zero())
+            throw AlgebraError("0^0 has no value");
+        if (is_a<numeric>(base) && ex_to<numeric>(base).is_negative() && !number.is_integer())
+            throw AlgebraError("a negative number has no real fractional power");
+        if (bits_within(base) * GiNaC::abs(number).to_double() > largest_bits)
+            throw AlgebraError("this power of a constant is too large to be computed exactly");
+    }
+    ex result = guarded([&] { return GiNaC::pow(base, exponent); }, "the power has no value");
+    if (!is_real_throughout(result))
+        throw AlgebraError("the power of a negative number is not real");
+    return result;
+}
+
+ex checked_function(const std::string& name, const ex& argument) {
+    if ((name == "asin" || name == "acos") && is_a<numeric>(argument) &&
+        GiNaC::abs(ex_to<numeric>(argument)) > 1)
+        throw AlgebraError(name + " has no real value beyond -1 and 1");
+    ex result =
+        guarded([&] { return function_value(name, argument); }, name + " has no value there");
+    if (!is_real_throughout(result))
+        throw AlgebraError(name + " is not a real number there");
+    return result;
+}
+
+ex substituted(const ex& expression, const GiNaC::exmap& values) {
+    if (is_a<GiNaC::symbol>(expression)) {
+        const auto found = values.find(expression);
+        return found == values.end() ? expression : found->second;
+    }
+    if (is_a<GiNaC::power>(expression))
+        return checked_power(substituted(expression.op(0), values),
+                             substituted(expression.op(1), values));
+    if (is_a<GiNaC::function>(expression))
+        return checked_function(ex_to<GiNaC::function>(expression).get_name(),
+                                substituted(expression.op(0), values));
+    if (is_a<GiNaC::add>(expression) || is_a<GiNaC::mul>(expression)) {
+        GiNaC::exvector operands;
+        operands.reserve(expression.nops());
+        for (const ex& operand : expression)
+            operands.push_back(substituted(operand, values));
+        const bool sum = is_a<GiNaC::add>(expression);
+        return guarded([&] { return sum ? ex(GiNaC::add(operands)) : ex(GiNaC::mul(operands)); },
+                       "the expression cannot be evaluated");
+    }
+    return expression;
+}
+
+ex derivative(const ex& expression, const GiNaC::symbol& s) {
+    ex result = guarded([&] { return expression.diff(s); }, "the derivative has no value");
+    if (add_nodes(result, 0, largest_derivative) > largest_derivative)
+        throw AlgebraError("the derivatives are too large; write it with fewer factors or "
+                           "less deeply nested functions");
+    return result;
+}
+
+ex moderately_expanded(const ex& expression) {
+    // Written so that an infinite or undefined estimate counts as too large.
+    if (!(expanded_size(expression) <= largest_expansion))
+        return expression;
+    return guarded([&] { return expression.expand(); }, "the expression cannot be expanded");
+}
+
+bool is_identically_zero(const ex& expression) {
+    if (expression.is_zero())
+        return true;
+    if (!is_a<GiNaC::add>(expression) && !is_a<GiNaC::mul>(expression))
+        return false;
+    return moderately_expanded(expression).is_zero();
+}
+
+numeric exact_rational(double value) {
+    // The longest shortest form has 17 digits, a point, a sign and an exponent of three digits with
+    // its own.
+    std::array<char, 32> buffer{};
+    const auto [end, error] = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value,
+                                            std::chars_format::scientific);
+    const std::string_view text(buffer.data(), static_cast<std::size_t>(end - buffer.data()));
+    const std::size_t e = text.find('e');
+    std::string digits;
+    int decimals = 0;
+    bool after_point = false;
+    for (const char character : text.substr(0, e)) {
+        if (character == '.') {
+            after_point = true;
+        } else {
+            digits += character;
+            decimals += after_point ? 1 : 0;
+        }
+    }
+    const int exponent = std::atoi(std::string(text.substr(e + 1)).c_str()) - decimals;
+    return numeric(digits.c_str()) * GiNaC::pow(numeric(10), numeric(exponent));
+}
+
+bool depends_on(const ex& expression, const GiNaC::symbol& s) {
+    return expression.has(s);
+}
+
+} // namespace tvbeam

@@ -1,0 +1,29 @@
+#pragma once
+
+#include "mms/derivation.hpp"
+#include "mms/expression/tape.hpp"
+
+#include <ginac/ginac.h>
+
+#include <functional>
+#include <vector>
+
+namespace tvbeam {
+
+/// Several functions of x and t that a solution gives, each with one formula a phase, as tapes.
+class PiecewiseTape {
+public:
+    /// formulas: those of one phase. Throws AlgebraError as compile_tape does.
+    PiecewiseTape(const DerivedSolution& solution,
+                  const std::function<std::vector<GiNaC::ex>(const DerivedPhase&)>& formulas);
+
+    /// Their values at the points x at one time; shape: one row a function. A time that ends a
+    /// phase belongs to it; `late`: to the phase that begins there.
+    [[nodiscard]] Eigen::ArrayXXd at(const Eigen::ArrayXd& x, double t, bool late = false) const;
+
+private:
+    std::vector<double> ends_;
+    std::vector<Tape> tapes_;
+};
+
+} // namespace tvbeam

@@ -1,0 +1,321 @@
+#include "mms/expression/tape_compiler.hpp"
+
+#include "mms/expression/algebra.hpp"
+#include "mms/expression/canonical.hpp"
+#include "mms/expression/numeric_value.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numbers>
+#include <optional>
+#include <string>
+#include <tuple>
+#include <utility>
+
+namespace tvbeam {
+
+using GiNaC::ex;
+using GiNaC::numeric;
+using Kind = CanonicalNode::Kind;
+
+namespace {
+
+constexpr int largest_multiplied_power = 1000;
+
+} // namespace
+
+/// Builds a tape in two passes: expressions become values, each defined once; then values get
+/// registers.
+class TapeCompiler {
+public:
+    TapeCompiler() {
+        values_.resize(2);
+        values_[0].needs_x = true;
+    }
+
+    Tape compile(const std::vector<ex>& expressions) {
+        std::vector<int> outputs;
+        outputs.reserve(expressions.size());
+        for (const ex& expression : expressions)
+            outputs.push_back(value_of(*canonical(expression)));
+        return allocate(outputs);
+    }
+
+    double constant(const ex& expression) {
+        const auto& value = values_[index(value_of(*canonical(expression)))].constant;
+        if (!value)
+            throw AlgebraError("it is not a number");
+        return *value;
+    }
+
+private:
+    using Operation = Tape::Operation;
+
+    struct Value {
+        std::optional<double> constant;
+        Operation operation = Operation::Add;
+        int left = -1; ///< −1 for x, t and constants
+        int right = -1;
+        bool needs_x = false;
+    };
+
+    static std::size_t index(int value) { return static_cast<std::size_t>(value); }
+
+    // First pass.
+
+    int value_of(const CanonicalNode& node) {
+        const auto known = by_key_.find(node.key);
+        if (known != by_key_.end())
+            return known->second;
+        const int value = new_value_of(node);
+        by_key_.emplace(node.key, value);
+        return value;
+    }
+
+    int new_value_of(const CanonicalNode& node) {
+        switch (node.kind) {
+        case Kind::Number:
+            return constant_value(nearest_double(node.coefficient));
+        case Kind::Name:
+            return named(node.name);
+        case Kind::Sum:
+            return sum(node);
+        case Kind::Product:
+            return product(node, node.coefficient);
+        case Kind::Power:
+            return power(*node.operands[0], *node.operands[1]);
+        case Kind::Function:
+            return function(node);
+        }
+        return 0;
+    }
+
+    int named(const std::string& name) {
+        if (name == "x")
+            return 0;
+        if (name == "t")
+            return 1;
+        if (name == "pi")
+            return constant_value(std::numbers::pi);
+        throw AlgebraError("'" + name + "' has no value");
+    }
+
+    int constant_value(double value) {
+        if (!std::isfinite(value))
+            throw AlgebraError("a constant in it is not a finite number in double precision");
+        const auto [entry, is_new] = by_constant_.try_emplace(value, int(values_.size()));
+        if (is_new)
+            values_.emplace_back().constant = value;
+        return entry->second;
+    }
+
+    int apply(Operation operation, int left, int right = -1) {
+        const Value& a = values_[index(left)];
+        const Value& b = values_[index(right < 0 ? left : right)];
+        if (a.constant && b.constant)
+            return constant_value(Tape::apply(operation, *a.constant, *b.constant));
+        const bool commutes = operation == Operation::Add || operation == Operation::Multiply;
+        if (commutes && right < left)
+            std::swap(left, right);
+        const bool needs_x = a.needs_x || b.needs_x;
+        const auto [entry, is_new] =
+            by_operation_.try_emplace({operation, left, right}, int(values_.size()));
+        if (is_new)
+            values_.push_back({std::nullopt, operation, left, right, needs_x});
+        return entry->second;
+    }
+
+    /// A sum, with terms of negative coefficient subtracted.
+    int sum(const CanonicalNode& node) {
+        std::optional<int> total;
+        std::vector<int> subtracted;
+        for (const Canonical& term : node.operands) {
+            if (term->coefficient.is_negative()) {
+                subtracted.push_back(value_of(*with_coefficient(*term, -term->coefficient)));
+                continue;
+            }
+            const int value = value_of(*term);
+            total = total ? apply(Operation::Add, *total, value) : value;
+        }
+        for (const int value : subtracted)
+            total =
+                total ? apply(Operation::Subtract, *total, value) : apply(Operation::Negate, value);
+        return *total;
+    }
+
+    /// A product: what is constant comes first, so that it folds, then what depends on t, so that
+    /// it is computed once for many x; negative powers are divided by in the end.
+    int product(const CanonicalNode& node, const numeric& coefficient) {
+        std::optional<int> above;
+        std::optional<int> below;
+        const auto multiply = [this](std::optional<int>& target, int value) {
+            target = target ? apply(Operation::Multiply, *target, value) : value;
+        };
+        const bool negated = coefficient.is_equal(-1);
+        if (!negated && !coefficient.is_equal(1))
+            above = constant_value(nearest_double(coefficient));
+        for (const Canonical& factor : node.operands) {
+            const bool divides = factor->kind == Kind::Power &&
+                                 factor->operands[1]->kind == Kind::Number &&
+                                 factor->operands[1]->coefficient.is_negative();
+            if (divides)
+                multiply(below, power_of(*factor->operands[0], -factor->operands[1]->coefficient));
+            else
+                multiply(above, value_of(*factor));
+        }
+        int result = 0;
+        if (above && below)
+            result = apply(Operation::Divide, *above, *below);
+        else
+            result = above ? *above : apply(Operation::Reciprocal, *below);
+        return negated ? apply(Operation::Negate, result) : result;
+    }
+
+    int power(const CanonicalNode& base, const CanonicalNode& exponent) {
+        if (exponent.kind == Kind::Number)
+            return power_of(base, exponent.coefficient);
+        return apply(Operation::Power, value_of(base), value_of(exponent));
+    }
+
+    int power_of(const CanonicalNode& base, const numeric& exponent) {
+        if (exponent.is_negative())
+            return apply(Operation::Reciprocal, power_of(base, -exponent));
+        const numeric twice = exponent * 2;
+        if (exponent.is_integer() && exponent <= largest_multiplied_power)
+            return integer_power(value_of(base), exponent.to_int());
+        if (twice.is_integer() && twice <= largest_multiplied_power)
+            return integer_power(apply(Operation::SquareRoot, value_of(base)), twice.to_int());
+        return apply(Operation::Power, value_of(base), constant_value(nearest_double(exponent)));
+    }
+
+    int integer_power(int base, int exponent) {
+        if (exponent == 1)
+            return base;
+        const int half = apply(Operation::Square, integer_power(base, exponent / 2));
+        return exponent % 2 == 0 ? half : apply(Operation::Multiply, half, base);
+    }
+
+    int function(const CanonicalNode& node) {
+        static const std::map<std::string, Operation> operations = {
+            {"sin", Operation::Sin},   {"cos", Operation::Cos},   {"tan", Operation::Tan},
+            {"asin", Operation::Asin}, {"acos", Operation::Acos}, {"atan", Operation::Atan},
+            {"sinh", Operation::Sinh}, {"cosh", Operation::Cosh}, {"tanh", Operation::Tanh},
+            {"exp", Operation::Exp},   {"log", Operation::Log}};
+        const auto found = operations.find(node.name);
+        if (found == operations.end())
+            throw AlgebraError("the function " + node.name + " cannot be evaluated");
+        return apply(found->second, value_of(*node.operands[0]));
+    }
+
+    // Second pass.
+
+    [[nodiscard]] std::vector<bool> needed_for(const std::vector<int>& outputs) const {
+        std::vector<bool> needed(values_.size(), false);
+        for (const int output : outputs)
+            needed[index(output)] = true;
+        // Operands are defined before the values that use them.
+        for (std::size_t i = values_.size(); i-- > 0;) {
+            if (!needed[i])
+                continue;
+            for (const int operand : {values_[i].left, values_[i].right})
+                if (operand >= 0)
+                    needed[index(operand)] = true;
+        }
+        return needed;
+    }
+
+    [[nodiscard]] Tape allocate(const std::vector<int>& outputs) const {
+        const std::vector<bool> needed = needed_for(outputs);
+        std::vector<int> schedule;
+        for (const bool with_x : {false, true})
+            for (std::size_t i = 2; i < values_.size(); ++i)
+                if (needed[i] && !values_[i].constant && values_[i].needs_x == with_x)
+                    schedule.push_back(static_cast<int>(i));
+
+        // The position in the schedule at which a value is read for the last time.
+        std::vector<std::size_t> last_use(values_.size(), 0);
+        std::vector<bool> read_with_x(values_.size(), false);
+        for (std::size_t at = 0; at < schedule.size(); ++at) {
+            const Value& value = values_[index(schedule[at])];
+            for (const int operand : {value.left, value.right}) {
+                if (operand < 0)
+                    continue;
+                last_use[index(operand)] = at;
+                if (value.needs_x)
+                    read_with_x[index(operand)] = true;
+            }
+        }
+        for (const int output : outputs)
+            last_use[index(output)] = schedule.size();
+
+        Tape tape;
+        std::vector<int> registers(values_.size(), -1);
+        std::vector<int> free;
+        registers[0] = 0;
+        registers[1] = 1;
+        const auto is_output = [&](std::size_t i) { return last_use[i] == schedule.size(); };
+        const auto persists = [&](std::size_t i) {
+            return !values_[i].needs_x && (read_with_x[i] || is_output(i));
+        };
+        for (std::size_t i = 2; i < values_.size(); ++i) {
+            if (needed[i] && values_[i].constant) {
+                registers[i] = tape.register_count_++;
+                tape.constants_.push_back({registers[i], *values_[i].constant});
+            }
+        }
+        for (std::size_t at = 0; at < schedule.size(); ++at) {
+            const std::size_t target = index(schedule[at]);
+            const Value& value = values_[target];
+            const int left = registers[index(value.left)];
+            const int right = value.right < 0 ? -1 : registers[index(value.right)];
+            const auto release = [&](int operand) {
+                const bool releasable = operand >= 2 && !values_[index(operand)].constant &&
+                                        !persists(index(operand)) && last_use[index(operand)] == at;
+                if (releasable)
+                    free.push_back(registers[index(operand)]);
+            };
+            release(value.left);
+            if (value.right != value.left)
+                release(value.right);
+            if (free.empty()) {
+                registers[target] = tape.register_count_++;
+            } else {
+                registers[target] = free.back();
+                free.pop_back();
+            }
+            tape.instructions_.push_back({value.operation, registers[target], left, right});
+            if (!value.needs_x)
+                ++tape.time_only_count_;
+        }
+        for (std::size_t i = 1; i < values_.size(); ++i)
+            if (registers[i] >= 0 && !values_[i].constant && persists(i))
+                tape.persistent_.push_back(registers[i]);
+        for (const int output : outputs)
+            tape.outputs_.push_back(registers[index(output)]);
+        return tape;
+    }
+
+    std::vector<Value> values_; ///< values 0 and 1 are x and t
+    std::map<std::string, int> by_key_;
+    std::map<double, int> by_constant_;
+    std::map<std::tuple<Operation, int, int>, int> by_operation_;
+};
+
+Tape compile_tape(const std::vector<ex>& expressions) {
+    return TapeCompiler().compile(expressions);
+}
+
+double numeric_value(const ex& constant) {
+    return TapeCompiler().constant(constant);
+}
+
+double nearest_double(const numeric& rational) {
+    const double value = rational.to_double();
+    if (!std::isfinite(value))
+        throw AlgebraError("a number in it is beyond the range of double precision");
+    return value;
+}
+
+} // namespace tvbeam

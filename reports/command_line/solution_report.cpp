@@ -1,0 +1,134 @@
+#include "reports/command_line/solution_report.hpp"
+
+#include "core/time/time_scheme.hpp"
+#include "mms/admissible/consistency.hpp"
+#include "mms/coverage.hpp"
+#include "mms/expected_orders.hpp"
+#include "mms/text/input_error.hpp"
+#include "reports/document/number_text.hpp"
+#include "reports/document/text_table.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace tvbeam {
+
+namespace {
+
+std::string beam_text(const SolutionSetting& setting) {
+    const Beam& beam = setting.beam;
+    std::string text =
+        fmt::format("alpha = {}, zeta = {}", shortest(beam.alpha), shortest(beam.zeta));
+    if (beam.theta_A != 0.0)
+        text += ", theta_A = " + shortest(beam.theta_A);
+    text += beam.stops.exist() ? fmt::format(", stops [{}, {}]", shortest(beam.stops.lower),
+                                             shortest(beam.stops.upper))
+                               : ", no stops";
+    return fmt::format("On {} ({}), up to t = {}:", setting.origin, text,
+                       shortest(setting.final_time));
+}
+
+std::string coverage_text(const std::vector<TermUse>& terms) {
+    Table::Column equation{"", {}};
+    Table::Column term{"exercised", {}};
+    Table::Column size{"up to", {}};
+    std::string untested;
+    for (const TermUse& use : terms) {
+        if (use.is_exercised()) {
+            equation.cells.push_back(use.equation);
+            term.cells.push_back(use.term);
+            size.cells.push_back(scientific(use.largest, 1));
+        } else {
+            untested += wrapped(fmt::format("- {} {}: {}", use.equation, use.term, use.why_not));
+        }
+    }
+    return text_table({"", {"", {equation, term, size}}, {}}) +
+           (untested.empty() ? "\nUntested: nothing.\n" : "\nUntested:\n" + untested);
+}
+
+std::string space_table(const SolutionSetting& setting) {
+    Table::Column s{"s", {}};
+    Table::Column heat{"heat", {}};
+    Table::Column heat_order{"ord.", {}};
+    Table::Column beam{"beam", {}};
+    Table::Column beam_order{"ord.", {}};
+    for (const Residual& row : space_residuals(setting.solution, setting.beam, setting.final_time,
+                                               ThermalMass::consistent, {8, 16, 32, 64})) {
+        s.cells.push_back(std::to_string(row.count));
+        heat.cells.push_back(scientific(row.heat, 1));
+        heat_order.cells.push_back(fixed(row.heat_order, 2));
+        beam.cells.push_back(scientific(row.beam, 1));
+        beam_order.cells.push_back(fixed(row.beam_order, 2));
+    }
+    return text_table({"", {"", {s}}, {{"", {heat, heat_order, beam, beam_order}}}});
+}
+
+std::string time_table(const SolutionSetting& setting) {
+    const std::vector<std::int64_t> steps = {64, 128, 256, 512};
+    Table::Column dt{"dt", {}};
+    for (const std::int64_t count : steps)
+        dt.cells.push_back(shortest(setting.final_time / static_cast<double>(count)));
+    std::vector<Table::Group> groups;
+    for (const auto& name : TimeScheme::names()) {
+        Table::Column heat{"heat", {}};
+        Table::Column heat_order{"ord.", {}};
+        Table::Column beam{"beam", {}};
+        Table::Column beam_order{"ord.", {}};
+        for (const Residual& row :
+             time_residuals(setting.solution, setting.beam, setting.final_time, name, steps)) {
+            heat.cells.push_back(scientific(row.heat, 1));
+            heat_order.cells.push_back(fixed(row.heat_order, 2));
+            beam.cells.push_back(scientific(row.beam, 1));
+            beam_order.cells.push_back(fixed(row.beam_order, 2));
+        }
+        groups.push_back({name, {heat, heat_order, beam, beam_order}});
+    }
+    return text_table({"", {"", {dt}}, groups});
+}
+
+std::string orders_table(const ExpectedOrders& expected) {
+    const auto order = [](std::optional<double> value) {
+        return value ? fmt::format("{:g}", *value) : std::string("-");
+    };
+    Table::Column norm{"norm", {}};
+    Table::Column in_h{"in h", {}};
+    Table::Column euler{"in dt: euler", {}};
+    Table::Column second{"bdf2, sdirk2", {}};
+    for (const ExpectedOrder& row : expected.orders) {
+        norm.cells.push_back(row.norm);
+        in_h.cells.push_back(order(row.in_h));
+        euler.cells.push_back(order(row.euler));
+        second.cells.push_back(order(row.of_second_order));
+    }
+    std::string text = text_table({"", {"", {norm}}, {{"", {in_h, euler, second}}}});
+    if (!expected.reasons.empty())
+        text += "\n";
+    for (const auto& reason : expected.reasons)
+        text += wrapped(reason);
+    return text;
+}
+
+} // namespace
+
+std::string solution_report(const SolutionSetting& setting) {
+    const auto& [solution, beam, final_time, origin] = setting;
+    std::string text = "\n" + wrapped(beam_text(setting));
+    try {
+        text += "\n" + coverage_text(coverage(solution, beam, final_time));
+        text += "\n" +
+                wrapped("The exact solution in the discrete equations: the residual in space, and "
+                        "in time with space exact.") +
+                "\n" + space_table(setting) + "\n" + time_table(setting);
+        text += "\nOrders to expect (-: no error of that kind):\n\n" +
+                orders_table(expected_orders(solution, beam, final_time));
+    } catch (const InputError& error) {
+        text += wrapped(std::string("not admissible: ") + error.what());
+    }
+    return text;
+}
+
+} // namespace tvbeam

@@ -1,0 +1,467 @@
+// The command line. Exit: 0 done, 1 an expectation failed, 2 bad input or usage, 3 a run failed.
+
+#include "mms/derived_formulas.hpp"
+#include "mms/text/input_error.hpp"
+#include "mms/text/nearest_name.hpp"
+#include "reports/command_line/analysis_report.hpp"
+#include "reports/command_line/check_report.hpp"
+#include "reports/command_line/completion.hpp"
+#include "reports/command_line/new_solution.hpp"
+#include "reports/command_line/progress_line.hpp"
+#include "reports/command_line/solution_report.hpp"
+#include "reports/document/text_table.hpp"
+#include "reports/files/baseline.hpp"
+#include "reports/files/checkpoint.hpp"
+#include "reports/files/output_file.hpp"
+#include "reports/files/report_directory.hpp"
+#include "reports/formats/csv_report.hpp"
+#include "reports/formats/formula_report.hpp"
+#include "reports/formats/json_report.hpp"
+#include "reports/formats/terminal_report.hpp"
+#include "studies/data/csv_records.hpp"
+#include "studies/scene/shipped.hpp"
+#include "studies/scene/solution_setting.hpp"
+#include "studies/scene/toml_reader.hpp"
+#include "studies/study.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <unistd.h>
+
+namespace {
+
+using namespace tvbeam;
+
+enum Exit { done = 0, violated = 1, bad_input = 2, run_failed = 3 };
+
+struct RunOptions {
+    std::string scene;
+    std::vector<std::string> overrides;
+    std::string json;
+    std::string csv;
+    std::string out;
+    bool resume = false;
+    bool quiet = false;
+    int jobs = 1;
+};
+
+void say(const std::string& message) {
+    std::fprintf(stderr, "tvbeam: %s\n", message.c_str());
+}
+
+/// Where one report goes: nowhere, standard output (-), or a file.
+class Destination {
+public:
+    explicit Destination(const std::string& name) : standard_output_(name == "-") {
+        if (!name.empty() && !standard_output_)
+            file_.emplace(name);
+    }
+    [[nodiscard]] bool wanted() const { return standard_output_ || file_; }
+    [[nodiscard]] bool standard_output() const { return standard_output_; }
+    void write(const std::string& text) {
+        if (file_)
+            file_->commit(text);
+        else
+            write_standard_output(text);
+    }
+
+private:
+    bool standard_output_;
+    std::optional<OutputFile> file_;
+};
+
+/// Whether two reports are wanted in the same file, or both on standard output.
+bool same_place(const std::string& first, const std::string& second) {
+    if (first.empty() || second.empty())
+        return false;
+    std::error_code error;
+    return first == second || std::filesystem::weakly_canonical(first, error) ==
+                                  std::filesystem::weakly_canonical(second, error);
+}
+
+StudyResult run_shown(const Scene& scene, bool quiet, int jobs, std::optional<Checkpoint>& kept) {
+    ProgressLine progress(!quiet);
+    return run_study(scene,
+                     {.jobs = jobs, .progress = &progress, .finished = kept ? &*kept : nullptr});
+}
+
+/// What there is to say of a run that did not go well; empty when it did.
+std::string trouble_of(const StudyResult& result, bool kept) {
+    if (result.interrupted())
+        return std::string("interrupted; the result holds what was finished") +
+               (kept ? "; --resume goes on from the runs that are kept" : "");
+    return result.failed() ? "a run failed; the result says which and why" : "";
+}
+
+int run_command(const RunOptions& options) {
+    const EndRequests end_requests;
+    const Scene scene = read_scene(options.scene, options.overrides);
+    std::optional<ReportDirectory> out;
+    std::optional<Checkpoint> kept;
+    if (!options.out.empty()) {
+        out.emplace(options.out, scene.report);
+        kept.emplace(options.out, scene, options.resume);
+        if (options.resume && !options.quiet)
+            say("goes on with " + std::to_string(kept->found()) + " finished runs");
+    }
+    Destination json(options.json);
+    Destination csv(options.csv);
+    const StudyResult result = run_shown(scene, options.quiet, options.jobs, kept);
+    // Files first: what standard output goes to may be gone.
+    if (out) {
+        kept->write();
+        if (const std::string left_out = out->write(result); !left_out.empty())
+            say(left_out);
+        if (!result.interrupted())
+            kept->remove();
+    }
+    if (json.wanted() && !json.standard_output())
+        json.write(json_report(result));
+    if (csv.wanted() && !csv.standard_output())
+        csv.write(csv_report(result));
+    if (json.standard_output())
+        json.write(json_report(result));
+    else if (csv.standard_output())
+        csv.write(csv_report(result));
+    else if (!options.quiet)
+        write_standard_output(terminal_report(result));
+    if (const std::string trouble = trouble_of(result, kept && kept->holds_runs());
+        !trouble.empty()) {
+        say(trouble);
+        return run_failed;
+    }
+    return done;
+}
+
+struct CheckOptions {
+    std::vector<std::string> scenes;
+    std::vector<std::string> overrides;
+    bool short_form = false;
+    std::string junit;
+    std::string record;
+    std::string baseline;
+    double tolerance = 1e-6;
+    bool quiet = false;
+    int jobs = 1;
+};
+
+/// Colour on a terminal, unless NO_COLOR is set (https://no-color.org).
+bool coloured() {
+    const char* no_color = std::getenv("NO_COLOR");
+    return isatty(STDOUT_FILENO) == 1 && (no_color == nullptr || *no_color == '\0');
+}
+
+/// The first run of a result that failed, in words; empty when none did.
+std::string first_failure(const StudyResult& result) {
+    for (const auto& study : result.runs())
+        for (const auto& run : *study.runs)
+            if (run.status != RunStatus::ok)
+                return run.reason;
+    if (result.evolution && result.evolution->run.status != RunStatus::ok)
+        return result.evolution->run.reason;
+    if (result.stress)
+        for (const auto& one : result.stress->cases)
+            if (one.outcome == Outcome::failed)
+                return one.reason;
+    return {};
+}
+
+int check_command(const CheckOptions& options) {
+    const EndRequests end_requests;
+    // All scenes are read before any is run, so that a mistake in the last is not found after the
+    // others' run.
+    std::vector<Scene> scenes;
+    for (const auto& name : options.scenes)
+        scenes.push_back(read_scene(name, options.overrides,
+                                    {.short_form = options.short_form, .expectations = true}));
+    const auto baseline =
+        options.baseline.empty() ? std::nullopt : std::optional<Baseline>(options.baseline);
+    for (const auto& scene : scenes)
+        if (scene.expectations.empty() && !baseline && options.record.empty())
+            throw InputError(
+                {scene.file},
+                "has no [expect] block, so there is nothing to check; add one, or record a "
+                "baseline with --record");
+    Destination junit(options.junit);
+    Destination record(options.record);
+
+    std::vector<StudyResult> results;
+    std::vector<CheckedScene> checked;
+    for (const auto& scene : scenes) {
+        const auto start = std::chrono::steady_clock::now();
+        std::optional<Checkpoint> none;
+        results.push_back(run_shown(scene, options.quiet, options.jobs, none));
+        const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+        if (results.back().interrupted()) {
+            checked.push_back({scene.name, elapsed.count(), "it was interrupted", {}});
+            say("interrupted in " + scene.name);
+            break;
+        }
+        checked.push_back(
+            {scene.name, elapsed.count(), first_failure(results.back()), check(results.back())});
+        if (baseline) {
+            const auto more = baseline->check(results.back(), options.tolerance);
+            checked.back().expectations.insert(checked.back().expectations.end(), more.begin(),
+                                               more.end());
+        }
+        if (!junit.standard_output() && !record.standard_output() &&
+            !(options.quiet && checked.back().passed()))
+            write_standard_output(check_report(checked.back(), coloured()));
+    }
+    if (junit.wanted())
+        junit.write(junit_report(checked));
+    if (record.wanted() && !results.back().interrupted())
+        record.write(baseline_of(results));
+    const bool failed = std::any_of(results.begin(), results.end(),
+                                    [](const StudyResult& result) { return result.failed(); });
+    const bool passed = std::all_of(checked.begin(), checked.end(),
+                                    [](const CheckedScene& scene) { return scene.passed(); });
+    return failed ? run_failed : passed ? done : violated;
+}
+
+int analyse_command(const std::string& file, const std::string& error_column) {
+    write_standard_output(analysis_report(analyse(
+        read_records(file, error_column.empty() ? std::nullopt : std::optional(error_column)))));
+    return done;
+}
+
+int derive_command(const std::string& name, bool latex) {
+    const SolutionSetting setting = solution_setting(name);
+    const Solution& solution = setting.solution;
+    write_standard_output(formula_report(solution, derived_formulas(solution), latex) +
+                          (latex ? "" : solution_report(setting)));
+    return done;
+}
+
+int new_command(const std::string& name) {
+    const auto files = starter_files(name);
+    write_starter_files(files, ".");
+    write_standard_output("wrote " + files[0].name + " (the solution) and " + files[1].name +
+                          " (the scene); now\n  tvbeam run " + files[1].name +
+                          "\n  tvbeam derive " + files[0].name + "\n");
+    return done;
+}
+
+int names_command() {
+    std::string text;
+    for (const auto kind : {Shipped::scene, Shipped::solution})
+        for (const auto& file : shipped_files(kind))
+            text += file.name + "\n";
+    write_standard_output(text);
+    return done;
+}
+
+int list_command() {
+    std::string text = "Scenes (tvbeam run NAME):\n";
+    for (const auto& file : shipped_files(Shipped::scene))
+        text += wrapped("  " + file.name + ": " + read_scene(file.path.string()).title, 4);
+    text += "\nSolutions (solution = \"NAME\" in a scene, tvbeam derive NAME):\n";
+    for (const auto& file : shipped_files(Shipped::solution)) {
+        const Solution solution = read_solution(file.path);
+        text += wrapped("  " + file.name + ": " +
+                            (solution.purpose.empty() ? solution.source : solution.purpose),
+                        4);
+    }
+    write_standard_output(text);
+    return done;
+}
+
+void add_jobs(CLI::App& command, int& jobs) {
+    constexpr int most = 1024;
+    command
+        .add_option(
+            "--jobs", jobs,
+            "runs at a time: of a ladder, of the grid of [orders], of the cases of [stress]; the "
+            "results do not depend on it. [work_precision] times one run after the other all the "
+            "same")
+        ->check(CLI::Range(1, most))
+        ->type_name("N")
+        ->capture_default_str();
+}
+
+/// Refuses the empty name that an unset variable of a shell makes.
+const CLI::Validator named(
+    [](std::string& name) {
+        return name.empty() ? std::string("its name is empty; name a file or a directory") : "";
+    },
+    "", "named");
+const CLI::Validator no_stream(
+    [](std::string& name) {
+        return name == "-" ? std::string("a directory is wanted, and - is none") : "";
+    },
+    "", "no stream");
+
+std::vector<std::string> names_of_commands(const CLI::App& app) {
+    const auto all = app.get_subcommands([](const CLI::App*) { return true; });
+    std::vector<std::string> commands;
+    commands.reserve(all.size());
+    for (const auto* command : all)
+        commands.push_back(command->get_name());
+    return commands;
+}
+
+int command_line(int argc, char** argv) {
+    CLI::App app(
+        "Verification and convergence studies for a thermoviscoelastic beam between two stops.\n"
+        "Exit: 0 done, 1 an expectation failed, 2 bad input or usage, 3 a run failed.");
+    app.name("tvbeam");
+    app.set_version_flag("--version", "tvbeam " TVBEAM_VERSION);
+    app.require_subcommand(1);
+
+    RunOptions options;
+    auto* run =
+        app.add_subcommand("run", "Run the studies of a scene and print its table.\n"
+                                  "Example: tvbeam run table1 --set beam.alpha=0 --csv table1.csv");
+    run->add_option("scene", options.scene, "a shipped scene, or a file")->required();
+    run->add_option("--set", options.overrides,
+                    "override a key: --set beam.alpha=1e3 (again and again)")
+        ->type_name("KEY=VALUE")
+        ->expected(1)
+        ->take_all();
+    run->add_option("--json", options.json,
+                    "write the result as JSON; -: to standard output, in place of the table")
+        ->check(named)
+        ->type_name("FILE|-");
+    run->add_option(
+           "--csv", options.csv,
+           "write the first of these that the scene has as CSV: ladder, grid of [orders], timed "
+           "rows, evolution, stress cases; -: to standard output, in place of the table. --out "
+           "writes them all")
+        ->check(named)
+        ->type_name("FILE|-");
+    run->add_option("--out", options.out,
+                    "write to a directory what the scene's [report] block asks for; without one, "
+                    "JSON, CSV, Markdown, LaTeX, plots and a page of HTML")
+        ->check(named)
+        ->check(no_stream)
+        ->type_name("DIR");
+    run->add_flag("--resume", options.resume,
+                  "go on with an attempt that was cut short, whose finished runs are in the "
+                  "directory of --out")
+        ->needs("--out");
+    run->add_flag("--quiet", options.quiet, "no table, and no progress line");
+    add_jobs(*run, options.jobs);
+
+    CheckOptions checks;
+    auto* check = app.add_subcommand(
+        "check", "Run scenes and hold them against what their [expect] blocks say; exit 1 "
+                 "and a line for each violation.\n"
+                 "Example: tvbeam check table1 table1-orders --short --junit results.xml");
+    check->add_option("scenes", checks.scenes, "shipped scenes, or files")->required();
+    check->add_option("--set", checks.overrides, "override a key in every scene (again and again)")
+        ->type_name("KEY=VALUE")
+        ->expected(1)
+        ->take_all();
+    check->add_flag("--short", checks.short_form,
+                    "with the scenes' [short] blocks: the form for CI");
+    check->add_option("--junit", checks.junit, "write JUnit XML")
+        ->check(named)
+        ->type_name("FILE|-");
+    check->add_option("--record", checks.record, "write a baseline of every error found")
+        ->check(named)
+        ->type_name("FILE|-");
+    check->add_option("--baseline", checks.baseline, "hold every error against a recorded baseline")
+        ->type_name("FILE");
+    check->add_option("--tolerance", checks.tolerance, "relative, both sides, for --baseline")
+        ->check(CLI::PositiveNumber)
+        ->capture_default_str();
+    check->add_flag("--quiet", checks.quiet, "only the scenes that fail, and no progress line");
+    add_jobs(*check, checks.jobs);
+
+    std::string csv;
+    std::string error_column;
+    auto* analyse = app.add_subcommand(
+        "analyse", "Observed orders, verdicts and fits for any solver's errors: a CSV file "
+                   "with columns h (or elements), dt, error, seconds; of h and dt one "
+                   "may be absent.\n"
+                   "Example: tvbeam analyse errors.csv --error l2_error");
+    analyse->add_option("file", csv, "the CSV file")->required();
+    analyse->add_option("--error", error_column, "the column of the error; default: error")
+        ->type_name("NAME");
+
+    std::string name;
+    bool latex = false;
+    auto* derive = app.add_subcommand(
+        "derive", "Print the f, G, m, theta0 and u0 that a solution demands, what of the "
+                  "model it tests, and the orders to expect of it.\n"
+                  "Example: tvbeam derive copetti-fernandez-2011 --latex");
+    derive->add_option("name", name, "a shipped scene or solution, or a file")->required();
+    derive->add_flag("--latex", latex, "the formulas alone, as LaTeX");
+
+    std::string new_name;
+    auto* make = app.add_subcommand(
+        "new", "Write a solution to start from, NAME.toml, and a scene that runs it, "
+               "NAME-scene.toml, into the current directory.\nExample: tvbeam new my-solution");
+    make->add_option("name", new_name, "letters, digits, - and _")->required()->type_name("NAME");
+
+    auto* list =
+        app.add_subcommand("list", "List the shipped scenes and solutions.\nExample: tvbeam list");
+    bool names = false;
+    list->add_flag("--names", names, "the names alone, one a line");
+
+    auto* completion = app.add_subcommand(
+        "completion", "Print a script by which bash (and zsh, after bashcompinit) completes "
+                      "commands, options and names.\n"
+                      "Example: source <(tvbeam completion)");
+
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        const auto words = app.remaining();
+        if (app.get_subcommands().empty() && !words.empty() && !words[0].starts_with('-'))
+            throw InputError({"'" + words[0] + "'"},
+                             "is not a command" + did_you_mean(words[0], names_of_commands(app)) +
+                                 "; tvbeam --help lists them");
+        return app.exit(error) == 0 ? done : bad_input;
+    }
+    if (*run) {
+        if (same_place(options.json, options.csv))
+            throw InputError({"--json " + options.json + " --csv " + options.csv},
+                             "two reports do not fit in one place; give one of them another");
+        return run_command(options);
+    }
+    if (*check) {
+        if (same_place(checks.junit, checks.record))
+            throw InputError({"--junit " + checks.junit + " --record " + checks.record},
+                             "two reports do not fit in one place; give one of them another");
+        return check_command(checks);
+    }
+    if (*analyse)
+        return analyse_command(csv, error_column);
+    if (*derive)
+        return derive_command(name, latex);
+    if (*make)
+        return new_command(new_name);
+    if (*completion) {
+        write_standard_output(completion_script(app));
+        return done;
+    }
+    return names ? names_command() : list_command();
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+    // A closed pipe then fails the write, which is reported like any other.
+    std::signal(SIGPIPE, SIG_IGN);
+    try {
+        return command_line(argc, argv);
+    } catch (const InputError& error) {
+        say(error.what());
+        return bad_input;
+    } catch (const std::exception& error) {
+        say(error.what());
+        return run_failed;
+    }
+}

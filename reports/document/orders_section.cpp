@@ -1,0 +1,143 @@
+#include "reports/document/orders_section.hpp"
+
+#include "reports/document/number_text.hpp"
+
+#include <fmt/format.h>
+
+namespace tvbeam {
+
+namespace {
+
+std::string order_text(double size, double order, bool determined, double uncertainty) {
+    if (size == 0)
+        return "not seen";
+    return determined ? fixed(order, 3) + " ± " + fixed(uncertainty, 3) : "not determined";
+}
+
+const char* cause(Rejection why) {
+    switch (why) {
+    case Rejection::failed:
+        return "no error";
+    case Rejection::exact:
+        return "the error is zero";
+    case Rejection::rounding_floor:
+        return "at the rounding floor";
+    case Rejection::pre_asymptotic:
+        return "too coarse for the model";
+    case Rejection::outlier:
+        break;
+    }
+    return "out of line with their neighbours";
+}
+
+/// The runs that a fit leaves out, a sentence a cause.
+std::vector<Block> rejections(const std::string& norm, const TwoTermFit& fit,
+                              const std::vector<RungResult>& runs) {
+    std::vector<Block> sentences;
+    for (const Rejection why : {Rejection::failed, Rejection::exact, Rejection::rounding_floor,
+                                Rejection::pre_asymptotic, Rejection::outlier}) {
+        std::string named;
+        for (const auto& rejected : fit.rejected)
+            if (rejected.why == why) {
+                const Rung& rung = runs[rejected.record].rung;
+                named += fmt::format("{}({}, {})", named.empty() ? "" : ", ", rung.elements,
+                                     shortest(rung.dt));
+            }
+        if (!named.empty())
+            sentences.emplace_back(Paragraph{
+                fmt::format("{}: not fitted, {}: (s, dt) = {}", norm, cause(why), named)});
+    }
+    return sentences;
+}
+
+/// What the fit's row of the table says, as a sentence.
+Finding finding(const std::string& norm, const TwoTermFit& fit) {
+    const auto order = [](double size, double value, bool determined, double uncertainty) {
+        const std::string text = order_text(size, value, determined, uncertainty);
+        return size != 0 && determined ? "of order " + text : text;
+    };
+    return {fmt::format("{}: the error in space is {}, the error in time {}.", norm,
+                        order(fit.model.a, fit.model.p, fit.p_determined(), fit.p_uncertainty()),
+                        order(fit.model.b, fit.model.q, fit.q_determined(), fit.q_uncertainty())),
+            2, false};
+}
+
+} // namespace
+
+Table fit_table(const std::vector<std::pair<std::string, const TwoTermFit*>>& fits,
+                std::size_t records) {
+    Table::Column name{"norm", {}};
+    Table::Column p{"p", {}};
+    Table::Column q{"q", {}};
+    Table::Column a{"a", {}};
+    Table::Column b{"b", {}};
+    Table::Column rho{"rho", {}};
+    Table::Column rms{"rms", {}};
+    Table::Column used{"used", {}};
+    for (const auto& [norm, fit] : fits) {
+        name.cells.push_back(norm);
+        const TwoTermModel& model = fit->model;
+        const bool in_space = fit->p_determined();
+        const bool in_time = fit->q_determined();
+        p.cells.push_back(order_text(model.a, model.p, in_space, fit->p_uncertainty()));
+        q.cells.push_back(order_text(model.b, model.q, in_time, fit->q_uncertainty()));
+        // A size is one of h^p: without p it has no unit, and ρ is between two terms.
+        a.cells.push_back(in_space ? scientific(model.a, 3) : "");
+        b.cells.push_back(in_time ? scientific(model.b, 3) : "");
+        rho.cells.push_back(in_space && in_time ? fixed(model.rho, 2) : "");
+        rms.cells.push_back(scientific(fit->rms, 1));
+        used.cells.push_back(fmt::format("{}/{}", fit->used.size(), records));
+    }
+    return {fmt::format("Orders p in h and q in dt (±: 95 %), sizes a and b of the two terms, "
+                        "cosine rho of the angle between them, relative scatter rms, and how many "
+                        "of the {} runs were used.",
+                        records),
+            {"", {name}},
+            {{"", {p, q, a, b, rho, rms, used}}}};
+}
+
+Section orders_section(const OrdersResult& orders) {
+    std::vector<std::pair<std::string, const TwoTermFit*>> fits;
+    std::vector<Block> findings;
+    std::vector<Block> notes;
+    for (const auto& [norm, fit] : orders.norms) {
+        if (fit.holds()) {
+            fits.emplace_back(norm, &fit);
+            findings.emplace_back(finding(norm, fit));
+            const auto more = rejections(norm, fit, orders.runs);
+            notes.insert(notes.end(), more.begin(), more.end());
+        } else {
+            notes.emplace_back(Finding{norm + ": no model: " + fit.failure});
+        }
+    }
+    for (const auto& run : orders.runs)
+        if (run.status != RunStatus::ok)
+            notes.emplace_back(
+                Paragraph{fmt::format("s = {}, dt = {} failed: {}", run.rung.elements,
+                                      shortest(run.rung.dt), run.reason)});
+    Section section{"Orders in h and dt",
+                    {Paragraph{fmt::format("Orders from {} runs: e^2 = a^2 h^2p + 2 rho a b h^p "
+                                           "dt^q + b^2 dt^2q (±: 95 %)",
+                                           orders.runs.size())}}};
+    auto& blocks = section.blocks;
+    if (!fits.empty()) {
+        blocks.emplace_back(BlankLine{});
+        blocks.emplace_back(fit_table(fits, orders.runs.size()));
+        blocks.insert(blocks.end(), findings.begin(), findings.end());
+    }
+    if (const auto& constant = orders.corollary) {
+        blocks.emplace_back(BlankLine{});
+        blocks.emplace_back(
+            Finding{fmt::format("Corollary 2.2: its left side is C (h^2 + dt^2) with C from {} to "
+                                "{} over the grid, {} at its finest run.",
+                                scientific(constant->least, 2), scientific(constant->greatest, 2),
+                                scientific(constant->finest, 2))});
+    }
+    if (!notes.empty()) {
+        blocks.emplace_back(BlankLine{});
+        blocks.insert(blocks.end(), notes.begin(), notes.end());
+    }
+    return section;
+}
+
+} // namespace tvbeam

@@ -1,0 +1,231 @@
+#include "reports/document/work_precision_section.hpp"
+
+#include "reports/document/number_text.hpp"
+#include "reports/document/scheme_text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+namespace tvbeam {
+
+namespace {
+
+/// Two significant digits, more before the point.
+std::string ratio_text(double ratio) {
+    return ratio < 9.95 ? fixed(ratio, 1) : ratio < 1e5 ? fixed(ratio, 0) : scientific(ratio, 1);
+}
+
+/// Too long for more than one run.
+bool ran_once(const std::optional<Timing>& timing, const WorkPrecisionBlock& block) {
+    return timing && timing->runs < block.runs;
+}
+
+/// Marked where it is of one run; blank where there is none.
+std::string median_text(const std::optional<Timing>& timing, const WorkPrecisionBlock& block) {
+    return timing ? with_prefix(timing->median) + (ran_once(timing, block) ? "*" : "") : "";
+}
+
+Table::Column column(const SchemeRuns& scheme, const std::string& heading,
+                     const std::function<std::string(std::size_t)>& cell) {
+    Table::Column result{heading, {}};
+    for (std::size_t i = 0; i < scheme.runs.size(); ++i)
+        result.cells.push_back(cell(i));
+    return result;
+}
+
+Table::Group time_group(const SchemeRuns& scheme, const WorkPrecisionBlock& block) {
+    const auto quartile = [&](const char* heading, double Timing::*value) {
+        return column(scheme, heading, [&, value](std::size_t i) {
+            const auto& timing = scheme.timings[i];
+            return timing && timing->runs > 1 ? with_prefix((*timing).*value) : std::string();
+        });
+    };
+    return {"seconds",
+            {column(scheme, "median",
+                    [&](std::size_t i) { return median_text(scheme.timings[i], block); }),
+             quartile("q1", &Timing::q1), quartile("q3", &Timing::q3)}};
+}
+
+std::vector<Table::Group> counter_groups(const SchemeRuns& scheme, Algorithm algorithm) {
+    const auto count = [&](const char* heading, const auto& counter) {
+        return column(scheme, heading, [&](std::size_t i) {
+            return scheme.timings[i] ? std::to_string(counter(scheme.runs[i])) : std::string();
+        });
+    };
+    std::vector<Table::Group> groups{
+        {"", {count("steps", [](const RungResult& run) { return run.counters.steps; })}},
+        {"node-",
+         {column(scheme, "steps",
+                 [&](std::size_t i) {
+                     return scheme.timings[i]
+                                ? scientific(static_cast<double>(node_steps(scheme.runs[i].rung)),
+                                             1)
+                                : std::string();
+                 })}},
+    };
+    // An iteration is a solve of the heat equation too.
+    if (algorithm == Algorithm::fixed_point)
+        groups.push_back({"", {count("iter.", [](const RungResult& run) {
+                              return run.counters.fixed_point_iterations;
+                          })}});
+    else
+        groups.push_back({"heat", {count("solves", [](const RungResult& run) {
+                              return run.counters.heat_solves;
+                          })}});
+    return groups;
+}
+
+/// The rows of one scheme, below its name.
+std::vector<Block> rows_blocks(const SchemeRuns& scheme, const TimedScheme& timed,
+                               const WorkPrecisionBlock& block) {
+    const auto& norms = block.norms;
+    Table::Group key{
+        "",
+        {column(scheme, "s",
+                [&](std::size_t i) { return std::to_string(scheme.runs[i].rung.elements); }),
+         column(scheme, "dt", [&](std::size_t i) { return shortest(scheme.runs[i].rung.dt); })}};
+    std::vector<Table::Group> groups;
+    for (std::size_t k = 0; k < norms.size(); ++k)
+        groups.push_back({norms[k].name, {column(scheme, "error", [&](std::size_t i) {
+                              const auto& errors = scheme.runs[i].errors;
+                              return errors.empty() ? name_of(scheme.runs[i].status)
+                                                    : scientific(errors[k], 4);
+                          })}});
+    groups.push_back(time_group(scheme, block));
+    for (auto& group : counter_groups(scheme, timed.scheme.algorithm))
+        groups.push_back(std::move(group));
+    std::vector<Block> blocks{
+        Paragraph{timed.name + ": " + scheme_text(timed.scheme)},
+        Table{timed.name + ": errors, seconds of a run and their quartiles, and counters.",
+              std::move(key), std::move(groups)}};
+    for (const auto& run : scheme.runs)
+        if (run.status != RunStatus::ok)
+            blocks.emplace_back(
+                Paragraph{fmt::format("s = {}, dt = {} failed: {}", run.rung.elements,
+                                      shortest(run.rung.dt), run.reason)});
+    return blocks;
+}
+
+bool some_ran_once(const WorkPrecisionResult& result, const WorkPrecisionBlock& block) {
+    return std::any_of(result.schemes.begin(), result.schemes.end(), [&](const SchemeRuns& scheme) {
+        return std::any_of(scheme.timings.begin(), scheme.timings.end(),
+                           [&](const auto& timing) { return ran_once(timing, block); });
+    });
+}
+
+bool reached(const ReachedError& error) {
+    return std::any_of(error.times.begin(), error.times.end(),
+                       [](const auto& time) { return time.has_value(); });
+}
+
+/// The times to reach an error, a column a scheme; rows that no scheme has are left out.
+Table costs_table(const NormCosts& costs, const WorkPrecisionBlock& block) {
+    Table::Group key{"", {{costs.norm.name, {}}}};
+    std::vector<Table::Group> groups;
+    for (const auto& scheme : block.schemes)
+        groups.push_back({"", {{scheme.name, {}}}});
+    for (const auto& error : costs.errors) {
+        if (!reached(error) && !error.target)
+            continue;
+        key.columns[0].cells.push_back(shortest(error.error));
+        for (std::size_t k = 0; k < groups.size(); ++k)
+            groups[k].columns[0].cells.push_back(median_text(error.times[k], block));
+    }
+    return {"Seconds to reach an error of " + costs.norm.name + ", by scheme.", key, groups};
+}
+
+Finding comparison(const SchemeComparison& pair, const ReachedError& error,
+                   const WorkPrecisionBlock& block) {
+    const std::string& faster = block.schemes[pair.faster].name;
+    const std::string& slower = block.schemes[pair.slower].name;
+    const bool once =
+        ran_once(error.times[pair.faster], block) || ran_once(error.times[pair.slower], block);
+    const std::string spread =
+        once ? "(of one run)"
+             : fmt::format("(quartiles {} … {})", ratio_text(pair.times.lowest),
+                           ratio_text(pair.times.highest));
+    const std::string ratio = ratio_text(pair.times.ratio);
+    return {pair.times.told_apart
+                ? fmt::format("by {} {} times sooner than by {} {}", faster, ratio, slower, spread)
+                : fmt::format("by {} and by {} in times not told apart: ratio {} {}", faster,
+                              slower, ratio, spread),
+            4};
+}
+
+/// Which scheme reaches an error sooner.
+std::vector<Block> comparisons(const ReachedError& error, const NormCosts& costs,
+                               const WorkPrecisionBlock& block) {
+    std::vector<Block> findings{
+        Finding{fmt::format("{} = {} is reached", costs.norm.name, shortest(error.error))}};
+    for (const auto& pair : error.comparisons)
+        findings.emplace_back(comparison(pair, error, block));
+    for (std::size_t k = 0; k < block.schemes.size(); ++k)
+        if (error.times[k] && error.comparisons.empty())
+            findings.emplace_back(Finding{"by " + block.schemes[k].name + " alone", 4});
+    for (std::size_t k = 0; k < block.schemes.size(); ++k)
+        if (!error.times[k])
+            findings.emplace_back(
+                Finding{"not, as far as measured, by " + block.schemes[k].name, 4});
+    return findings;
+}
+
+/// The errors at which the schemes are compared in words.
+std::vector<const ReachedError*> compared_errors(const NormCosts& costs) {
+    std::vector<const ReachedError*> errors;
+    for (const auto& error : costs.errors)
+        if (error.target)
+            errors.push_back(&error);
+    if (!errors.empty())
+        return errors;
+    const auto smallest =
+        std::find_if(costs.errors.rbegin(), costs.errors.rend(),
+                     [](const ReachedError& error) { return !error.comparisons.empty(); });
+    if (smallest != costs.errors.rend())
+        errors.push_back(&*smallest);
+    return errors;
+}
+
+} // namespace
+
+Section work_precision_section(const WorkPrecisionResult& result, const WorkPrecisionBlock& block) {
+    Section section{
+        "Work and precision",
+        {Paragraph{fmt::format(
+            "Work and precision up to T = {}; timed runs a row: {}, in turns, one at a time, "
+            "without error norms. µ: 1e-6, m: 1e-3; node-steps: elements times steps",
+            shortest(block.final_time), block.runs)}}};
+    auto& blocks = section.blocks;
+    const auto add = [&blocks](const std::vector<Block>& more) {
+        blocks.emplace_back(BlankLine{});
+        blocks.insert(blocks.end(), more.begin(), more.end());
+    };
+    for (std::size_t k = 0; k < block.schemes.size(); ++k)
+        add(rows_blocks(result.schemes[k], block.schemes[k], block));
+    if (some_ran_once(result, block))
+        add({Paragraph{"*: of one run, as a run takes long"}});
+    bool introduced = false;
+    for (const auto& costs : result.norms) {
+        const Table table = costs_table(costs, block);
+        if (table.rows() == 0)
+            continue;
+        if (!introduced)
+            add({Paragraph{"Seconds to reach an error, on the log-log line between two rows; "
+                           "blank: not within what was measured"}});
+        introduced = true;
+        add({table});
+    }
+    for (const auto& costs : result.norms) {
+        for (const auto* error : compared_errors(costs))
+            add(comparisons(*error, costs, block));
+        for (const auto& remark : costs.remarks)
+            add({Finding{remark}});
+    }
+    if (!result.busy_remark.empty())
+        add({Finding{result.busy_remark}});
+    return section;
+}
+
+} // namespace tvbeam

@@ -1,0 +1,53 @@
+#pragma once
+
+#include "reports/files/output_file.hpp"
+#include "reports/plots/gnuplot.hpp"
+#include "studies/study.hpp"
+
+#include <filesystem>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace tvbeam {
+
+/// The directory that `--out` names, and in it the files that a scene's [report] block asks for:
+///
+///     json        result.json
+///     csv         a file for each study: ladder.csv, orders.csv, …
+///     markdown    table.md
+///     latex       table.tex
+///     plots       plots/NAME.gp, .dat, .svg, .png for each figure; without gnuplot the first two
+///     html        report.html
+///
+/// Each appears whole or not at all, and none of them before all could be brought to the disk. A
+/// file of an earlier result is replaced, and its plots and CSV files go where this result has none
+/// of their names; kinds of files that are not asked for are left alone.
+class ReportDirectory {
+public:
+    /// Makes the directory where it is missing, and keeps others from writing there as long as the
+    /// object exists. Throws OutputError when that fails or when nothing can be written there.
+    ReportDirectory(std::filesystem::path path, const ReportBlock& block);
+    /// Takes away the directories that were made, if nothing was written to them.
+    ~ReportDirectory();
+    ReportDirectory(const ReportDirectory&) = delete;
+    ReportDirectory& operator=(const ReportDirectory&) = delete;
+    ReportDirectory(ReportDirectory&&) = delete;
+    ReportDirectory& operator=(ReportDirectory&&) = delete;
+
+    /// Returns a sentence on plots that could not be drawn, or nothing. Throws OutputError when
+    /// something cannot be written; then nothing is.
+    std::string write(const StudyResult& result);
+
+private:
+    void make(const std::filesystem::path& directory);
+    void lock();
+    void remove_earlier(const std::set<std::string>& written) const;
+
+    std::filesystem::path path_;
+    ReportBlock block_;
+    int lock_ = -1;                           ///< a descriptor of the directory
+    std::vector<std::filesystem::path> made_; ///< inner ones first
+};
+
+} // namespace tvbeam

@@ -1,0 +1,119 @@
+#include "reports/plots/drawing.hpp"
+#include "reports/plots/plot.hpp"
+#include "reports/plots/plot_style.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+
+namespace tvbeam {
+
+namespace {
+
+std::string quantity_words(const NamedProbe& named) {
+    switch (named.probe.quantity) {
+    case Probe::Quantity::temperature:
+        return fmt::format("temperature at x = {}", named.probe.x);
+    case Probe::Quantity::deflection:
+        return fmt::format("deflection at x = {}", named.probe.x);
+    case Probe::Quantity::stress:
+        return "contact stress";
+    default:
+        return "energy";
+    }
+}
+
+/// The name of a probe in letters, digits and _, which gnuplot takes in names.
+std::string file_part(std::string name) {
+    std::replace_if(
+        name.begin(), name.end(), [](unsigned char c) { return std::isalnum(c) == 0; }, '_');
+    return name;
+}
+
+/// What part of the time a figure shows; all of it, or the last two periods.
+struct Window {
+    std::string name; ///< part of the file's
+    std::string words;
+    double begin = 0.0;
+    double end = 0.0;
+};
+
+/// Rows of t and value within the window.
+std::string rows_of(const EvolutionResult& result, const std::vector<double>& values,
+                    const Window& window) {
+    std::string rows;
+    for (std::size_t i = 0; i < values.size(); ++i)
+        if (std::isfinite(values[i]) && result.t[i] >= window.begin && result.t[i] <= window.end)
+            rows += fmt::format("{} {}\n", result.t[i], values[i]);
+    return rows;
+}
+
+/// Lines at the stops that the tip can meet, with one title.
+void add_stops(Drawing& drawing, const Stops& stops) {
+    bool titled = false;
+    for (const double stop : {stops.lower, stops.upper}) {
+        if (!std::isfinite(stop))
+            continue;
+        const std::string line = fmt::format("{} with lines lc rgb '#555555' dt 3 lw 1.2", stop);
+        if (titled)
+            drawing.add_curve(line);
+        else
+            drawing.add_curve(line, "stops");
+        titled = true;
+    }
+}
+
+std::vector<Window> windows_of(const EvolutionResult& result, const EvolutionBlock& block) {
+    std::vector<Window> windows{{"", "", 0.0, block.final_time}};
+    if (!result.periods.empty()) {
+        const double period = static_cast<double>(*block.period) * block.rung.dt;
+        const double end = result.periods.back().end;
+        if (end > 2.0 * period * (1.0 + 1e-9))
+            windows.push_back({"_last", ", its last two periods", end - 2.0 * period, end});
+    }
+    return windows;
+}
+
+Plot plot_of(const EvolutionResult& result, const Scene& scene, std::size_t k,
+             const Window& window) {
+    const NamedProbe& named = scene.evolution->probes[k];
+    const ProbeHistory& probe = result.probes[k];
+    Drawing drawing;
+    const std::string computed =
+        drawing.add_block("t, " + probe.name, rows_of(result, probe.values, window));
+    drawing.add_curve(
+        fmt::format("{} using 1:2 with lines lc rgb '{}' lw 1.8", computed, series_style(0).colour),
+        "computed");
+    if (!probe.exact.empty()) {
+        const std::string exact =
+            drawing.add_block("t, exact value", rows_of(result, probe.exact, window));
+        drawing.add_curve(fmt::format("{} using 1:2 with lines lc rgb '{}' dt 2 lw 1.8", exact,
+                                      series_style(1).colour),
+                          "exact");
+    }
+    const bool tip = named.probe.quantity == Probe::Quantity::deflection && named.probe.x == 1.0;
+    if (tip)
+        add_stops(drawing, scene.beam.stops);
+    const std::string words = quantity_words(named);
+    const std::string settings =
+        fmt::format("set xlabel 'time'\nset ylabel {}\nset xrange [{}:{}]\nset offsets 0, 0, graph "
+                    "0.05, graph 0.05\n",
+                    gnuplot_text(words), window.begin, window.end);
+    return drawing.plot("evolution_" + file_part(named.name) + window.name,
+                        fmt::format("Evolution in time: {}{}.", words, window.words), settings);
+}
+
+} // namespace
+
+std::vector<Plot> evolution_plots(const StudyResult& result) {
+    std::vector<Plot> plots;
+    if (result.evolution && result.evolution->t.size() > 1)
+        for (std::size_t k = 0; k < result.evolution->probes.size(); ++k)
+            for (const auto& window : windows_of(*result.evolution, *result.scene.evolution))
+                plots.push_back(plot_of(*result.evolution, result.scene, k, window));
+    return plots;
+}
+
+} // namespace tvbeam

@@ -1,0 +1,68 @@
+#include "reports/plots/drawing.hpp"
+#include "reports/plots/plot.hpp"
+#include "reports/plots/plot_style.hpp"
+
+#include <fmt/format.h>
+
+#include <functional>
+#include <optional>
+
+namespace tvbeam {
+
+namespace {
+
+/// One of the figures of a row, against the number of elements.
+struct Curve {
+    std::string name;
+    std::function<std::optional<double>(const RoundOffRow&)> value;
+};
+
+const std::vector<Curve>& curves() {
+    static const std::vector<Curve> all{
+        {"moment form, nodal values", [](const auto& row) { return row.moment.value; }},
+        {"moment form, sine basis", [](const auto& row) { return row.sine; }},
+        {"Hermite form", [](const auto& row) { return row.hermite.value; }},
+        {"Hermite form, predicted",
+         [](const auto& row) { return std::optional(row.hermite_predicted); }},
+        {"discretisation error",
+         [](const auto& row) { return std::optional(row.discretisation_error); }}};
+    return all;
+}
+
+} // namespace
+
+std::vector<Plot> round_off_plots(const StudyResult& result) {
+    if (!result.stress || !result.stress->roundoff)
+        return {};
+    Drawing drawing;
+    std::vector<double> elements;
+    for (const auto& row : result.stress->roundoff->rows)
+        elements.push_back(static_cast<double>(row.elements));
+    std::size_t series = 0;
+    for (const auto& curve : curves()) {
+        std::string rows;
+        for (const auto& row : result.stress->roundoff->rows)
+            if (const auto value = curve.value(row); value && *value > 0.0)
+                rows += fmt::format("{} {}\n", row.elements, *value);
+        const SeriesStyle style = series_style(series++);
+        if (rows.empty())
+            continue;
+        const std::string block =
+            drawing.add_block(curve.name + ": elements, relative error", rows);
+        drawing.add_curve(fmt::format("{} using 1:2 with linespoints lc rgb '{}' pt {} ps 0.9 dt "
+                                      "{} lw 1.6",
+                                      block, style.colour, style.point, style.dash),
+                          curve.name);
+    }
+    if (drawing.is_empty())
+        return {};
+    return {drawing.plot(
+        "round_off",
+        "Floor of round-off under the errors, against the number of elements: measured on the "
+        "coupled mode sin(pi x), and as the h^-4 law of the Hermite basis predicts it. Where a "
+        "floor lies above the discretisation error, a finer mesh gains nothing.",
+        "set logscale xy\nset format xy '10^{%L}'\n" + range_text("x", elements, 1.5) +
+            "set xlabel 'elements s'\nset ylabel 'relative error'\n")};
+}
+
+} // namespace tvbeam

@@ -1,0 +1,229 @@
+#include "reports/document/number_text.hpp"
+#include "reports/plots/drawing.hpp"
+#include "reports/plots/plot.hpp"
+#include "reports/plots/plot_style.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <map>
+#include <optional>
+
+namespace tvbeam {
+
+namespace {
+
+constexpr std::array<Outcome, 4> outcomes{Outcome::certified, Outcome::refused, Outcome::stopped,
+                                          Outcome::failed};
+
+/// A number that a case has, ≥ 0; infinite for the gap of a beam without stops.
+struct Parameter {
+    std::string name; ///< for an axis
+    std::function<double(const StressParameters&)> value;
+};
+
+const std::vector<Parameter>& parameters() {
+    static const std::vector<Parameter> all{
+        {"thermal expansion α", [](const auto& p) { return std::abs(p.alpha); }},
+        {"viscosity ζ", [](const auto& p) { return p.zeta; }},
+        {"time step Δt", [](const auto& p) { return p.dt; }},
+        {"elements s", [](const auto& p) { return static_cast<double>(p.elements); }},
+        {"gap between tip and stop",
+         [](const auto& p) { return std::min(-p.stops.lower, p.stops.upper); }},
+        {"load", [](const auto& p) { return std::abs(p.load); }},
+    };
+    return all;
+}
+
+/// A parameter's values of all cases as decades of a logarithmic axis: zero stands two decades
+/// below the smallest positive value, infinity two above the largest.
+class Axis {
+public:
+    Axis(const Parameter& parameter, const std::vector<StressCase>& cases) : name(parameter.name) {
+        std::vector<double> values;
+        values.reserve(cases.size());
+        for (const auto& one : cases)
+            values.push_back(parameter.value(one.parameters));
+        for (const double value : values)
+            if (value > 0.0 && std::isfinite(value)) {
+                least = std::min(least.value_or(value), value);
+                greatest = std::max(greatest.value_or(value), value);
+            }
+        const double low = least ? std::log10(*least) : 0.0;
+        const double high = greatest ? std::log10(*greatest) : 0.0;
+        const double apart = std::max(1.0, 0.12 * (high - low));
+        for (const double value : values) {
+            has_zero = has_zero || value <= 0.0;
+            has_infinity = has_infinity || std::isinf(value);
+            places.push_back(value <= 0.0        ? low - apart
+                             : std::isinf(value) ? high + apart
+                                                 : std::log10(value));
+        }
+        zero = low - apart;
+        infinity = high + apart;
+        const auto [first, last] = std::minmax_element(places.begin(), places.end());
+        begin = *first;
+        end = *last;
+    }
+
+    [[nodiscard]] bool varies() const { return end > begin; }
+
+    /// The fifth of the axis that a case lies in.
+    [[nodiscard]] int bin(std::size_t i) const {
+        constexpr int bins = 5;
+        return std::min(bins - 1, static_cast<int>(bins * (places[i] - begin) / (end - begin)));
+    }
+
+    [[nodiscard]] std::string ticks() const {
+        std::string text;
+        const auto add = [&text](const std::string& label, double place) {
+            text += fmt::format("{}'{}' {}", text.empty() ? "" : ", ", label, place);
+        };
+        if (has_zero)
+            add("0", zero);
+        if (least) {
+            const int first = static_cast<int>(std::ceil(std::log10(*least) - 1e-9));
+            const int last = static_cast<int>(std::floor(std::log10(*greatest) + 1e-9));
+            const int step = std::max(1, (last - first) / 6);
+            for (int power = first; power <= last; power += step)
+                add(fmt::format("10^{{{}}}", power), power);
+        }
+        if (has_infinity)
+            add("none", infinity);
+        return "(" + text + ")";
+    }
+
+    std::string name;
+    std::vector<double> places; ///< decimal logarithms, one a case
+    double begin = 0.0;
+    double end = 0.0;
+
+private:
+    std::optional<double> least;
+    std::optional<double> greatest;
+    bool has_zero = false;
+    bool has_infinity = false;
+    double zero = 0.0;
+    double infinity = 0.0;
+};
+
+/// What the fifths of two axes together tell of the outcome: their mutual information, in nats.
+double information(const Axis& x, const Axis& y, const std::vector<StressCase>& cases) {
+    std::map<std::pair<int, int>, std::map<Outcome, double>> cells;
+    std::map<Outcome, double> all;
+    for (std::size_t i = 0; i < cases.size(); ++i) {
+        ++cells[{x.bin(i), y.bin(i)}][cases[i].outcome];
+        ++all[cases[i].outcome];
+    }
+    const auto total = static_cast<double>(cases.size());
+    double sum = 0.0;
+    for (const auto& [place, counts] : cells) {
+        double inside = 0.0;
+        for (const auto& [outcome, count] : counts)
+            inside += count;
+        for (const auto& [outcome, count] : counts)
+            sum += count / total * std::log(count * total / (inside * all[outcome]));
+    }
+    return sum;
+}
+
+/// The two axes that tell most; none where fewer than two parameters vary. Where outcomes tell
+/// nothing, all being alike, the two with the most different values.
+std::optional<std::pair<Axis, Axis>> most_telling(const std::vector<StressCase>& cases) {
+    std::vector<Axis> axes;
+    for (const auto& parameter : parameters())
+        if (Axis axis(parameter, cases); axis.varies())
+            axes.push_back(std::move(axis));
+    const auto distinct = [](const Axis& axis) {
+        std::vector<double> values = axis.places;
+        std::sort(values.begin(), values.end());
+        return std::unique(values.begin(), values.end()) - values.begin();
+    };
+    std::optional<std::pair<Axis, Axis>> best;
+    std::pair<double, double> most{-1.0, -1.0};
+    for (std::size_t i = 0; i < axes.size(); ++i)
+        for (std::size_t j = i + 1; j < axes.size(); ++j) {
+            // Differences of round-off size are none.
+            const std::pair<double, double> told{
+                std::round(1e9 * information(axes[i], axes[j], cases)),
+                static_cast<double>(distinct(axes[i]) * distinct(axes[j]))};
+            if (told > most) {
+                most = told;
+                best.emplace(axes[i], axes[j]);
+            }
+        }
+    return best;
+}
+
+struct OutcomeStyle {
+    const char* colour;
+    int point;
+    double size;
+    double shift; ///< of the axes' widths: outcomes at one place stand side by side
+};
+
+OutcomeStyle style_of(Outcome outcome) {
+    switch (outcome) {
+    case Outcome::certified:
+        return {"#56B4E9", 6, 0.75, 0.0};
+    case Outcome::refused:
+        return {"#E69F00", 9, 1.0, 0.0};
+    case Outcome::stopped:
+        return {"#000000", 2, 0.9, 0.0};
+    default:
+        return {"#D55E00", 5, 1.2, 0.0};
+    }
+}
+
+} // namespace
+
+std::vector<Plot> stress_plots(const StudyResult& result) {
+    if (!result.stress || result.stress->cases.empty())
+        return {};
+    const auto& cases = result.stress->cases;
+    const auto axes = most_telling(cases);
+    if (!axes)
+        return {};
+    const auto& [x, y] = *axes;
+    Drawing drawing;
+    for (const Outcome outcome : outcomes) {
+        // Cases at one place are one point.
+        std::map<std::pair<double, double>, int> points;
+        for (std::size_t i = 0; i < cases.size(); ++i)
+            if (cases[i].outcome == outcome)
+                ++points[{x.places[i], y.places[i]}];
+        if (points.empty())
+            continue;
+        std::string rows;
+        for (const auto& [place, count] : points)
+            rows += fmt::format("{} {} {}\n", place.first, place.second, count);
+        const std::string block =
+            drawing.add_block(fmt::format("{}: log10 of {}, of {}, number of cases",
+                                          name_of(outcome), x.name, y.name),
+                              rows);
+        const OutcomeStyle style = style_of(outcome);
+        drawing.add_curve(fmt::format("{} using 1:2:(1+0.4*log10($3)) with points pt {} ps "
+                                      "variable lc rgb '{}' lw 1.4",
+                                      block, style.point, style.colour),
+                          fmt::format("{}: {}", name_of(outcome), result.stress->count(outcome)));
+    }
+    const double room_x = 0.06 * (x.end - x.begin);
+    const double room_y = 0.06 * (y.end - y.begin);
+    const std::string settings =
+        fmt::format("set xrange [{}:{}]\nset yrange [{}:{}]\nset xtics {}\nset ytics {}\n"
+                    "set xlabel {} noenhanced\nset ylabel {} noenhanced\nset grid\n",
+                    x.begin - room_x, x.end + room_x, y.begin - room_y, y.end + room_y, x.ticks(),
+                    y.ticks(), gnuplot_text(x.name), gnuplot_text(y.name));
+    return {drawing.plot(
+        "stress_outcomes",
+        fmt::format("Outcomes of {} cases over the two parameters that tell most about them, "
+                    "{} and {}, on logarithmic axes; the more cases at a place, the larger "
+                    "its symbol.",
+                    cases.size(), x.name, y.name),
+        settings)};
+}
+
+} // namespace tvbeam

@@ -1,0 +1,173 @@
+#include "studies/evolution/evolution.hpp"
+
+#include "core/round_off.hpp"
+#include "core/run.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+namespace tvbeam {
+
+namespace {
+
+/// The sample with the value that `before` puts first, of those that are numbers.
+template <typename Before>
+std::optional<std::size_t> extreme(const std::vector<double>& values, const Before& before) {
+    std::optional<std::size_t> best;
+    for (std::size_t i = 0; i < values.size(); ++i)
+        if (!std::isnan(values[i]) && (!best || before(values[i], values[*best])))
+            best = i;
+    return best;
+}
+
+double exact_value(const ProblemData& data, const Probe& probe, double t) {
+    const ExactSolution& exact = *data.exact;
+    if (probe.quantity != Probe::Quantity::stress) {
+        const Field& field = probe.quantity == Probe::Quantity::deflection ? exact.u : exact.theta;
+        return values(data, field, Eigen::ArrayXd::Constant(1, probe.x), t)(0);
+    }
+    if (!exact.stress)
+        return 0.0;
+    return data.amplitudes(Eigen::ArrayXd::Constant(1, t))(*exact.stress, 0);
+}
+
+std::vector<PeriodChange> changes_of(const std::vector<double>& t,
+                                     const std::vector<ProbeHistory>& probes, std::size_t period) {
+    std::vector<PeriodChange> periods;
+    for (std::size_t end = 2 * period; end < t.size(); end += period) {
+        PeriodChange change{t[end], {}};
+        for (const auto& probe : probes) {
+            double greatest = 0.0;
+            for (std::size_t i = end - period + 1; i <= end; ++i)
+                greatest = std::max(greatest, std::abs(probe.values[i] - probe.values[i - period]));
+            change.changes.push_back(greatest);
+        }
+        periods.push_back(std::move(change));
+    }
+    return periods;
+}
+
+/// Of the initial deflection, relative: the moment form's is a sum, the Hermite form solves for it.
+double tip_round_off(const Scheme& scheme, std::int64_t elements) {
+    const double of_sum = 1e-12;
+    return scheme.algorithm == Algorithm::direct
+               ? of_sum
+               : std::max(of_sum, hermite_solve_round_off(elements));
+}
+
+} // namespace
+
+std::optional<std::size_t> ProbeHistory::least() const {
+    return extreme(values, [](double a, double b) { return a < b; });
+}
+
+std::optional<std::size_t> ProbeHistory::greatest() const {
+    return extreme(values, [](double a, double b) { return a > b; });
+}
+
+std::optional<double> ProbeHistory::greatest_error() const {
+    if (exact.empty())
+        return std::nullopt;
+    double greatest = 0.0;
+    for (std::size_t i = 0; i < values.size(); ++i)
+        if (!std::isnan(values[i])) {
+            const double error = std::abs(values[i] - exact[i]);
+            if (std::isnan(error))
+                return error;
+            greatest = std::max(greatest, error);
+        }
+    return greatest;
+}
+
+std::map<std::string, double> EvolutionResult::figures() const {
+    std::map<std::string, double> figures{{"beyond_stops", beyond_stops}};
+    for (const auto& probe : probes) {
+        if (const auto least = probe.least())
+            figures[probe.name + ".least"] = probe.values[*least];
+        if (const auto greatest = probe.greatest())
+            figures[probe.name + ".greatest"] = probe.values[*greatest];
+        if (!probe.values.empty())
+            figures[probe.name + ".last"] = probe.values.back();
+        if (const auto error = probe.greatest_error())
+            figures[probe.name + ".error"] = *error;
+    }
+    if (!periods.empty())
+        figures["period_change"] =
+            *std::max_element(periods.back().changes.begin(), periods.back().changes.end());
+    int onsets = 0;
+    int releases = 0;
+    for (const auto& event : events)
+        if (event.kind == ContactEvent::Kind::onset)
+            figures["onset." + std::to_string(++onsets)] = event.t;
+        else
+            figures["release." + std::to_string(++releases)] = event.t;
+    figures["onsets"] = onsets;
+    figures["releases"] = releases;
+    return figures;
+}
+
+Needs needs_of(const EvolutionBlock& block, const Stops& stops) {
+    return needs_of(block.quantities()).with({false, stops.exist(), false});
+}
+
+EvolutionResult run_evolution(const Scene& scene, const EvolutionBlock& block,
+                              const ProblemData& data, const Execution& execution) {
+    EvolutionResult result;
+    const double step_work =
+        work_of(scene.scheme, block.rung) / static_cast<double>(block.rung.steps);
+    result.run.rung = block.rung;
+    for (const auto& probe : block.probes)
+        result.probes.push_back({probe.name, {}, {}});
+    const Mesh mesh = scene.mesh.with(block.rung.elements);
+    const ProbeReader reader(scene.beam, mesh, scene.scheme.thermal_mass, block.quantities());
+    std::optional<ContactEvents> contact;
+    std::int64_t step = 0;
+    Observer observer;
+    observer.needs = needs_of(block, scene.beam.stops);
+    observer.visit = [&](double t, const Solver& solver) {
+        if (scene.beam.stops.exist()) {
+            if (contact)
+                contact->add(t, solver.tip_displacement(), solver.contact_stress());
+            else
+                contact.emplace(scene.beam.stops, solver.tip_displacement(),
+                                tip_round_off(scene.scheme, block.rung.elements));
+        }
+        if (step++ % block.every != 0)
+            return;
+        result.t.push_back(t);
+        const Eigen::VectorXd values = reader.read(solver, t);
+        for (std::size_t k = 0; k < block.probes.size(); ++k) {
+            result.probes[k].values.push_back(values(static_cast<Eigen::Index>(k)));
+            if (data.exact && block.probes[k].probe.quantity != Probe::Quantity::energy)
+                result.probes[k].exact.push_back(exact_value(data, block.probes[k].probe, t));
+        }
+    };
+    const auto start = std::chrono::steady_clock::now();
+    const RunResult run =
+        tvbeam::run({scene.beam,
+                     mesh,
+                     scene.scheme,
+                     block.final_time,
+                     block.rung.steps,
+                     {},
+                     [&](std::int64_t steps) {
+                         return execution.advance(static_cast<double>(steps) * step_work);
+                     }},
+                    data, &observer);
+    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+    result.run.status = run.status;
+    result.run.reason = run.reason;
+    result.run.seconds = elapsed.count();
+    result.run.counters = run.counters;
+    if (contact) {
+        result.events = contact->events();
+        result.beyond_stops = contact->beyond_stops();
+    }
+    if (block.period)
+        result.periods = changes_of(result.t, result.probes,
+                                    static_cast<std::size_t>(*block.period / block.every));
+    return result;
+}
+
+} // namespace tvbeam

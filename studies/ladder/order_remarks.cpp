@@ -1,0 +1,158 @@
+#include "studies/ladder/order_remarks.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <optional>
+
+namespace tvbeam {
+
+namespace {
+
+std::string format(const char* pattern, double value) {
+    std::array<char, 32> text{};
+    std::snprintf(text.data(), text.size(), pattern, value);
+    return text.data();
+}
+
+std::string order_text(double value) {
+    return format("%.2f", value);
+}
+
+/// A rung by what is refined along the ladder.
+std::string rung_name(std::span<const Refinement> ladder, const Refinement& rung) {
+    if (ladder.front().h == ladder.back().h)
+        return "dt = " + format("%.3g", rung.dt);
+    return "s = " + format("%.0f", 1.0 / rung.h);
+}
+
+struct Observed {
+    std::size_t rung;
+    double order; ///< of the norm itself
+};
+
+std::string of_square(const Norm& norm, double order) {
+    return norm.squared ? " (the square of order " + order_text(order) + ")" : "";
+}
+
+/// What the orders do. Why they do it is guessed where no model says it.
+std::string from_pairs(const Norm& norm, std::span<const Refinement> roots,
+                       const std::vector<Observed>& known, bool explained) {
+    const double steady = 0.15;
+    const double power = norm.squared ? 2.0 : 1.0;
+    const auto less = [](const Observed& a, const Observed& b) { return a.order < b.order; };
+    const double first = known.front().order;
+    const auto leaves = std::find_if(known.begin(), known.end(), [&](const Observed& at) {
+        return std::abs(at.order - first) > steady;
+    });
+    const auto [lowest, highest] = std::minmax_element(known.begin(), leaves, less);
+    std::string text = norm.name + ": order " + order_text(power * lowest->order);
+    if (highest->order - lowest->order >= 0.005)
+        text += " to " + order_text(power * highest->order);
+    text += of_square(norm, first) + " up to " + rung_name(roots, roots[(leaves - 1)->rung]);
+    if (leaves == known.end())
+        return text + ".";
+    const auto& last = known.back();
+    const auto peak = std::max_element(leaves, known.end(), less);
+    if (peak->order > first + steady) {
+        text += "; then it rises, to " + order_text(power * peak->order) + " at " +
+                rung_name(roots, roots[peak->rung]);
+        if (!explained)
+            text += ", as where two terms of the error cancel";
+        if (last.rung != peak->rung)
+            text +=
+                "; " + order_text(power * last.order) + " at " + rung_name(roots, roots[last.rung]);
+        return text + ".";
+    }
+    text += "; then it falls, to " + order_text(power * last.order) + " at " +
+            rung_name(roots, roots[last.rung]);
+    if (last.order <= 0.0)
+        return text + ": the error no longer shrinks.";
+    return text + (explained ? "." : ", as where a term of lower order takes over.");
+}
+
+/// Orders along a ladder exist only where every step refines by the same ratio.
+bool refines_evenly(std::span<const Refinement> roots) {
+    const auto first = refinement_ratio(roots[0], roots[1]);
+    for (std::size_t i = 2; i < roots.size(); ++i) {
+        const auto ratio = refinement_ratio(roots[i - 1], roots[i]);
+        if (!first || !ratio || std::abs(*ratio / *first - 1.0) > 0.01)
+            return false;
+    }
+    return first.has_value();
+}
+
+/// Why the orders are what they are: the faster term, of the higher order along the ladder, and the
+/// slower one, which remains in the end.
+std::string from_model(const Norm& norm, std::span<const Refinement> roots,
+                       const TwoTermModel& model) {
+    const LadderForecast view = forecast(model, roots);
+    // A term that hardly shrinks was not seen by the fit, whatever it calls its order.
+    if (model.a == 0.0 || model.b == 0.0 || view.asymptotic_order < 0.25 || !refines_evenly(roots))
+        return {};
+    const auto order = [&](double of_norm_itself) {
+        return order_text((norm.squared ? 2.0 : 1.0) * of_norm_itself);
+    };
+    const bool space_is_faster = view.spatial_order > view.temporal_order;
+    const std::string faster = space_is_faster ? "space" : "time";
+    const std::string slower = space_is_faster ? "time" : "space";
+    const double fast_order = std::max(view.spatial_order, view.temporal_order);
+    const double slow_order = view.asymptotic_order;
+    const auto share = [&](const ForecastRow& row) { // of the slower error, in the faster
+        return space_is_faster ? row.temporal / row.spatial : row.spatial / row.temporal;
+    };
+    const double at_first = share(view.rows.front());
+    const double at_last = share(view.rows.back());
+    const std::string first = rung_name(roots, roots.front());
+    const std::string last = rung_name(roots, roots.back());
+    std::string text = norm.name + ": ";
+    if (fast_order - slow_order < 0.1)
+        return text + "space and time error fall alike along this ladder, with order " +
+               order(slow_order) + ".";
+    if (at_last < 1.0)
+        text += "the order " + order(fast_order) + of_square(norm, fast_order) +
+                " is that of the " + faster + " error; the " + slower + " error, of order " +
+                order(slow_order) + " along this ladder, is " + format("%.2g", at_last) +
+                " times as large at " + last + (at_last < 0.5 ? " and hidden." : ".");
+    else if (at_first < 1.0)
+        text += "the " + faster + " error, of order " + order(fast_order) +
+                of_square(norm, fast_order) + ", rules the coarse rungs; at " + last + " the " +
+                slower + " error, of order " + order(slow_order) + ", is " +
+                format("%.2g", at_last) + " times as large.";
+    else
+        text += "the " + slower + " error, of order " + order(slow_order) +
+                of_square(norm, slow_order) + ", rules the whole ladder: at " + first + " it is " +
+                format("%.2g", at_first) + " times as large as the " + faster +
+                " error, of order " + order(fast_order) + ", and at " + last + " " +
+                format("%.2g", at_last) + " times.";
+    if (view.cancellation)
+        text += " The two have opposite signs and cancel in part about " +
+                rung_name(roots, {.h = view.cancellation->h, .dt = view.cancellation->dt}) + ".";
+    if (view.asymptotic_from && at_first < 1.0)
+        text += " The order that remains, " + order(slow_order) + ", shows " +
+                (view.asymptotic_from->row < roots.size() ? "from " : "only from ") +
+                rung_name(roots, {.h = view.asymptotic_from->h, .dt = view.asymptotic_from->dt}) +
+                " on.";
+    return text;
+}
+
+} // namespace
+
+std::vector<std::string> order_remarks(const Norm& norm, std::span<const Refinement> roots,
+                                       const TwoTermModel* model) {
+    const auto orders = observed_orders(roots);
+    std::vector<Observed> known;
+    for (std::size_t i = 0; i < orders.size(); ++i)
+        if (orders[i])
+            known.push_back({i, *orders[i]});
+    if (known.size() < 2)
+        return {};
+    const std::string why = model != nullptr ? from_model(norm, roots, *model) : "";
+    std::vector<std::string> remarks{from_pairs(norm, roots, known, !why.empty())};
+    if (!why.empty())
+        remarks.push_back(why);
+    return remarks;
+}
+
+} // namespace tvbeam

@@ -1,0 +1,21 @@
+#pragma once
+
+#include "core/norms/norms.hpp"
+#include "studies/orders/observed_order.hpp"
+#include "studies/orders/two_term_model.hpp"
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace tvbeam {
+
+/// What the orders of one norm along a ladder mean, in sentences. With a two-term model: which term
+/// rules, where the terms cancel, and which order the ladder shows in the end. Without: the range
+/// that the pairwise orders keep, and where they leave it by more than 0.15. Nothing for fewer than
+/// two orders. roots: the records of the norm itself, also where the table shows its square; orders
+/// in the text are the table's.
+std::vector<std::string> order_remarks(const Norm& norm, std::span<const Refinement> roots,
+                                       const TwoTermModel* model);
+
+} // namespace tvbeam

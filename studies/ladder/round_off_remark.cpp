@@ -1,0 +1,59 @@
+#include "studies/ladder/round_off_remark.hpp"
+
+#include "core/round_off.hpp"
+#include "core/space/linear_elements.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace tvbeam {
+
+namespace {
+
+/// The factor within which the prediction is taken to hold.
+constexpr double within = 10.0;
+
+/// The greatest ‖u_xx‖ over some times.
+double curvature_size(const ProblemData& data, double final_time) {
+    const Mesh mesh = Mesh::uniform(16);
+    constexpr int times = 16;
+    double greatest = 0.0;
+    for (int n = 0; n <= times; ++n) {
+        const Eigen::VectorXd nodal =
+            values(data, data.exact->u_xx, mesh.nodes, final_time * n / times).matrix();
+        greatest = std::max(greatest, std::sqrt(squared_norm(mesh, nodal)));
+    }
+    return greatest;
+}
+
+} // namespace
+
+std::string round_off_remark(const Scene& scene, const ProblemData& data, double final_time,
+                             const std::vector<RungResult>& rungs, const Norm& norm,
+                             std::size_t k) {
+    if (scene.scheme.algorithm != Algorithm::fixed_point || !data.exact ||
+        norm.root() != "u_LinfH2semi")
+        return {};
+    const double size = curvature_size(data, final_time);
+    for (const auto& rung : rungs) {
+        if (rung.errors.empty())
+            continue;
+        const double error = norm.squared ? std::sqrt(rung.errors[k]) : rung.errors[k];
+        const double floor = size * hermite_floor(rung.rung.elements, scene.beam.zeta, rung.rung.dt,
+                                                  rung.rung.steps);
+        if (within * floor <= error / 2.0)
+            continue;
+        std::ostringstream text;
+        text.precision(2);
+        text << norm.name << ": from s = " << rung.rung.elements
+             << " on, the round-off of the Hermite form, which grows like h^-4, may exceed the "
+                "discretisation error: "
+             << floor << ", within a factor of " << within << ", is predicted of an error of "
+             << error << "; algorithm = \"direct\" does not suffer it";
+        return text.str();
+    }
+    return {};
+}
+
+} // namespace tvbeam

@@ -1,0 +1,66 @@
+/// What each row of a ladder of refinements shows, in a word and a short sentence.
+///
+/// The rows run from coarse to fine. Without a model the judgement rests on the pairwise orders
+/// alone: the asymptotic window is the finest run of rows whose orders are positive and agree with
+/// each other, and are not refuted by finer rows: past the window there is nothing, a floor, a dip
+/// or a divergence, or one last row whose other order nothing confirms and towards which the window
+/// does not drift. One order is never enough for that, so a ladder of two rows is not asymptotic,
+/// unless the expected order is given and met. With a two-term model of the same norm, rows that
+/// the model describes are judged by it: it knows the order that the ladder will show in the end,
+/// and a cancellation from an order.
+#pragma once
+
+#include "studies/orders/observed_order.hpp"
+#include "studies/orders/two_term_model.hpp"
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace tvbeam {
+
+enum class Verdict {
+    asymptotic,     ///< shows the order that the finer rows confirm
+    pre_asymptotic, ///< not shown to be asymptotic: too coarse, or no other row confirms it
+    cancellation,   ///< two error terms take each other away
+    floor,          ///< the error stands still: rounding, or a term that is not refined
+    diverging,      ///< the error grows under refinement
+    exact,          ///< the error is zero
+    failed          ///< no error, or none that is a number
+};
+
+/// "asymptotic", "pre-asymptotic", "cancellation", "floor", "diverging", "exact", "failed"
+const char* name_of(Verdict verdict);
+
+struct RowVerdict {
+    Verdict verdict = Verdict::failed;
+    std::string reason; ///< a short sentence, without a full stop
+};
+
+struct VerdictOptions {
+    /// Of the same quantity: of a squared norm it is twice the norm's.
+    std::optional<double> expected_order = std::nullopt;
+    /// Two orders agree where they differ by no more than this part of the greater.
+    double tolerance = 0.1;
+    /// Model of this norm (not its square), from a fit to these or other records.
+    const TwoTermModel* model = nullptr;
+};
+
+struct LadderVerdict {
+    std::vector<RowVerdict> rows; ///< one for each record
+    /// The first and last record of the asymptotic window, and the order of the errors between
+    /// them; none where no window is found. These come from the pairwise orders, also where there
+    /// is a model.
+    struct Window {
+        std::size_t first = 0;
+        std::size_t last = 0;
+        double order = 0;
+    };
+    std::optional<Window> window;
+};
+
+LadderVerdict judge(std::span<const Refinement> ladder, const VerdictOptions& options = {});
+
+} // namespace tvbeam

@@ -1,0 +1,166 @@
+#include "studies/reference/reference_block.hpp"
+
+#include "studies/scene/scene.hpp"
+#include "studies/scene/toml_reader.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <string>
+
+namespace tvbeam {
+
+namespace {
+
+/// The cubics of an extrapolated reference go through four nodes, also of the mesh with 2h.
+constexpr std::int64_t fewest_for_richardson = 6;
+constexpr double most_bytes = 1024.0 * 1024.0 * 1024.0;
+
+/// The studies of a scene, with the names of their blocks.
+struct Study {
+    std::string name;
+    const std::vector<Rung>* rungs;
+};
+
+std::vector<Study> studies_of(const LadderBlock* ladder, const OrdersBlock* orders) {
+    std::vector<Study> studies;
+    if (ladder != nullptr && !ladder->norms.empty())
+        studies.push_back({"ladder", &ladder->rungs});
+    if (orders != nullptr)
+        studies.push_back({"orders", &orders->grid});
+    return studies;
+}
+
+std::int64_t read_elements(TableReader& table, bool richardson, const std::vector<Study>& studies) {
+    const auto given = table.integer("elements");
+    if (!given)
+        throw InputError(table.place("elements"),
+                         table.full("elements") +
+                             " is missing; give a multiple of every number of elements in the "
+                             "studies");
+    const std::int64_t elements = *given;
+    const auto refuse = [&](const std::string& why) {
+        throw InputError(table.place("elements"),
+                         table.full("elements") + " is " + std::to_string(elements) + why);
+    };
+    if (elements < 1 || elements > most_elements)
+        refuse("; a mesh has 1 to " + std::to_string(most_elements) + " elements");
+    for (const auto& [name, rungs] : studies)
+        for (const auto& rung : *rungs) {
+            const std::string held = std::to_string(rung.elements) + " of " + name + ".elements";
+            if (elements < rung.elements)
+                refuse(", coarser than the " + held + "; a reference is at least as fine");
+            if (elements % rung.elements != 0)
+                refuse("; it must be a multiple of the " + held);
+        }
+    if (richardson && (elements % 2 != 0 || elements < fewest_for_richardson))
+        refuse("; richardson = true needs an even number, 6 or more, for its run with half of "
+               "them");
+    return elements;
+}
+
+double read_dt(TableReader& table, bool richardson, const std::vector<Study>& studies) {
+    const auto given = table.number("dt");
+    if (!given)
+        throw InputError(table.place("dt"),
+                         table.full("dt") +
+                             " is missing; give a step that divides every dt of the studies");
+    const double dt = *given;
+    const auto refuse = [&](const std::string& why) {
+        throw InputError(table.place("dt"), table.full("dt") + " is " + message_text(dt) + why);
+    };
+    if (!(dt > 0.0))
+        refuse("; it must be > 0");
+    const double unit = richardson ? 2.0 * dt : dt;
+    const std::string must =
+        richardson ? "; with richardson = true its double, the step of one of the runs, must "
+                   : "; it must ";
+    for (const auto& [name, rungs] : studies)
+        for (const auto& rung : *rungs) {
+            const std::string held = message_text(rung.dt) + " of " + name + ".dt";
+            const double ratio = rung.dt / unit;
+            const double steps = rung.dt / dt * static_cast<double>(rung.steps);
+            std::ostringstream why;
+            if (ratio < 1.0 - 1e-9 && richardson)
+                why << must << "be no larger than the " << held;
+            else if (ratio < 1.0 - 1e-9)
+                why << ", coarser than the " << held << "; a reference is at least as fine";
+            else if (!(steps <= most_steps))
+                why << ", which makes " << message_text(steps)
+                    << " steps; at most 1e12 are possible";
+            else if (std::abs(ratio - std::round(ratio)) > 1e-9 * ratio)
+                why << must << "divide the " << held << " into a whole number of steps, not "
+                    << message_text(ratio);
+            if (!why.str().empty())
+                refuse(why.str());
+        }
+    return dt;
+}
+
+/// Temperature and curvature on every element at every kept level.
+void require_memory(const TableReader& table, const ReferenceBlock& reference,
+                    const LadderBlock* ladder, const OrdersBlock* orders) {
+    const auto refuse = [&](double levels) {
+        const double bytes =
+            3.0 * sizeof(double) * static_cast<double>(reference.elements) * levels;
+        if (bytes > most_bytes)
+            throw InputError(table.place("elements"),
+                             "the reference would keep " + message_text(levels) +
+                                 " time levels of " + std::to_string(reference.elements) +
+                                 " elements, " +
+                                 message_text(std::ceil(bytes / most_bytes * 10.0) / 10.0) +
+                                 " GiB; at most 1 GiB is kept: take fewer elements, or fewer "
+                                 "steps in the studies");
+    };
+    // First the study with most steps alone: the levels of all are listed only if they are few.
+    for (const auto& [name, rungs] : studies_of(ladder, orders))
+        for (const auto& rung : *rungs)
+            refuse(static_cast<double>(rung.steps));
+    refuse(static_cast<double>(kept_levels(reference, ladder, orders).size()));
+}
+
+} // namespace
+
+std::int64_t ReferenceBlock::steps_in(const Rung& rung) const {
+    return std::llround(rung.dt / dt);
+}
+
+bool ReferenceBlock::is(const Rung& rung) const {
+    return rung.elements == elements && steps_in(rung) == 1;
+}
+
+bool ReferenceBlock::is_close_to(const Rung& rung) const {
+    return !richardson && (2 * rung.elements >= elements || steps_in(rung) <= 2);
+}
+
+std::vector<std::int64_t> kept_levels(const ReferenceBlock& reference, const LadderBlock* ladder,
+                                      const OrdersBlock* orders) {
+    std::vector<std::int64_t> levels;
+    std::vector<std::pair<std::int64_t, std::int64_t>> listed; // runs of one grid share their steps
+    for (const auto& [name, rungs] : studies_of(ladder, orders))
+        for (const auto& rung : *rungs) {
+            const std::pair every{reference.steps_in(rung), rung.steps};
+            if (std::find(listed.begin(), listed.end(), every) != listed.end())
+                continue;
+            listed.push_back(every);
+            for (std::int64_t n = 1; n <= every.second; ++n)
+                levels.push_back(n * every.first);
+        }
+    std::sort(levels.begin(), levels.end());
+    levels.erase(std::unique(levels.begin(), levels.end()), levels.end());
+    return levels;
+}
+
+ReferenceBlock read_reference(TableReader table, const LadderBlock* ladder,
+                              const OrdersBlock* orders) {
+    const auto studies = studies_of(ladder, orders);
+    ReferenceBlock reference;
+    reference.richardson = table.flag("richardson").value_or(false);
+    reference.elements = read_elements(table, reference.richardson, studies);
+    reference.dt = read_dt(table, reference.richardson, studies);
+    table.finish();
+    require_memory(table, reference, ladder, orders);
+    return reference;
+}
+
+} // namespace tvbeam

@@ -1,0 +1,300 @@
+#include "studies/reference/reference_solution.hpp"
+
+#include "core/norms/error_norms.hpp"
+#include "core/run.hpp"
+#include "core/time/time_levels.hpp"
+#include "studies/reference/piecewise_polynomial.hpp"
+#include "studies/runs/rung.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <memory>
+#include <new>
+#include <sstream>
+#include <stdexcept>
+
+namespace tvbeam {
+
+using Eigen::ArrayXd;
+using Eigen::Index;
+using Eigen::VectorXd;
+
+namespace {
+
+/// The order that an extrapolated reference assumes, of the linear elements.
+constexpr double order_in_h = 2.0;
+
+/// The mean of the two values at every inner node. There the error of an L² projection on P1disc
+/// is an expansion in even powers of h, as extrapolation wants it.
+VectorXd nodal_means(const DiscontinuousLinear& w) {
+    const Index s = w.cols();
+    VectorXd nodal(s + 1);
+    nodal(0) = w(0, 0);
+    nodal(s) = w(1, s - 1);
+    nodal.segment(1, s - 1) =
+        0.5 * (w.row(1).head(s - 1) + w.row(0).tail(s - 1)).matrix().transpose();
+    return nodal;
+}
+
+std::vector<Norm> norms_of(const Scene& scene) {
+    std::vector<Norm> norms;
+    if (scene.ladder)
+        norms = scene.ladder->norms;
+    if (scene.orders)
+        norms.insert(norms.end(), scene.orders->norms.begin(), scene.orders->norms.end());
+    return norms;
+}
+
+/// What the norms read of a reference.
+Needs reference_needs(const Scene& scene) {
+    bool heat = false;
+    bool bending = false;
+    bool stress = false;
+    for (const auto& norm : norms_of(scene)) {
+        const QuantitySet set = norm.quantities();
+        const auto has = [&](Quantity quantity) { return set[static_cast<std::size_t>(quantity)]; };
+        heat = heat || has(Quantity::theta) || has(Quantity::theta_x);
+        bending = bending || has(Quantity::u) || has(Quantity::u_x) || has(Quantity::u_xx);
+        stress = stress || has(Quantity::stress);
+    }
+    return {.temperature = heat, .deflection = bending || stress, .curvature = bending};
+}
+
+/// The solution at the kept levels. As computed: Θ̃ continuous, w in P1disc, both piecewise linear.
+/// Extrapolated: nodal values, with cubics between them, as linear ones would bring back the error
+/// that was taken away.
+class ReferenceSolution {
+public:
+    ReferenceSolution(const Scene& scene, double final_time, const Execution& execution)
+        : execution_(execution), block_(*scene.reference), needs_(reference_needs(scene)),
+          steps_(std::llround(final_time / block_.dt)),
+          dt_(final_time / static_cast<double>(steps_)),
+          levels_(kept_levels(block_, scene.ladder ? &*scene.ladder : nullptr,
+                              scene.orders ? &*scene.orders : nullptr)) {
+        const auto count = static_cast<Index>(levels_.size());
+        if (needs_.temperature)
+            theta_.setZero(block_.elements + 1, count);
+        if (needs_.curvature)
+            curvature_.setZero(block_.richardson ? block_.elements + 1 : 2 * block_.elements,
+                               count);
+        stress_.setZero(count);
+    }
+
+    /// Empty, or why a run failed.
+    std::string compute(const Scene& scene, const ProblemData& data) {
+        if (!block_.richardson)
+            return add_run(scene, data, 1, 1, 1.0);
+        const double in_h = 1.0 / (std::exp2(order_in_h) - 1.0);
+        const double in_dt = 1.0 / (std::exp2(scene.scheme.time.order) - 1.0);
+        // y + (y − y_2h) in_h + (y − y_2Δt) in_dt
+        std::string failure = add_run(scene, data, 1, 1, 1.0 + in_h + in_dt);
+        if (failure.empty())
+            failure = add_run(scene, data, 2, 1, -in_h);
+        if (failure.empty())
+            failure = add_run(scene, data, 1, 2, -in_dt);
+        return failure;
+    }
+
+    [[nodiscard]] PiecewisePolynomial theta(double t) const {
+        const VectorXd nodal = theta_.col(level_at(t));
+        return block_.richardson ? PiecewisePolynomial::cubic(nodal)
+                                 : PiecewisePolynomial::linear(nodal);
+    }
+
+    [[nodiscard]] PiecewisePolynomial curvature(double t) const {
+        const VectorXd values = curvature_.col(level_at(t));
+        return block_.richardson ? PiecewisePolynomial::cubic(values)
+                                 : PiecewisePolynomial::linear(
+                                       DiscontinuousLinear(values.reshaped(2, values.size() / 2)));
+    }
+
+    /// All amplitudes of a problem are evaluated together, also at t = 0 and at the stages inside a
+    /// step, where no norm looks at the stress.
+    [[nodiscard]] double stress(double t) const {
+        const auto at = slot(t);
+        return at ? stress_(*at) : 0.0;
+    }
+
+private:
+    /// The place of a time among the levels; none where it is not kept.
+    [[nodiscard]] std::optional<Index> slot(double t) const {
+        const double steps = t / dt_;
+        const auto level = static_cast<std::int64_t>(std::llround(steps));
+        const auto at = std::lower_bound(levels_.begin(), levels_.end(), level);
+        // The time of a rung is the level's to the rounding of its dt in the scene.
+        if (at == levels_.end() || *at != level ||
+            std::abs(steps - static_cast<double>(level)) > 0.1)
+            return std::nullopt;
+        return at - levels_.begin();
+    }
+
+    [[nodiscard]] Index level_at(double t) const {
+        if (const auto at = slot(t))
+            return *at;
+        std::ostringstream text;
+        text << "the reference solution is not kept at t = " << t;
+        throw std::logic_error(text.str());
+    }
+
+    /// Adds weight times the solution of a run, coarser by the given factors, to all kept levels.
+    std::string add_run(const Scene& scene, const ProblemData& data, Index in_h, std::int64_t in_dt,
+                        double weight) {
+        const Mesh mesh = Mesh::uniform(block_.elements / in_h);
+        const double dt = dt_ * static_cast<double>(in_dt);
+        try {
+            const auto solver = make_solver(scene.beam, data, mesh, scene.scheme, dt, needs_);
+            const std::int64_t steps = steps_ / in_dt;
+            TimeLevels times(data, scene.scheme.time, dt * static_cast<double>(steps), steps);
+            auto next = levels_.begin();
+            for (std::int64_t n = 1; next != levels_.end(); ++n) {
+                const std::int64_t level = n * in_dt;
+                if (const std::string reason = solver->step(times.at(n)); !reason.empty()) {
+                    std::ostringstream text;
+                    text << reason << " at t = " << times.time(n) << " with " << mesh.elements()
+                         << " elements, dt = " << dt;
+                    return text.str();
+                }
+                if (!execution_.advance(static_cast<double>(mesh.elements())))
+                    return "it was interrupted";
+                if (level == *next) {
+                    add_level(next - levels_.begin(), *solver, mesh, scene.beam, weight);
+                    ++next;
+                }
+            }
+        } catch (const std::domain_error& error) {
+            return error.what();
+        }
+        return {};
+    }
+
+    void add_level(Index at, const Solver& solver, const Mesh& mesh, const Beam& beam,
+                   double weight) {
+        if (needs_.temperature)
+            theta_.col(at) +=
+                weight * on_reference_nodes(solver.temperature() +
+                                            beam.theta_A * (1.0 - mesh.nodes).matrix());
+        if (needs_.curvature) {
+            const DiscontinuousLinear w = solver.curvature();
+            if (block_.richardson)
+                curvature_.col(at) += weight * on_reference_nodes(nodal_means(w));
+            else
+                curvature_.col(at) += weight * w.reshaped().matrix();
+        }
+        if (needs_.deflection)
+            stress_(at) += weight * solver.contact_stress();
+    }
+
+    [[nodiscard]] VectorXd on_reference_nodes(const VectorXd& nodal) const {
+        if (nodal.size() == block_.elements + 1)
+            return nodal;
+        return PiecewisePolynomial::cubic(nodal)(Mesh::uniform(block_.elements).nodes).matrix();
+    }
+
+    const Execution execution_;
+    ReferenceBlock block_;
+    Needs needs_;
+    std::int64_t steps_;
+    double dt_; // to rounding that of the block
+    std::vector<std::int64_t> levels_;
+    Eigen::MatrixXd theta_;     // one column a level
+    Eigen::MatrixXd curvature_; // one column a level: nodal values, or the two ends of each element
+    VectorXd stress_;
+};
+
+Field rest(SpaceTimeFunction function) {
+    Field field;
+    field.rest = std::move(function);
+    return field;
+}
+
+/// Fields that look a quantity up in the reference.
+ExactSolution looked_up(const std::shared_ptr<const ReferenceSolution>& reference, Index elements) {
+    ExactSolution exact;
+    exact.elements = elements;
+    exact.theta = rest([reference](const ArrayXd& x, double t) { return reference->theta(t)(x); });
+    exact.theta_x = rest(
+        [reference](const ArrayXd& x, double t) { return reference->theta(t).derivative()(x); });
+    exact.u_xx =
+        rest([reference](const ArrayXd& x, double t) { return reference->curvature(t)(x); });
+    exact.u_x = rest(
+        [reference](const ArrayXd& x, double t) { return reference->curvature(t).integral()(x); });
+    exact.u = rest([reference](const ArrayXd& x, double t) {
+        return reference->curvature(t).integral().integral()(x);
+    });
+    return exact;
+}
+
+/// The amplitudes of a problem with one more behind them.
+Amplitudes with_one_more(const ProblemData& data, std::function<double(double t)> last) {
+    return [count = data.amplitude_count, others = data.amplitudes,
+            last = std::move(last)](const ArrayXd& t) {
+        Eigen::ArrayXXd values(count + 1, t.size());
+        if (count > 0)
+            values.topRows(count) = others(t);
+        for (Index n = 0; n < t.size(); ++n)
+            values(count, n) = last(t(n));
+        return values;
+    };
+}
+
+} // namespace
+
+ReferenceResult measure_against_reference(const Scene& scene, double final_time, ProblemData& data,
+                                          const Execution& execution) {
+    const auto start = std::chrono::steady_clock::now();
+    ReferenceResult result;
+    std::shared_ptr<const ReferenceSolution> reference;
+    try {
+        auto computed = std::make_shared<ReferenceSolution>(scene, final_time, execution);
+        result.failure = computed->compute(scene, data);
+        reference = std::move(computed);
+    } catch (const std::bad_alloc&) {
+        result.failure = "not enough memory";
+    }
+    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+    result.seconds = elapsed.count();
+
+    if (result.failure.empty()) {
+        data.exact = looked_up(reference, scene.reference->elements);
+        data.amplitudes =
+            with_one_more(data, [reference](double t) { return reference->stress(t); });
+    } else {
+        data.exact = looked_up(nullptr, scene.reference->elements);
+        // A run that cannot be measured ends in its first step, as one that cannot start.
+        data.amplitudes = with_one_more(data, [why = result.failure](double) -> double {
+            throw std::domain_error("the reference run failed: " + why);
+        });
+    }
+    data.exact->stress = data.amplitude_count;
+    ++data.amplitude_count;
+    return result;
+}
+
+std::optional<Refinement> reference_widths(const Scene& scene) {
+    if (!scene.reference || scene.reference->richardson)
+        return std::nullopt;
+    return Refinement{.h = 1.0 / static_cast<double>(scene.reference->elements),
+                      .dt = scene.reference->dt};
+}
+
+std::string reference_remark(const Scene& scene, const std::vector<RungResult>& rungs) {
+    if (!scene.reference)
+        return {};
+    std::ostringstream named;
+    std::size_t close = 0;
+    for (const auto& [rung, status, reason, seconds, counters, errors] : rungs)
+        if (scene.reference->is_close_to(rung)) {
+            named << (close > 0 ? ", " : "") << "s = " << rung.elements << " (dt = " << rung.dt
+                  << ")";
+            ++close;
+        }
+    if (close == 0)
+        return {};
+    return (close == 1 ? "The rung " : "The rungs ") + named.str() +
+           (close == 1 ? " has an h or dt" : " have an h or dt") +
+           " within a factor of two of the reference's: what is measured there lacks much of the "
+           "error, and orders that it enters come out too high.";
+}
+
+} // namespace tvbeam

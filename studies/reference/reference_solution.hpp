@@ -1,0 +1,53 @@
+/// A computed solution in place of an exact one.
+///
+/// A run of the scene's own scheme, on a mesh and with steps that every rung's divide into, is made
+/// once for all studies. Errors are then measured against it by the same norms, element by element
+/// of the reference, so that its kinks are integrated exactly. What they show is the difference of
+/// two errors; how the error of the reference is accounted for:
+///
+/// - the two-term fit takes it into its model (TwoTermOptions::reference), so that a, b, p and q
+///   are those of the error itself. Exact in Δt; in h it takes the reference's error for a small
+///   copy of the coarse one, which holds for the part that is smooth in x, but not for the part
+///   that oscillates in every element (ρ aside): let the reference be four times finer in h than
+///   the finest mesh of the grid;
+/// - predictions and verdicts of a ladder do the same;
+/// - observed orders of pairs do not. Near the reference they come out too high, and a remark of
+///   the ladder says so;
+/// - an extrapolated reference has an error of higher order, which is neglected. It is of that
+///   order only where the solution is smooth in x and t: not across a change of contact.
+#pragma once
+
+#include "core/problem.hpp"
+#include "studies/orders/observed_order.hpp"
+#include "studies/runs/execution.hpp"
+#include "studies/scene/scene.hpp"
+
+#include <optional>
+#include <string>
+
+namespace tvbeam {
+
+struct RungResult;
+
+/// How the reference of a study came out.
+struct ReferenceResult {
+    std::string failure;  ///< why it failed; empty when it did not
+    double seconds = 0.0; ///< wall clock of its runs
+};
+
+/// Runs the reference of a scene up to final_time and sets it in place of data.exact: Θ̃, U and
+/// their derivatives by evaluation, the contact stress as one more amplitude. At a time that is not
+/// a level of some rung it throws std::logic_error. After a reference that failed, every run that
+/// is measured against it fails with the same reason.
+ReferenceResult measure_against_reference(const Scene& scene, double final_time, ProblemData& data,
+                                          const Execution& execution = {});
+
+/// h and dt of the reference whose own error counts; none where errors are measured against an
+/// exact or an extrapolated solution.
+std::optional<Refinement> reference_widths(const Scene& scene);
+
+/// A sentence about the rungs too close to the reference for their orders to mean anything; empty
+/// when there are none.
+std::string reference_remark(const Scene& scene, const std::vector<RungResult>& rungs);
+
+} // namespace tvbeam

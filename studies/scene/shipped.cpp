@@ -1,0 +1,59 @@
+#include "studies/scene/shipped.hpp"
+
+#include "mms/text/input_error.hpp"
+#include "mms/text/nearest_name.hpp"
+
+#include <algorithm>
+
+namespace tvbeam {
+
+namespace {
+
+std::filesystem::path directory(Shipped kind) {
+    const std::filesystem::path inside =
+        kind == Shipped::scene ? "studies/scenes" : "mms/solutions";
+    std::error_code error;
+    const auto binary = std::filesystem::read_symlink("/proc/self/exe", error);
+    if (!error) {
+        auto installed = binary.parent_path().parent_path() / "share/tvbeam" / inside;
+        if (std::filesystem::is_directory(installed, error))
+            return installed;
+    }
+    return std::filesystem::path(TVBEAM_SOURCE_DIR) / inside;
+}
+
+} // namespace
+
+std::vector<ShippedFile> shipped_files(Shipped kind) {
+    std::vector<ShippedFile> files;
+    std::error_code error;
+    for (const auto& entry : std::filesystem::directory_iterator(directory(kind), error))
+        if (entry.path().extension() == ".toml")
+            files.push_back({entry.path().stem().string(), entry.path()});
+    std::sort(files.begin(), files.end(),
+              [](const ShippedFile& a, const ShippedFile& b) { return a.name < b.name; });
+    return files;
+}
+
+std::filesystem::path find_file(Shipped kind, const std::string& name,
+                                const std::filesystem::path& beside, const Place& place) {
+    const std::string word = kind == Shipped::scene ? "scene" : "solution";
+    if (name.find('/') != std::string::npos || name.ends_with(".toml")) {
+        auto path = beside / name;
+        if (std::error_code error; !std::filesystem::exists(path, error))
+            throw InputError(place, "there is no " + word + " file '" + path.string() + "'");
+        return path;
+    }
+    std::vector<std::string> names;
+    for (const auto& file : shipped_files(kind)) {
+        if (file.name == name)
+            return file.path;
+        names.push_back(file.name);
+    }
+    throw InputError(
+        place, "there is no shipped " + word + " '" + name + "'" + did_you_mean(name, names) +
+                   "; `tvbeam list` shows them, and a file is named with its ending: " + name +
+                   ".toml");
+}
+
+} // namespace tvbeam

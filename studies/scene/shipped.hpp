@@ -1,0 +1,29 @@
+#pragma once
+
+#include "mms/text/input_error.hpp"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace tvbeam {
+
+/// What comes with the toolkit: scenes and solutions, found beside an installed binary
+/// (../share/tvbeam) or else in the source tree that it was built from.
+enum class Shipped { scene, solution };
+
+struct ShippedFile {
+    std::string name; ///< the file's name without .toml
+    std::filesystem::path path;
+};
+
+/// All shipped files of a kind, by name.
+std::vector<ShippedFile> shipped_files(Shipped kind);
+
+/// The file that a name on the command line or in a scene means: with a '/' or the ending .toml a
+/// path, relative to `beside`; otherwise a shipped name. Throws InputError at `place`, naming
+/// the nearest shipped name, when there is no such file.
+std::filesystem::path find_file(Shipped kind, const std::string& name,
+                                const std::filesystem::path& beside = {}, const Place& place = {});
+
+} // namespace tvbeam

@@ -1,0 +1,91 @@
+#include "studies/scene/solution_setting.hpp"
+
+#include "studies/scene/scene.hpp"
+#include "studies/scene/shipped.hpp"
+#include "studies/scene/toml_reader.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <optional>
+#include <set>
+#include <variant>
+
+namespace tvbeam {
+
+namespace {
+
+bool is_scene_file(const std::filesystem::path& file) {
+    return read_toml(file.string()).table.contains("beam");
+}
+
+SolutionSetting setting_of(const Scene& scene) {
+    if (!scene.poses_problem())
+        throw InputError({scene.file},
+                         "[stress] poses problems of its own: there is no solution to derive "
+                         "from; name a scene with another study, or a solution");
+    const auto* solution = std::get_if<Solution>(&scene.problem);
+    if (solution == nullptr)
+        throw InputError({scene.file},
+                         "the scene has a [data] block and no exact solution to derive from");
+    return {*solution, scene.beam, scene.longest_time(), "the beam of the scene " + scene.name};
+}
+
+/// The first shipped scene that runs a shipped solution.
+std::optional<Scene> scene_that_runs(const Solution& solution) {
+    for (const auto& file : shipped_files(Shipped::scene)) {
+        Scene scene = read_scene(file.path.string());
+        const auto* own = std::get_if<Solution>(&scene.problem);
+        if (own != nullptr && own->name == solution.name && scene.poses_problem())
+            return scene;
+    }
+    return std::nullopt;
+}
+
+/// Whether a scene runs the solution of that file.
+bool runs(const Scene& scene, const std::filesystem::path& file) {
+    const auto* own = std::get_if<Solution>(&scene.problem);
+    std::error_code error;
+    return own != nullptr && !own->phases.empty() &&
+           std::filesystem::equivalent(own->phases.front().theta.begin().file, file, error);
+}
+
+/// The first scene, by name, that lies beside a solution and runs it.
+std::optional<Scene> scene_beside(const std::filesystem::path& file) {
+    const auto folder = file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
+    std::set<std::filesystem::path> beside;
+    for (const auto& entry : std::filesystem::directory_iterator(folder))
+        if (entry.path().extension() == ".toml")
+            beside.insert(entry.path());
+    for (const auto& path : beside)
+        try {
+            if (!is_scene_file(path))
+                continue;
+            if (Scene scene = read_scene(path.string()); runs(scene, file))
+                return scene;
+        } catch (const InputError&) {
+            continue; // whoever runs that scene is told what is wrong with it
+        }
+    return std::nullopt;
+}
+
+} // namespace
+
+SolutionSetting solution_setting(const std::string& name) {
+    const bool is_file = name.find('/') != std::string::npos || name.ends_with(".toml");
+    const auto scenes = shipped_files(Shipped::scene);
+    const bool is_shipped_scene = std::any_of(
+        scenes.begin(), scenes.end(), [&](const ShippedFile& file) { return file.name == name; });
+    if (is_shipped_scene || (is_file && is_scene_file(find_file(Shipped::scene, name))))
+        return setting_of(read_scene(name));
+
+    const std::filesystem::path file = find_file(Shipped::solution, name);
+    const Solution solution = read_solution(file);
+    if (const auto scene = is_file ? scene_beside(file) : scene_that_runs(solution))
+        return {solution, scene->beam, scene->longest_time(),
+                "the beam of the scene " + scene->name};
+    constexpr double papers_final_time = 2.0;
+    return {solution, Beam{0.017, 0.1, 0.0, {-0.02, 0.1}}, papers_final_time,
+            "the paper's beam, as no scene names another"};
+}
+
+} // namespace tvbeam

@@ -1,0 +1,400 @@
+#include "studies/scene/toml_reader.hpp"
+
+#include "mms/text/nearest_name.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+namespace tvbeam {
+
+namespace {
+
+constexpr std::uintmax_t largest_file = 1 << 20;
+
+Place place_of(const toml::node& node) {
+    const toml::source_region& region = node.source();
+    Place place;
+    if (region.path)
+        place.file = *region.path;
+    // An override stands on the command line, which has no lines.
+    if (!place.file.starts_with("--set ")) {
+        place.line = static_cast<int>(region.begin.line);
+        place.column = static_cast<int>(region.begin.column);
+    }
+    return place;
+}
+
+std::string type_name(const toml::node& node) {
+    switch (node.type()) {
+    case toml::node_type::string:
+        return "a string";
+    case toml::node_type::integer:
+        return "an integer";
+    case toml::node_type::floating_point:
+        return "a number";
+    case toml::node_type::boolean:
+        return "a boolean";
+    case toml::node_type::array:
+        return "an array";
+    case toml::node_type::table:
+        return "a table";
+    default:
+        return "a date or time";
+    }
+}
+
+toml::table parse(const std::string& text, const std::string& file) {
+    try {
+        return toml::parse(text, file);
+    } catch (const toml::parse_error& error) {
+        const auto& begin = error.source().begin;
+        throw InputError({file, static_cast<int>(begin.line), static_cast<int>(begin.column)},
+                         "not TOML: " + std::string(error.description()));
+    }
+}
+
+} // namespace
+
+TomlDocument read_toml(const std::string& file) {
+    std::error_code error;
+    if (std::filesystem::is_directory(file, error))
+        throw InputError({file}, "is a directory; give the file in it");
+    std::ifstream stream(file, std::ios::binary);
+    if (!stream)
+        throw InputError({file}, "cannot be read; check the path and its permissions");
+    if (const auto size = std::filesystem::file_size(file, error); !error && size > largest_file)
+        throw InputError({file}, "has " + std::to_string(size) + " bytes; a scene has at most " +
+                                     std::to_string(largest_file));
+    std::ostringstream text;
+    text << stream.rdbuf();
+    TomlDocument document{file, text.str(), {}};
+    document.table = parse(document.text, file);
+    return document;
+}
+
+namespace {
+
+/// The table of an array whose number stands first in the path, and is taken away from it.
+toml::node& element_of(toml::array& array, const std::string& key, std::string& path,
+                       const Place& place) {
+    const auto dot = std::min(path.find('.'), path.size());
+    const std::string number = path.substr(0, dot);
+    std::size_t index = 0;
+    const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), index);
+    if (error != std::errc() || end != number.data() + number.size() || index >= array.size())
+        throw InputError(place, "'" + key + "' is an array of " + std::to_string(array.size()) +
+                                    " tables; name one by its number, 0 to " +
+                                    std::to_string(array.size() - 1) + ", not '" + number + "'");
+    path.erase(0, dot + 1);
+    return *array.get(index);
+}
+
+} // namespace
+
+void override_key(TomlDocument& document, const std::string& assignment) {
+    const Place place{"--set " + assignment};
+    const auto equals = assignment.find('=');
+    if (equals == std::string::npos || equals == 0)
+        throw InputError(place, "an override reads key=value, e.g. --set beam.alpha=1e3");
+    std::string path = assignment.substr(0, equals);
+    const std::string value = assignment.substr(equals + 1);
+
+    toml::table parsed;
+    try {
+        parsed = toml::parse("value = " + value, place.file);
+    } catch (const toml::parse_error&) {
+        // A bare word: --set scheme.algorithm=fixed-point.
+        parsed = parse("value = '" + value + "'", place.file);
+    }
+    if (parsed.size() != 1) // `1\nother = 2` would set more than was named
+        throw InputError(place, "an override sets one key to one value");
+
+    toml::table* table = &document.table;
+    for (auto dot = path.find('.'); dot != std::string::npos; dot = path.find('.')) {
+        const std::string key = path.substr(0, dot);
+        path.erase(0, dot + 1);
+        toml::node* node = table->get(key);
+        if (node == nullptr)
+            node = &table->insert_or_assign(key, toml::table{}).first->second;
+        if (toml::array* array = node->as_array(); array != nullptr && array->is_array_of_tables())
+            node = &element_of(*array, key, path, place);
+        table = node->as_table();
+        if (table == nullptr)
+            throw InputError(place, "'" + key + "' is " + type_name(*node) + ", not a table");
+    }
+    if (path.empty())
+        throw InputError(
+            place, "the key ends in a dot or in the number of a table; name the key behind it");
+    table->insert_or_assign(path, std::move(*parsed.get("value")));
+}
+
+namespace {
+
+void merge(toml::table& into, toml::table& from) {
+    for (auto&& [key, node] : from) {
+        toml::table* inner = node.as_table();
+        toml::table* target = into[key].as_table();
+        if (inner != nullptr && target != nullptr)
+            merge(*target, *inner);
+        else
+            into.insert_or_assign(key, std::move(node));
+    }
+}
+
+} // namespace
+
+void merge_block(TomlDocument& document, std::string_view key) {
+    toml::node* node = document.table.get(key);
+    if (node == nullptr || !node->is_table())
+        return;
+    toml::table block = std::move(*node->as_table());
+    document.table.erase(key);
+    merge(document.table, block);
+}
+
+std::string message_text(double value) {
+    std::ostringstream text;
+    text.precision(12);
+    text << value;
+    return text.str();
+}
+
+TableReader::TableReader(const TomlDocument& document, const toml::table& table, std::string path)
+    : document_(&document), table_(&table), path_(std::move(path)) {}
+
+std::string TableReader::full(std::string_view key) const {
+    return path_.empty() ? std::string(key) : path_ + "." + std::string(key);
+}
+
+const toml::node* TableReader::find(std::string_view key) {
+    known_.emplace_back(key);
+    return table_->get(key);
+}
+
+Place TableReader::place(std::string_view key) const {
+    const toml::node* node = table_->get(key);
+    Place place = place_of(node != nullptr ? *node : *table_);
+    if (place.file
+            .empty()) // values and tables that came from an override carry no region of a file
+        place.file = document_->file;
+    return place;
+}
+
+Place TableReader::place(std::string_view key, std::size_t element) const {
+    const toml::node* node = table_->get(key);
+    if (const toml::array* array = node != nullptr ? node->as_array() : nullptr;
+        array != nullptr && element < array->size())
+        return place_of(*array->get(element));
+    return place(key);
+}
+
+InputError TableReader::wrong_type(std::string_view key, const toml::node& node,
+                                   const std::string& wanted) const {
+    return {place(key), full(key) + " is " + type_name(node) + "; it must be " + wanted};
+}
+
+double TableReader::checked_number(std::string_view key, const toml::node& node,
+                                   Infinity infinity) const {
+    const auto value = node.value<double>();
+    if (!value || !(node.is_floating_point() || node.is_integer()))
+        throw wrong_type(key, node, "a number");
+    if (std::isnan(*value) || (std::isinf(*value) && infinity == Infinity::refused))
+        throw InputError(place_of(node), full(key) + " is " + std::to_string(*value) +
+                                             "; it must be a finite number");
+    return *value;
+}
+
+std::optional<double> TableReader::number(std::string_view key, Infinity infinity) {
+    const toml::node* node = find(key);
+    return node == nullptr ? std::nullopt : std::optional(checked_number(key, *node, infinity));
+}
+
+std::optional<std::int64_t> TableReader::integer(std::string_view key) {
+    const toml::node* node = find(key);
+    if (node == nullptr)
+        return std::nullopt;
+    if (!node->is_integer())
+        throw wrong_type(key, *node, "an integer");
+    return node->value<std::int64_t>();
+}
+
+std::optional<bool> TableReader::flag(std::string_view key) {
+    const toml::node* node = find(key);
+    if (node == nullptr)
+        return std::nullopt;
+    if (!node->is_boolean())
+        throw wrong_type(key, *node, "true or false");
+    return node->value<bool>();
+}
+
+bool TableReader::is_string(std::string_view key) const {
+    const toml::node* node = table_->get(key);
+    return node != nullptr && node->is_string();
+}
+
+std::optional<std::string> TableReader::text(std::string_view key) {
+    const toml::node* node = find(key);
+    if (node == nullptr)
+        return std::nullopt;
+    if (!node->is_string())
+        throw wrong_type(key, *node, "a string");
+    return node->value<std::string>();
+}
+
+std::optional<SourceText> TableReader::expression(std::string_view key) {
+    const auto value = text(key);
+    if (!value)
+        return std::nullopt;
+    const Place opening = place(key);
+    if (opening.line == 0) // an override
+        return SourceText(*value, opening);
+    return SourceText::of_toml_string(*value, document_->text, opening);
+}
+
+std::optional<std::vector<double>> TableReader::numbers(std::string_view key, Infinity infinity) {
+    const toml::node* node = find(key);
+    if (node == nullptr)
+        return std::nullopt;
+    const toml::array* array = node->as_array();
+    if (array == nullptr)
+        throw wrong_type(key, *node, "an array of numbers");
+    std::vector<double> values;
+    for (const auto& element : *array)
+        values.push_back(checked_number(key, element, infinity));
+    return values;
+}
+
+TableReader::Band TableReader::checked_band(std::string_view key, const toml::node& node) const {
+    const toml::array* pair = node.as_array();
+    if (pair == nullptr || pair->size() != 2)
+        throw InputError(place_of(node),
+                         full(key) + " must be a band [lowest, highest]: a gate has two sides");
+    const Band band{checked_number(key, *pair->get(0), Infinity::refused),
+                    checked_number(key, *pair->get(1), Infinity::refused)};
+    if (!(band.lowest < band.highest))
+        throw InputError(place_of(node),
+                         full(key) + " is a band whose lowest value is not below its highest");
+    return band;
+}
+
+std::optional<TableReader::Band> TableReader::band(std::string_view key) {
+    const toml::node* node = find(key);
+    return node == nullptr ? std::nullopt : std::optional(checked_band(key, *node));
+}
+
+std::optional<std::vector<TableReader::Band>> TableReader::bands(std::string_view key) {
+    const toml::node* node = find(key);
+    if (node == nullptr)
+        return std::nullopt;
+    const toml::array* array = node->as_array();
+    if (array == nullptr || array->empty() || !array->get(0)->is_array())
+        return std::vector<Band>{checked_band(key, *node)};
+    std::vector<Band> bands;
+    for (const auto& element : *array)
+        bands.push_back(checked_band(key, element));
+    return bands;
+}
+
+std::optional<std::vector<std::int64_t>> TableReader::integers(std::string_view key) {
+    const toml::node* node = find(key);
+    if (node == nullptr)
+        return std::nullopt;
+    const toml::array* array = node->as_array();
+    if (array == nullptr)
+        throw wrong_type(key, *node, "an array of integers");
+    std::vector<std::int64_t> values;
+    for (const auto& element : *array) {
+        if (!element.is_integer())
+            throw InputError(place_of(element), full(key) + " holds " + type_name(element) +
+                                                    "; it must hold integers");
+        values.push_back(*element.value<std::int64_t>());
+    }
+    return values;
+}
+
+std::optional<std::vector<std::string>> TableReader::texts(std::string_view key) {
+    const toml::node* node = find(key);
+    if (node == nullptr)
+        return std::nullopt;
+    const toml::array* array = node->as_array();
+    if (array == nullptr)
+        throw wrong_type(key, *node, "an array of strings");
+    std::vector<std::string> values;
+    for (const auto& element : *array) {
+        if (!element.is_string())
+            throw InputError(place_of(element),
+                             full(key) + " holds " + type_name(element) + "; it must hold strings");
+        values.push_back(*element.value<std::string>());
+    }
+    return values;
+}
+
+std::optional<std::size_t> TableReader::choice(std::string_view key,
+                                               const std::vector<std::string>& choices) {
+    const auto value = text(key);
+    if (!value)
+        return std::nullopt;
+    const auto found = std::find(choices.begin(), choices.end(), *value);
+    if (found != choices.end())
+        return static_cast<std::size_t>(found - choices.begin());
+    std::string list;
+    for (const auto& choice : choices)
+        list += (list.empty() ? "'" : ", '") + choice + "'";
+    throw InputError(place(key), full(key) + " is '" + *value + "'; it must be one of " + list +
+                                     did_you_mean(*value, choices));
+}
+
+std::optional<TableReader> TableReader::table(std::string_view key) {
+    const toml::node* node = find(key);
+    if (node == nullptr)
+        return std::nullopt;
+    const toml::table* inner = node->as_table();
+    if (inner == nullptr)
+        throw wrong_type(key, *node, "a table");
+    return TableReader(*document_, *inner, full(key));
+}
+
+std::vector<TableReader> TableReader::tables(std::string_view key) {
+    const toml::node* node = find(key);
+    std::vector<TableReader> tables;
+    if (node == nullptr)
+        return tables;
+    const toml::array* array = node->as_array();
+    if (array == nullptr || !array->is_array_of_tables())
+        throw wrong_type(key, *node, "an array of tables, each headed [[" + full(key) + "]]");
+    for (const auto& element : *array)
+        tables.push_back(TableReader(*document_, *element.as_table(),
+                                     full(key) + "." + std::to_string(tables.size())));
+    return tables;
+}
+
+std::vector<std::string> TableReader::keys() const {
+    std::vector<std::string> keys;
+    for (const auto& [key, node] : *table_)
+        keys.emplace_back(key.str());
+    return keys;
+}
+
+void TableReader::finish() const {
+    for (const auto& [key, node] : *table_) {
+        if (std::find(known_.begin(), known_.end(), key.str()) != known_.end())
+            continue;
+        Place place = place_of(node);
+        if (const auto& region = key.source(); region.begin.line > 0 && place.line > 0) {
+            place.line = static_cast<int>(region.begin.line);
+            place.column = static_cast<int>(region.begin.column);
+        }
+        std::string names;
+        for (const auto& name : known_)
+            names += (names.empty() ? "" : ", ") + name;
+        const std::string hint = did_you_mean(key.str(), known_);
+        throw InputError(place, "unknown key '" + full(key.str()) + "'" +
+                                    (hint.empty() ? "; known here: " + names : hint));
+    }
+}
+
+} // namespace tvbeam

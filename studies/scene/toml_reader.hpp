@@ -1,0 +1,103 @@
+#pragma once
+
+#include "mms/text/input_error.hpp"
+#include "mms/text/source_text.hpp"
+
+#include <toml++/toml.h>
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace tvbeam {
+
+/// A TOML document with the text it was read from, which places in strings need.
+struct TomlDocument {
+    std::string file;
+    std::string text;
+    toml::table table;
+};
+
+/// Reads a file. Throws InputError when it is missing, too large or not TOML.
+TomlDocument read_toml(const std::string& file);
+
+/// Replaces or adds the key `a.b.c` of the document; `assignment` is "a.b.c=value" with a TOML
+/// value, or a text that is taken as a string when it is not one. Where a.b is an array of tables,
+/// the key behind it is the number of one, from 0. Throws InputError when it has no '=' or no key,
+/// or when a.b is not a table.
+void override_key(TomlDocument& document, const std::string& assignment);
+
+/// Takes the table at `key` away and puts its values in place of those of the same path.
+void merge_block(TomlDocument& document, std::string_view key);
+
+/// A number as messages print it: 12 significant digits.
+std::string message_text(double value);
+
+/// One table of a document, read key by key: every reader notes the key as known, and finish()
+/// refuses the others. All readers throw InputError at the value when it has the wrong type or
+/// breaks the rule they are given.
+class TableReader {
+public:
+    TableReader(const TomlDocument& document, const toml::table& table, std::string path);
+
+    /// A finite number, or also ±inf.
+    enum class Infinity { refused, allowed };
+
+    std::optional<double> number(std::string_view key, Infinity infinity = Infinity::refused);
+    std::optional<std::int64_t> integer(std::string_view key);
+    std::optional<bool> flag(std::string_view key);
+    std::optional<std::string> text(std::string_view key);
+    std::optional<SourceText> expression(std::string_view key);
+    std::optional<std::vector<double>> numbers(std::string_view key,
+                                               Infinity infinity = Infinity::refused);
+    std::optional<std::vector<std::int64_t>> integers(std::string_view key);
+    std::optional<std::vector<std::string>> texts(std::string_view key);
+    /// A two-sided band [lo, hi] with lo < hi, both finite.
+    struct Band {
+        double lowest;
+        double highest;
+    };
+    std::optional<Band> band(std::string_view key);
+    /// One band, or an array of bands.
+    std::optional<std::vector<Band>> bands(std::string_view key);
+    /// One of the choices, as its index.
+    std::optional<std::size_t> choice(std::string_view key,
+                                      const std::vector<std::string>& choices);
+    /// A table within this one.
+    std::optional<TableReader> table(std::string_view key);
+    /// An array of tables, whose paths end in their number: a.b.0, a.b.1, …; empty when the key is
+    /// missing.
+    std::vector<TableReader> tables(std::string_view key);
+
+    /// The keys of the table, in their order.
+    [[nodiscard]] std::vector<std::string> keys() const;
+
+    [[nodiscard]] bool has(std::string_view key) const { return table_->contains(key); }
+    [[nodiscard]] bool is_string(std::string_view key) const;
+
+    /// Where a key's value stands, or its element; the table itself when the key is missing.
+    [[nodiscard]] Place place(std::string_view key) const;
+    [[nodiscard]] Place place(std::string_view key, std::size_t element) const;
+
+    /// The key with the path of its table: beam.zeta.
+    [[nodiscard]] std::string full(std::string_view key) const;
+
+    /// Refuses keys that no reader asked for, naming the nearest that one did.
+    void finish() const;
+
+private:
+    const toml::node* find(std::string_view key);
+    [[nodiscard]] InputError wrong_type(std::string_view key, const toml::node& node,
+                                        const std::string& wanted) const;
+    Band checked_band(std::string_view key, const toml::node& node) const;
+    double checked_number(std::string_view key, const toml::node& node, Infinity infinity) const;
+
+    const TomlDocument* document_;
+    const toml::table* table_;
+    std::string path_;
+    std::vector<std::string> known_;
+};
+
+} // namespace tvbeam

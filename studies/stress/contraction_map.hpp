@@ -1,0 +1,28 @@
+#pragma once
+
+#include "studies/stress/stress_block.hpp"
+
+#include <Eigen/Core>
+
+namespace tvbeam {
+
+/// The contraction of the fixed point over a map of (α, Δt), predicted (core/contraction.hpp) and
+/// measured: the ratio of the third change of the temperature to the second in one solve, started
+/// from θ = sin πx, of the time scheme without its starter. Shape: dt × alpha.
+struct ContractionMap {
+    ContractionBlock block;
+    Eigen::ArrayXXd predicted;
+    Eigen::ArrayXXd measured;
+
+    /// From this prediction on, the third change is not lost in round-off.
+    static constexpr double least_measurable = 1e-6;
+
+    /// Of measured over predicted, where it can be measured. Not a number where that is nowhere.
+    [[nodiscard]] double least_ratio() const;
+    [[nodiscard]] double greatest_ratio() const;
+    [[nodiscard]] Eigen::Index refused() const { return (predicted >= 1.0).count(); }
+};
+
+ContractionMap measure_contraction(const ContractionBlock& block);
+
+} // namespace tvbeam

@@ -1,0 +1,87 @@
+#include "studies/stress/mode_solution.hpp"
+
+#include <cmath>
+#include <numbers>
+
+namespace tvbeam {
+
+namespace {
+
+constexpr long double pi = std::numbers::pi_v<long double>;
+
+Mode operator+(Mode a, Mode b) {
+    return {a.theta + b.theta, a.w + b.w};
+}
+
+Mode operator-(Mode a, Mode b) {
+    return {a.theta - b.theta, a.w - b.w};
+}
+
+Mode operator*(long double factor, Mode a) {
+    return {factor * a.theta, factor * a.w};
+}
+
+} // namespace
+
+std::vector<Mode> exact_mode(const Beam& beam, Mode initial, double dt, std::int64_t steps) {
+    const long double alpha = beam.alpha;
+    const long double zeta = beam.zeta;
+    // (T, A)' = −S (T, A) with S = [π² + α²/ζ, α/ζ; α/ζ, 1/ζ], positive definite, det S = π²/ζ.
+    const long double heat = pi * pi + alpha * alpha / zeta;
+    const long double coupling = alpha / zeta;
+    const long double bending = 1.0L / zeta;
+    const long double half = (heat - bending) / 2.0L;
+    const long double fast = (heat + bending) / 2.0L + std::hypot(half, coupling);
+    const long double slow = pi * pi / zeta / fast;
+    // The projection on the eigenvectors: P_fast = (S − slow)/(fast − slow).
+    const long double gap = fast - slow;
+    const auto applied = [&](Mode y) -> Mode {
+        return {heat * y.theta + coupling * y.w, coupling * y.theta + bending * y.w};
+    };
+    const Mode in_fast = gap == 0.0L ? Mode{} : (1.0L / gap) * (applied(initial) - slow * initial);
+    std::vector<Mode> modes;
+    for (std::int64_t n = 0; n <= steps; ++n) {
+        const long double t = static_cast<long double>(dt) * static_cast<long double>(n);
+        modes.push_back(std::exp(-fast * t) * in_fast + std::exp(-slow * t) * (initial - in_fast));
+    }
+    return modes;
+}
+
+std::vector<Mode> discrete_mode(const Beam& beam, ThermalMass mass, const TimeScheme& scheme,
+                                std::int64_t elements, Mode initial, bool projected, double dt,
+                                std::int64_t steps) {
+    const long double alpha = beam.alpha;
+    const long double zeta = beam.zeta;
+    const long double h = 1.0L / static_cast<long double>(elements);
+    const long double sine = std::sin(pi * h / 2.0L);
+    const long double consistent = (3.0L - 2.0L * sine * sine) / 3.0L; // of M_c, over h
+    const long double stiffness = 4.0L * sine * sine / (h * h) / consistent;
+    const long double m = mass == ThermalMass::lumped ? 1.0L / consistent : 1.0L;
+    if (projected) // (sin πx, χ_i) over (M_c sin πx_i)_i
+        initial.w *= stiffness / (pi * pi);
+
+    std::vector<Mode> modes{initial};
+    for (std::int64_t n = 1; n <= steps; ++n) {
+        const TimeScheme& running = scheme.at_step(n);
+        const Mode before = modes.back();
+        std::vector<Mode> increments;
+        for (std::size_t k = 0; k < static_cast<std::size_t>(running.history); ++k)
+            increments.push_back(modes[modes.size() - 1 - k] - modes[modes.size() - 2 - k]);
+        Mode now;
+        for (const Stage& stage : running.stages) {
+            Mode star = before;
+            for (std::size_t j = 0; j < stage.weights.size(); ++j)
+                star = star + static_cast<long double>(stage.weights[j]) * increments[j];
+            const long double c = static_cast<long double>(stage.leading / dt);
+            const long double kappa = 1.0L / (1.0L + zeta * c);
+            now.theta = (c * m * star.theta - alpha * c * kappa * star.w) /
+                        (c * m + stiffness + alpha * alpha * c * kappa);
+            now.w = star.w - kappa * (star.w + alpha * now.theta);
+            increments.push_back(now - before);
+        }
+        modes.push_back(now);
+    }
+    return modes;
+}
+
+} // namespace tvbeam

@@ -1,0 +1,30 @@
+#pragma once
+
+#include "core/problem.hpp"
+#include "core/space/linear_elements.hpp"
+#include "core/time/time_scheme.hpp"
+
+#include <cstdint>
+#include <vector>
+
+namespace tvbeam {
+
+/// Amplitudes of the coupled mode: θ = T sin πx, u_xx = A sin πx.
+struct Mode {
+    long double theta = 0.0L;
+    long double w = 0.0L;
+};
+
+/// Without load and stops, T' = −π²T + αA' and A + ζA' + αT = 0. At t = 0, dt, …, steps·dt, by the
+/// eigenvalues of the symmetric 2 × 2 matrix of (T, A)'. ζ > 0.
+std::vector<Mode> exact_mode(const Beam& beam, Mode initial, double dt, std::int64_t steps);
+
+/// What the scheme makes of it on a uniform mesh, Θ_i = T sin πx_i, by the recurrence of its rows
+/// in long double: sin πx_i is an eigenvector of M, K and M_c. projected: u_xx(x, 0) is the L²
+/// projection of the sine and not its interpolation; the mode then is the part that acts on the
+/// heat equation.
+std::vector<Mode> discrete_mode(const Beam& beam, ThermalMass mass, const TimeScheme& scheme,
+                                std::int64_t elements, Mode initial, bool projected, double dt,
+                                std::int64_t steps);
+
+} // namespace tvbeam

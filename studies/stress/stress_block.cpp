@@ -1,0 +1,298 @@
+#include "studies/stress/stress_block.hpp"
+
+#include "studies/scene/study_keys.hpp"
+#include "studies/scene/toml_reader.hpp"
+
+#include <gsl/gsl_qrng.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <new>
+
+namespace tvbeam {
+
+namespace {
+
+constexpr std::int64_t most_cases = 100'000;
+constexpr std::int64_t most_work = 10'000'000'000;
+
+/// One list of values: sets the one at an index in a case.
+struct Axis {
+    std::size_t values = 1;
+    std::function<void(StressParameters&, std::size_t)> set;
+};
+
+/// The cases that a sampling takes from the axes, by indices.
+using Points = std::vector<std::vector<std::size_t>>;
+
+Points one_at_a_time(const std::vector<Axis>& axes) {
+    Points points{std::vector<std::size_t>(axes.size(), 0)};
+    for (std::size_t k = 0; k < axes.size(); ++k)
+        for (std::size_t i = 1; i < axes[k].values; ++i) {
+            points.emplace_back(axes.size(), 0);
+            points.back()[k] = i;
+        }
+    return points;
+}
+
+Points product(const std::vector<Axis>& axes) {
+    Points points{{}};
+    for (const auto& axis : axes) {
+        Points longer;
+        for (const auto& point : points)
+            for (std::size_t i = 0; i < axis.values; ++i) {
+                longer.push_back(point);
+                longer.back().push_back(i);
+            }
+        points = std::move(longer);
+    }
+    return points;
+}
+
+/// Sobol (1967): a sequence that fills the product of the axes evenly, however long it is.
+Points sobol(const std::vector<Axis>& axes, std::int64_t count) {
+    const std::unique_ptr<gsl_qrng, decltype(&gsl_qrng_free)> generator(
+        gsl_qrng_alloc(gsl_qrng_sobol, static_cast<unsigned>(axes.size())), &gsl_qrng_free);
+    if (!generator)
+        throw std::bad_alloc();
+    Points points;
+    std::vector<double> unit(axes.size());
+    for (std::int64_t n = 0; n < count; ++n) {
+        gsl_qrng_get(generator.get(), unit.data());
+        points.emplace_back();
+        for (std::size_t k = 0; k < axes.size(); ++k)
+            points.back().push_back(static_cast<std::size_t>(
+                std::floor(unit[k] * static_cast<double>(axes[k].values))));
+    }
+    return points;
+}
+
+template <typename Value>
+Axis axis_of(std::vector<Value> values, Value StressParameters::*member) {
+    return {values.size(), [values, member](StressParameters& parameters, std::size_t i) {
+                parameters.*member = values[i];
+            }};
+}
+
+/// Numbers ≥ 0, or > 0.
+std::vector<double> numbers(TableReader& table, const char* key, double otherwise, bool positive,
+                            TableReader::Infinity infinity = TableReader::Infinity::refused) {
+    auto values = table.numbers(key, infinity).value_or(std::vector<double>{otherwise});
+    if (values.empty())
+        throw InputError(table.place(key), table.full(key) + " is empty; it must hold a value");
+    for (std::size_t i = 0; i < values.size(); ++i)
+        if (!(positive ? values[i] > 0.0 : values[i] >= 0.0))
+            throw InputError(
+                table.place(key, i),
+                table.full(key) + " holds " + message_text(values[i]) +
+                    (positive ? "; its values must be > 0" : "; its values must be >= 0"));
+    return values;
+}
+
+std::vector<std::int64_t> elements_or_ten(TableReader& table) {
+    return table.has("elements") ? read_elements(table) : std::vector<std::int64_t>{10};
+}
+
+std::int64_t count(TableReader& table, const char* key, std::int64_t otherwise,
+                   std::int64_t greatest) {
+    const std::int64_t value = table.integer(key).value_or(otherwise);
+    if (value < 1 || value > greatest)
+        throw InputError(table.place(key), table.full(key) + " is " + std::to_string(value) +
+                                               "; it must be 1 to " + std::to_string(greatest));
+    return value;
+}
+
+/// Words out of the choices, as their indices.
+std::vector<std::size_t> words(TableReader& table, const char* key,
+                               const std::vector<std::string>& choices) {
+    const auto given = table.texts(key).value_or(std::vector<std::string>{choices.front()});
+    std::string known;
+    for (const auto& choice : choices)
+        known += (known.empty() ? "'" : ", '") + choice + "'";
+    if (given.empty())
+        throw InputError(table.place(key),
+                         table.full(key) + " is empty; it must hold some of " + known);
+    std::vector<std::size_t> indices;
+    for (std::size_t i = 0; i < given.size(); ++i) {
+        const auto found = std::find(choices.begin(), choices.end(), given[i]);
+        if (found == choices.end())
+            throw InputError(table.place(key, i), table.full(key) + " holds '" + given[i] +
+                                                      "'; its values must be of " + known);
+        indices.push_back(static_cast<std::size_t>(found - choices.begin()));
+    }
+    return indices;
+}
+
+template <typename Value>
+std::vector<Value> of_words(TableReader& table, const char* key,
+                            const std::vector<std::string>& choices,
+                            const std::vector<Value>& values) {
+    std::vector<Value> result;
+    for (const std::size_t index : words(table, key, choices))
+        result.push_back(values[index]);
+    return result;
+}
+
+std::vector<ThermalMass> read_mass(TableReader& table) {
+    return of_words<ThermalMass>(table, "thermal_mass", {"consistent", "lumped"},
+                                 {ThermalMass::consistent, ThermalMass::lumped});
+}
+
+std::vector<std::string> read_time(TableReader& table) {
+    return of_words(table, "time", TimeScheme::names(), TimeScheme::names());
+}
+
+Axis gap_axis(const std::vector<double>& gaps, const std::vector<std::size_t>& sides) {
+    std::vector<Stops> stops;
+    for (const double gap : gaps)
+        for (const std::size_t side : sides) {
+            const double none = std::numeric_limits<double>::infinity();
+            stops.push_back({side == 2 ? -none : -gap, side == 1 ? none : gap});
+            if (std::isinf(gap))
+                break; // no stops have no sides
+        }
+    return axis_of(stops, &StressParameters::stops);
+}
+
+StressSweep read_sweep(TableReader table, const std::string& name) {
+    std::vector<Axis> axes;
+    axes.push_back(axis_of(numbers(table, "alpha", 0.5, false), &StressParameters::alpha));
+    axes.push_back(axis_of(numbers(table, "zeta", 0.1, false), &StressParameters::zeta));
+    axes.push_back(axis_of(numbers(table, "dt", 0.01, true), &StressParameters::dt));
+    axes.push_back(axis_of(elements_or_ten(table), &StressParameters::elements));
+    const double none = std::numeric_limits<double>::infinity();
+    const auto gaps = numbers(table, "gap", none, true, TableReader::Infinity::allowed);
+    axes.push_back(gap_axis(gaps, words(table, "sides", {"both", "lower", "upper"})));
+    axes.push_back(axis_of(numbers(table, "load", 1.0, false), &StressParameters::load));
+    axes.push_back(
+        axis_of(of_words<InitialData>(table, "initial", {"zero", "smooth", "rough", "random"},
+                                      {InitialData::zero, InitialData::smooth, InitialData::rough,
+                                       InitialData::random}),
+                &StressParameters::initial));
+    axes.push_back(axis_of(read_time(table), &StressParameters::time));
+    axes.push_back(axis_of(read_mass(table), &StressParameters::thermal_mass));
+    axes.push_back(axis_of(of_words<Algorithm>(table, "algorithm", {"direct", "fixed-point"},
+                                               {Algorithm::direct, Algorithm::fixed_point}),
+                           &StressParameters::algorithm));
+
+    const auto sampling = table.choice("sampling", {"each", "product", "sobol"}).value_or(0);
+    const std::int64_t steps = count(table, "steps", 20, most_work);
+    const std::int64_t work = count(table, "work", 2'000'000, most_work);
+    const std::int64_t points = count(table, "points", 100, most_cases);
+    if (sampling != 2 && table.has("points"))
+        throw InputError(table.place("points"),
+                         table.full("points") + " belongs to sampling = \"sobol\"; remove it");
+    double all = 1.0;
+    for (const auto& axis : axes)
+        all *= static_cast<double>(axis.values);
+    if (sampling == 1 && all > static_cast<double>(most_cases))
+        throw InputError(table.place("sampling"), "the product of the lists has more than " +
+                                                      std::to_string(most_cases) +
+                                                      " cases; shorten them, or take \"sobol\"");
+    table.finish();
+
+    StressSweep sweep{name, {}};
+    const Points chosen = sampling == 0   ? one_at_a_time(axes)
+                          : sampling == 1 ? product(axes)
+                                          : sobol(axes, points);
+    for (const auto& point : chosen) {
+        StressParameters parameters;
+        for (std::size_t k = 0; k < axes.size(); ++k)
+            axes[k].set(parameters, point[k]);
+        parameters.steps = std::clamp<std::int64_t>(work / parameters.elements,
+                                                    std::min<std::int64_t>(2, steps), steps);
+        parameters.seed = static_cast<unsigned>(sweep.cases.size() + 1);
+        sweep.cases.push_back(parameters);
+    }
+    return sweep;
+}
+
+double single(TableReader& table, const char* key, double otherwise, bool positive) {
+    const double value = table.number(key).value_or(otherwise);
+    if (!(positive ? value > 0.0 : value >= 0.0))
+        throw InputError(table.place(key),
+                         table.full(key) + " is " + message_text(value) +
+                             (positive ? "; it must be > 0" : "; it must be >= 0"));
+    return value;
+}
+
+/// Points in equal ratios: { from, to, count }.
+std::vector<double> geometric(TableReader& table, const char* key) {
+    auto range = table.table(key);
+    if (!range)
+        throw InputError(table.place(key),
+                         table.full(key) + " is missing; give { from = …, to = …, count = … }");
+    const double from = single(*range, "from", 0.0, true);
+    const double to = single(*range, "to", 0.0, true);
+    const auto points = count(*range, "count", 20, 1000);
+    range->finish();
+    std::vector<double> values;
+    for (std::int64_t i = 0; i < points; ++i)
+        values.push_back(from * std::pow(to / from, static_cast<double>(i) /
+                                                        static_cast<double>(std::max<std::int64_t>(
+                                                            points - 1, 1))));
+    return values;
+}
+
+std::string read_one_time(TableReader& table) {
+    const auto names = TimeScheme::names();
+    return names[table.choice("time", names).value_or(0)];
+}
+
+ThermalMass read_one_mass(TableReader& table) {
+    return table.choice("thermal_mass", {"consistent", "lumped"}).value_or(0) == 0
+               ? ThermalMass::consistent
+               : ThermalMass::lumped;
+}
+
+ContractionBlock read_contraction(TableReader table) {
+    ContractionBlock block;
+    block.alpha = geometric(table, "alpha");
+    block.dt = geometric(table, "dt");
+    block.zeta = single(table, "zeta", 0.1, false);
+    block.elements = count(table, "elements", 20, 10'000);
+    block.time = read_one_time(table);
+    block.thermal_mass = read_one_mass(table);
+    table.finish();
+    return block;
+}
+
+RoundOffBlock read_roundoff(TableReader table) {
+    RoundOffBlock block;
+    block.alpha = single(table, "alpha", 0.3, true);
+    block.zeta = single(table, "zeta", 0.1, false);
+    block.dt = single(table, "dt", 1e-3, true);
+    block.steps = count(table, "steps", 3, 1'000'000);
+    block.time = read_one_time(table);
+    block.thermal_mass = read_one_mass(table);
+    block.elements = elements_or_ten(table);
+    block.finest_hermite = count(table, "finest_hermite", 10'000, most_elements);
+    table.finish();
+    return block;
+}
+
+} // namespace
+
+StressBlock read_stress(TableReader table) {
+    StressBlock block;
+    if (auto sweeps = table.table("sweep")) {
+        for (const auto& name : sweeps->keys())
+            block.sweeps.push_back(read_sweep(*sweeps->table(name), name));
+        sweeps->finish();
+    }
+    if (auto contraction = table.table("contraction"))
+        block.contraction = read_contraction(*std::move(contraction));
+    if (auto roundoff = table.table("roundoff"))
+        block.roundoff = read_roundoff(*std::move(roundoff));
+    table.finish();
+    if (block.sweeps.empty() && !block.contraction && !block.roundoff)
+        throw InputError(table.place(""),
+                         "the block [stress] asks for nothing; add [stress.sweep.NAME], "
+                         "[stress.contraction] or [stress.roundoff]");
+    return block;
+}
+
+} // namespace tvbeam

@@ -1,0 +1,360 @@
+#include "studies/stress/stress_case.hpp"
+
+#include "core/certify/energy_law.hpp"
+#include "core/certify/residuals.hpp"
+#include "core/contact/contact_law.hpp"
+#include "core/round_off.hpp"
+#include "core/run.hpp"
+#include "core/sine/form.hpp"
+#include "core/time/time_levels.hpp"
+#include "studies/stress/mode_solution.hpp"
+#include "studies/stress/stress_problem.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <new>
+#include <numbers>
+#include <sstream>
+#include <stdexcept>
+
+namespace tvbeam {
+
+namespace {
+
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
+
+/// A Hermite form whose curvature has fewer digits than this is no result.
+constexpr double largest_floor = 1e-3;
+
+std::string text_of(double value) {
+    std::ostringstream text;
+    text.precision(3);
+    text << value;
+    return text.str();
+}
+
+/// A power of two near the size of the data, which everything linear in them is measured in.
+double unit_of(const StressParameters& parameters) {
+    const double size =
+        std::max(parameters.load, parameters.initial == InitialData::zero ? 0.0 : 1.0);
+    return size == 0.0 ? 1.0 : std::ldexp(1.0, std::ilogb(size));
+}
+
+Scheme scheme_of(const StressParameters& parameters) {
+    Scheme scheme;
+    scheme.algorithm = parameters.algorithm;
+    scheme.thermal_mass = parameters.thermal_mass;
+    scheme.time = TimeScheme::named(parameters.time);
+    scheme.basis = Basis::nodal;
+    scheme.tolerance = 1e-13 * unit_of(parameters);
+    return scheme;
+}
+
+Beam beam_of(const StressParameters& parameters) {
+    return {.alpha = parameters.alpha, .zeta = parameters.zeta, .stops = parameters.stops};
+}
+
+/// The largest values of a run, for the scales of its norms.
+struct Sizes {
+    double roughness = 0.0; // the largest difference of neighbours in Θ*, over twice that of Θ*
+    double slowest = std::numeric_limits<double>::infinity(); // the least c
+    double temperature = 0.0;
+    double curvature = 0.0;
+    double stress = 0.0;
+    double leading = 0.0;
+};
+
+/// Marches the case and collects its checks. Returns why it stopped, or nothing.
+class Marcher {
+public:
+    Marcher(const StressParameters& parameters, const Mesh& mesh, const ProblemData& data)
+        : parameters_(parameters), mesh_(mesh), data_(data), beam_(beam_of(parameters)),
+          scheme_(scheme_of(parameters)), unit_(unit_of(parameters)) {
+        if (parameters.algorithm == Algorithm::fixed_point) {
+            const double floor = hermite_floor(parameters.elements, parameters.zeta, parameters.dt,
+                                               parameters.steps);
+            if (floor > largest_floor)
+                throw std::domain_error("round-off of the Hermite form grows like h^-4: its "
+                                        "predicted floor is " +
+                                        text_of(floor) +
+                                        " of the curvature; use the direct algorithm");
+            options_.amplification = std::max(1.0, 20.0 * floor / epsilon);
+            options_.iteration_size = 10.0 * scheme_.tolerance / unit_ / epsilon;
+        }
+        options_.unit = unit_;
+        solver_ = make_solver(beam_, data_, mesh_, scheme_, parameters.dt, Needs{true, true, true});
+    }
+
+    /// underflow: what counts as zero, over the unit.
+    std::string march(double underflow) {
+        SolveRecorder recorder(beam_, data_, mesh_, *solver_, parameters_.dt, options_);
+        EnergyLaw energy(beam_, mesh_, parameters_.thermal_mass, underflow);
+        const SolveRecord* last = nullptr;
+        solver_->observe([&](const Solve& solve) {
+            const SolveRecord& record = recorder.record(solve);
+            add(record, underflow);
+            energy.add(record);
+            last = &record;
+        });
+        TimeLevels levels(data_, scheme_.time,
+                          parameters_.dt * static_cast<double>(parameters_.steps),
+                          parameters_.steps);
+        for (std::int64_t n = 1; n <= parameters_.steps; ++n) {
+            const std::string reason = solver_->step(levels.at(n));
+            if (!reason.empty())
+                return reason + " in step " + std::to_string(n) + " of " +
+                       std::to_string(parameters_.steps);
+            take(checks_.energy, energy.end_step(recorder, *last));
+            recorder.end_step();
+        }
+        return {};
+    }
+
+    [[nodiscard]] const Solver& solver() const { return *solver_; }
+    [[nodiscard]] const StressChecks& checks() const { return checks_; }
+    [[nodiscard]] const Sizes& sizes() const { return sizes_; }
+
+private:
+    /// NaN is worse than every number.
+    static void take(double& worst, double value) {
+        if (!(value <= worst))
+            worst = value;
+    }
+
+    void add(const SolveRecord& record, double underflow) {
+        const Residuals residual =
+            residuals(beam_, mesh_, parameters_.thermal_mass, record, underflow);
+        take(checks_.heat_residual, residual.heat);
+        take(checks_.beam_residual, residual.beam);
+        const ContactDefects contact = contact_defects(beam_, mesh_, record);
+        take(checks_.penetration, contact.penetration);
+        take(checks_.wrong_sign, contact.wrong_sign);
+        take(checks_.complementarity, contact.complementarity);
+        take(sizes_.temperature, record.now.temperature_size * unit_);
+        take(sizes_.curvature, record.now.curvature_size * unit_);
+        take(sizes_.stress, std::abs(record.stress * unit_));
+        if (const double most = record.star.theta.cwiseAbs().maxCoeff(); most > 0.0) {
+            const Eigen::Index s = mesh_.elements();
+            const Eigen::VectorXd& theta = record.star.theta;
+            take(sizes_.roughness,
+                 (theta.tail(s) - theta.head(s)).cwiseAbs().maxCoeff() / (2.0 * most));
+        }
+        sizes_.slowest = std::min(sizes_.slowest, record.leading);
+        take(sizes_.leading, record.leading);
+    }
+
+    const StressParameters& parameters_;
+    const Mesh& mesh_;
+    const ProblemData& data_;
+    Beam beam_;
+    Scheme scheme_;
+    double unit_;
+    RecordOptions options_;
+    std::unique_ptr<Solver> solver_;
+    StressChecks checks_;
+    Sizes sizes_;
+};
+
+/// Runs the case in both bases and compares the norms of the solution.
+void compare_paths(const StressParameters& parameters, const Mesh& mesh, const ProblemData& data,
+                   const Sizes& sizes, StressChecks& checks) {
+    if (parameters.algorithm != Algorithm::direct) {
+        checks.path_skipped = "the paper's algorithm has one path";
+        return;
+    }
+    // Norms are roots of squares, whose range is half that of the numbers.
+    if (parameters.load > 1e140 || (parameters.load != 0.0 && parameters.load < 1e-140)) {
+        checks.path_skipped = "the squares of the norms are beyond the range of floating point";
+        return;
+    }
+    RunRequest request{
+        beam_of(parameters),
+        mesh,
+        scheme_of(parameters),
+        parameters.dt * static_cast<double>(parameters.steps),
+        parameters.steps,
+        {*Norm::named("theta_LinfL2"), *Norm::named("u_LinfH2semi"), *Norm::named("sigma_L2")}};
+    const RunResult nodal = run(request, data);
+    request.scheme.basis = Basis::automatic;
+    if (!SineForm::suits(data, mesh, request.scheme, request.norms)) {
+        checks.path_skipped = "the sine basis does not suit mesh or data";
+        return;
+    }
+    const RunResult sine = run(request, data);
+    if (nodal.status != RunStatus::ok || sine.status != RunStatus::ok) {
+        checks.path_skipped = "a norm is beyond the range of floating point";
+        return;
+    }
+    // A reaction is a length over the compliance of the tip, and that length has the round-off of
+    // the tip. Without heat the compliance is κ/3; heat that is coupled strongly leaves of the
+    // lever 1 − x what is orthogonal to the hat functions, a part of about h. Θ and w answer to the
+    // reaction.
+    const double kappa = 1.0 / (1.0 + parameters.zeta * sizes.leading);
+    const double coupled = parameters.alpha * parameters.alpha * kappa;
+    const double part = std::min(1.0 + coupled, 1.0 + static_cast<double>(parameters.elements));
+    const double reaction = 3.0 / kappa * part * sizes.curvature / 2.0;
+    const bool contact = sizes.stress > 0.0;
+    const double scales[] = {
+        sizes.temperature + (contact ? reaction * parameters.alpha * kappa / (1.0 + coupled) : 0.0),
+        sizes.curvature * (contact ? 1.0 + std::sqrt(3.0 * part) / 2.0 : 1.0),
+        std::sqrt(request.final_time) * (sizes.stress + reaction)};
+    double worst = 0.0;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const double a = nodal.errors[k];
+        const double b = sine.errors[k];
+        if (a == b)
+            continue;
+        // ‖Θ‖ and ‖w‖ are roots of squares in which larger ones cancel: round-off is of the
+        // squares.
+        const double square = k == 2 ? 1.0 : (a + b) / scales[k];
+        worst = std::max(worst, std::abs(a - b) / (epsilon * scales[k]) * square);
+    }
+    checks.path_limit = path_limit(parameters.elements, sizes.roughness, sizes.slowest);
+    checks.path = worst;
+}
+
+/// The error of the temperature at the end over the one that the scheme's recurrence for the mode
+/// sin πx predicts: the sum of a term of h, by the eigenvalue of the mesh, and one of Δt.
+void compare_error(const StressParameters& parameters, const Mesh& mesh, const Solver& solver,
+                   StressChecks& checks) {
+    const Beam beam = beam_of(parameters);
+    if (parameters.load != 0.0 || beam.stops.exist() || parameters.initial != InitialData::smooth ||
+        beam.zeta == 0.0) {
+        checks.error_skipped = "no exact solution: it is known of the mode sin(pi x), without load "
+                               "and stops, for zeta > 0";
+        return;
+    }
+    const auto n = static_cast<std::size_t>(parameters.steps);
+    const Mode initial{1.0L, -1.0L};
+    const Mode exact = exact_mode(beam, initial, parameters.dt, parameters.steps)[n];
+    const Mode discrete =
+        discrete_mode(beam, parameters.thermal_mass, TimeScheme::named(parameters.time),
+                      parameters.elements, initial, true, parameters.dt, parameters.steps)[n];
+    const auto predicted = static_cast<double>(std::abs(discrete.theta - exact.theta));
+    const double round_off =
+        1e4 * epsilon * std::max(1.0, 1e-3 * static_cast<double>(parameters.elements));
+    if (parameters.elements == 1 || predicted < round_off) {
+        checks.error_skipped = "the predicted error is not above round-off";
+        return;
+    }
+    const Eigen::ArrayXd sine = (std::numbers::pi * mesh.nodes).sin();
+    const double error =
+        (solver.temperature().array() - static_cast<double>(exact.theta) * sine).abs().maxCoeff() /
+        sine.maxCoeff();
+    checks.error = error / predicted;
+}
+
+/// The first check that does not hold, in words.
+std::string violation(const StressChecks& checks) {
+    const auto exceeds = [](double value, double limit) { return !(value <= limit); };
+    if (exceeds(checks.heat_residual, StressLimits::residual))
+        return "the heat equation is left with a residual of " + text_of(checks.heat_residual) +
+               " units of round-off";
+    if (exceeds(checks.beam_residual, StressLimits::residual))
+        return "the beam equation is left with a residual of " + text_of(checks.beam_residual) +
+               " units of round-off";
+    if (exceeds(checks.energy, StressLimits::energy))
+        return "the energy law is missed by " + text_of(checks.energy) + " of its terms";
+    if (exceeds(checks.penetration, StressLimits::contact))
+        return "the tip is beyond a stop by " + text_of(checks.penetration) + " of its scale";
+    if (exceeds(checks.wrong_sign, StressLimits::contact))
+        return "the reaction has the wrong sign, " + text_of(checks.wrong_sign) + " of the scale";
+    if (exceeds(checks.complementarity, StressLimits::contact))
+        return "there is a reaction without contact, " + text_of(checks.complementarity) +
+               " of the scale";
+    if (checks.path && exceeds(*checks.path, checks.path_limit))
+        return "sine basis and nodal values differ by " + text_of(*checks.path) +
+               " ulp of the scale";
+    if (checks.error && exceeds(std::abs(std::log(*checks.error)), std::log(1.1)))
+        return "the error is " + text_of(*checks.error) + " of the predicted one";
+    return {};
+}
+
+void run_case(StressCase& result) {
+    const StressParameters& parameters = result.parameters;
+    constexpr double least = std::numeric_limits<double>::min();
+    if (parameters.load > 0.0 && parameters.load < least)
+        throw std::domain_error("the load is below " + text_of(least) +
+                                ", where floating point has lost digits of it already");
+    const Mesh mesh = Mesh::uniform(parameters.elements);
+    const ProblemData data = stress_problem(parameters, mesh);
+    // The smallest normalised number, over the unit.
+    const double underflow = least / unit_of(parameters);
+    for (const double floor : {0.0, underflow}) {
+        Marcher marcher(parameters, mesh, data);
+        if (std::string reason = marcher.march(floor); !reason.empty()) {
+            result.outcome = Outcome::stopped;
+            result.reason = reason;
+            result.checks.reset();
+            return;
+        }
+        result.checks = marcher.checks();
+        if (floor == 0.0) {
+            compare_paths(parameters, mesh, data, marcher.sizes(), *result.checks);
+            if (parameters.algorithm == Algorithm::direct)
+                compare_error(parameters, mesh, marcher.solver(), *result.checks);
+            else
+                result.checks->error_skipped = "measured with the direct algorithm";
+        }
+        const std::string reason = violation(*result.checks);
+        if (floor == 0.0 && reason.empty())
+            return;
+        if (floor != 0.0 && reason.empty()) {
+            result.outcome = Outcome::stopped;
+            result.reason = "underflow: the solution falls below " + text_of(least) +
+                            ", where floating point loses its digits";
+            result.checks.reset();
+            return;
+        }
+        result.outcome = Outcome::failed;
+        result.reason = reason;
+        if (underflow < epsilon * epsilon)
+            return;
+    }
+}
+
+} // namespace
+
+std::string name_of(Outcome outcome) {
+    switch (outcome) {
+    case Outcome::certified:
+        return "certified";
+    case Outcome::refused:
+        return "refused";
+    case Outcome::stopped:
+        return "stopped";
+    default:
+        return "failed";
+    }
+}
+
+double path_limit(std::int64_t elements, double roughness, double c) {
+    const auto s = static_cast<double>(elements);
+    constexpr double pi = std::numbers::pi;
+    return 30.0 * std::max(1.0, s / 1000.0) +
+           10.0 * roughness * s * std::sqrt(s) / (1.0 + c / (pi * pi));
+}
+
+StressCase judge(const StressParameters& parameters) {
+    const auto start = std::chrono::steady_clock::now();
+    StressCase result;
+    result.parameters = parameters;
+    try {
+        run_case(result);
+    } catch (const std::domain_error& error) {
+        result.outcome = Outcome::refused;
+        result.reason = error.what();
+    } catch (const std::bad_alloc&) {
+        result.outcome = Outcome::refused;
+        result.reason =
+            "not enough memory for " + std::to_string(parameters.elements) + " elements";
+    }
+    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+    result.seconds = elapsed.count();
+    return result;
+}
+
+} // namespace tvbeam

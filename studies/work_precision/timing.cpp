@@ -1,0 +1,86 @@
+#include "studies/work_precision/timing.hpp"
+
+#include <gsl/gsl_statistics_double.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace tvbeam {
+
+namespace {
+
+/// Below this, a difference is as likely the machine's as the scheme's.
+constexpr double least_ratio = 1.2;
+
+bool has_error(const TimedError& row) {
+    return std::isfinite(row.error) && row.error > 0.0;
+}
+
+/// Whether two errors are the same as far as times depend on them.
+bool same(double first, double second) {
+    return std::abs(first - second) <= same_error * second;
+}
+
+/// Between the rows a and b: at a for weight 0, at b for weight 1.
+Timing between(const Timing& a, const Timing& b, double weight) {
+    const auto at = [&](double Timing::*value) {
+        return std::exp((1.0 - weight) * std::log(a.*value) + weight * std::log(b.*value));
+    };
+    return {.min = at(&Timing::min),
+            .q1 = at(&Timing::q1),
+            .median = at(&Timing::median),
+            .q3 = at(&Timing::q3),
+            .runs = std::min(a.runs, b.runs)};
+}
+
+} // namespace
+
+Timing timing_of(std::vector<double> seconds) {
+    std::sort(seconds.begin(), seconds.end());
+    const auto quantile = [&](double fraction) {
+        return gsl_stats_quantile_from_sorted_data(seconds.data(), 1, seconds.size(), fraction);
+    };
+    return {.min = seconds.front(),
+            .q1 = quantile(0.25),
+            .median = quantile(0.5),
+            .q3 = quantile(0.75),
+            .runs = static_cast<int>(seconds.size())};
+}
+
+std::optional<Timing> time_to_reach(std::span<const TimedError> rows, double error) {
+    const auto first = std::find_if(rows.begin(), rows.end(), has_error);
+    const auto last = std::find_if(rows.rbegin(), rows.rend(), has_error);
+    if (first == rows.end())
+        return std::nullopt;
+    // The finest row that exceeds the error; from the next one on it is reached.
+    const auto above = std::find_if(rows.rbegin(), rows.rend(), [&](const TimedError& row) {
+        return has_error(row) && row.error > error;
+    });
+    if (above == last)
+        return same(last->error, error) ? std::optional(last->timing) : std::nullopt;
+    if (above == rows.rend())
+        return same(first->error, error) ? std::optional(first->timing) : std::nullopt;
+    const TimedError& before = *above;
+    const TimedError& after = *std::find_if(above.base(), rows.end(), has_error);
+    if (&after - &before > 1) { // rows without error between them
+        if (same(before.error, error))
+            return before.timing;
+        return same(after.error, error) ? std::optional(after.timing) : std::nullopt;
+    }
+    const double weight = std::log(before.error / error) / std::log(before.error / after.error);
+    return between(before.timing, after.timing, weight);
+}
+
+Comparison compare(const Timing& first, const Timing& second) {
+    Comparison result;
+    result.first_is_faster = first.median < second.median;
+    const Timing& fast = result.first_is_faster ? first : second;
+    const Timing& slow = result.first_is_faster ? second : first;
+    result.ratio = slow.median / fast.median;
+    result.lowest = slow.q1 / fast.q3;
+    result.highest = slow.q3 / fast.q1;
+    result.told_apart = result.ratio > least_ratio && result.lowest > 1.0;
+    return result;
+}
+
+} // namespace tvbeam

@@ -1,0 +1,231 @@
+#include "studies/work_precision/work_precision.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <ctime>
+#include <limits>
+#include <sstream>
+
+namespace tvbeam {
+
+namespace {
+
+/// A run shorter than this finds the caches as other runs left them: one that does not count goes
+/// before each that does. Unit: s.
+constexpr double quick = 1e-3;
+/// Of a core, for times that can be compared.
+constexpr double least_share = 0.9;
+constexpr int first_decade = 2; // 1e-2
+constexpr int last_decade = 9;
+
+/// One rung of one scheme, and its timed runs so far.
+struct Contestant {
+    std::size_t scheme;
+    std::size_t run;
+    double warm_up;
+    std::vector<double> seconds;
+};
+
+class Race {
+public:
+    Race(const Scene& scene, const WorkPrecisionBlock& block, const ProblemData& data,
+         const Execution& execution, double one_run_above)
+        : scene_(scene), block_(block), data_(data), execution_(execution),
+          one_run_above_(one_run_above) {}
+
+    [[nodiscard]] bool interrupted() const { return interrupted_; }
+
+    std::vector<SchemeRuns> take() {
+        for (std::size_t k = 0; k < block_.schemes.size(); ++k)
+            enter(k);
+        for (int round = 0; round < block_.runs; ++round)
+            for (auto& contestant : contestants_)
+                if (contestant.warm_up <= one_run_above_)
+                    time(contestant);
+        for (const auto& contestant : contestants_)
+            result_[contestant.scheme].timings[contestant.run] =
+                timing_of(contestant.seconds.empty() ? std::vector<double>{contestant.warm_up}
+                                                     : contestant.seconds);
+        return std::move(result_);
+    }
+
+private:
+    RungResult run(std::size_t scheme, const Rung& rung, const std::vector<Norm>& norms) {
+        RungResult result = run_rung(scene_, block_.schemes[scheme].scheme, norms,
+                                     block_.final_time, rung, data_, execution_);
+        interrupted_ = interrupted_ || result.status == RunStatus::interrupted;
+        return result;
+    }
+
+    void enter(std::size_t scheme) {
+        SchemeRuns& runs = result_.emplace_back();
+        for (const auto& rung : block_.schemes[scheme].rungs) {
+            runs.runs.push_back(run_or_find("work_precision." + block_.schemes[scheme].name,
+                                            runs.runs.size(), execution_,
+                                            work_of(block_.schemes[scheme].scheme, rung),
+                                            [&] { return run(scheme, rung, block_.norms); }));
+            runs.timings.emplace_back();
+            RungResult& measured = runs.runs.back();
+            if (measured.status != RunStatus::ok)
+                continue;
+            const RungResult warm_up = run(scheme, rung, {});
+            if (warm_up.status != RunStatus::ok)
+                continue;
+            measured.counters = warm_up.counters;
+            contestants_.push_back({scheme, runs.runs.size() - 1, warm_up.seconds, {}});
+        }
+    }
+
+    void time(Contestant& contestant) {
+        const Rung& rung = result_[contestant.scheme].runs[contestant.run].rung;
+        if (contestant.warm_up < quick)
+            run(contestant.scheme, rung, {});
+        const RungResult timed = run(contestant.scheme, rung, {});
+        if (timed.status == RunStatus::ok)
+            contestant.seconds.push_back(timed.seconds);
+    }
+
+    const Scene& scene_;
+    const WorkPrecisionBlock& block_;
+    const ProblemData& data_;
+    const Execution& execution_;
+    double one_run_above_;
+    bool interrupted_ = false;
+    std::vector<SchemeRuns> result_;
+    std::vector<Contestant> contestants_;
+};
+
+/// Norm k along the ladder of one scheme.
+std::vector<TimedError> rows_of(const SchemeRuns& scheme, std::size_t k) {
+    std::vector<TimedError> rows;
+    for (std::size_t i = 0; i < scheme.runs.size(); ++i) {
+        const auto& errors = scheme.runs[i].errors;
+        rows.push_back(
+            {.error = errors.empty() ? std::numeric_limits<double>::quiet_NaN() : errors[k],
+             .timing = scheme.timings[i].value_or(Timing{})});
+    }
+    return rows;
+}
+
+double smallest_error(const std::vector<std::vector<TimedError>>& schemes) {
+    double smallest = std::numeric_limits<double>::infinity();
+    for (const auto& rows : schemes)
+        for (const auto& row : rows)
+            if (row.error > 0.0)
+                smallest = std::min(smallest, row.error);
+    return smallest;
+}
+
+/// The errors at which schemes are compared, from large to small.
+std::vector<ReachedError> errors_to_reach(double smallest, const std::vector<double>& targets) {
+    std::vector<ReachedError> errors;
+    const auto add = [&](double error, bool target) {
+        const auto same = std::find_if(errors.begin(), errors.end(),
+                                       [&](const ReachedError& one) { return one.error == error; });
+        if (same == errors.end())
+            errors.push_back({error, target, {}, {}});
+        else
+            same->target = same->target || target;
+    };
+    for (int decade = first_decade;; ++decade) {
+        const double error = std::pow(10.0, -decade);
+        if (decade > last_decade && !(error >= smallest))
+            break;
+        add(error, false);
+    }
+    for (const double target : targets)
+        add(target, true);
+    std::sort(errors.begin(), errors.end(),
+              [](const ReachedError& a, const ReachedError& b) { return a.error > b.error; });
+    return errors;
+}
+
+void compare_all(ReachedError& reached) {
+    for (std::size_t i = 0; i < reached.times.size(); ++i)
+        for (std::size_t j = i + 1; j < reached.times.size(); ++j)
+            if (reached.times[i] && reached.times[j]) {
+                const Comparison times = compare(*reached.times[i], *reached.times[j]);
+                reached.comparisons.push_back({.faster = times.first_is_faster ? i : j,
+                                               .slower = times.first_is_faster ? j : i,
+                                               .times = times});
+            }
+}
+
+std::string text_of(const Rung& rung) {
+    std::ostringstream text;
+    text << "s = " << rung.elements << ", dt = " << rung.dt;
+    return text.str();
+}
+
+/// A sentence for every row whose error is larger than that of the row before it.
+void add_rises(std::vector<std::string>& remarks, const std::string& norm,
+               const TimedScheme& scheme, const std::vector<TimedError>& rows) {
+    std::optional<std::size_t> before; // the last row that has an error
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        if (std::isnan(rows[i].error))
+            continue;
+        if (before && rows[i].error > rows[*before].error)
+            remarks.push_back(scheme.name + ": " + norm + " rises from " +
+                              text_of(scheme.rungs[*before]) + " to " + text_of(scheme.rungs[i]) +
+                              "; an error counts as reached from where no finer row exceeds it.");
+        before = i;
+    }
+}
+
+} // namespace
+
+std::string busy_remark(double processor_seconds, double wall_clock_seconds) {
+    const double share = processor_seconds / wall_clock_seconds;
+    if (share >= least_share)
+        return {};
+    return "The machine was busy: the runs had " + std::to_string(std::lround(100.0 * share)) +
+           " % of a core. Long runs lose more to other programs than short ones, so that these "
+           "ratios are not to be trusted: time it again on an idle machine.";
+}
+
+std::int64_t node_steps(const Rung& rung) {
+    return rung.elements * rung.steps;
+}
+
+WorkPrecisionResult run_work_precision(const Scene& scene, const WorkPrecisionBlock& block,
+                                       const ProblemData& data, const Execution& execution,
+                                       double one_run_above) {
+    WorkPrecisionResult result;
+    const std::clock_t processor = std::clock();
+    const auto start = std::chrono::steady_clock::now();
+    Race race(scene, block, data, execution, one_run_above);
+    result.schemes = race.take();
+    result.interrupted = race.interrupted();
+    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+    result.busy_remark = busy_remark(static_cast<double>(std::clock() - processor) / CLOCKS_PER_SEC,
+                                     elapsed.count());
+    result.norms = costs_of(block, result.schemes);
+    return result;
+}
+
+std::vector<NormCosts> costs_of(const WorkPrecisionBlock& block,
+                                const std::vector<SchemeRuns>& schemes) {
+    std::vector<NormCosts> all;
+    for (std::size_t k = 0; k < block.norms.size(); ++k) {
+        NormCosts costs{block.norms[k], {}, {}};
+        std::vector<std::vector<TimedError>> ladders;
+        for (std::size_t scheme = 0; scheme < schemes.size(); ++scheme) {
+            ladders.push_back(rows_of(schemes[scheme], k));
+            add_rises(costs.remarks, costs.norm.name, block.schemes[scheme], ladders.back());
+        }
+        const auto targets = block.targets.find(costs.norm.name);
+        costs.errors = errors_to_reach(smallest_error(ladders), targets == block.targets.end()
+                                                                    ? std::vector<double>{}
+                                                                    : targets->second);
+        for (auto& reached : costs.errors) {
+            for (const auto& rows : ladders)
+                reached.times.push_back(time_to_reach(rows, reached.error));
+            compare_all(reached);
+        }
+        all.push_back(std::move(costs));
+    }
+    return all;
+}
+
+} // namespace tvbeam

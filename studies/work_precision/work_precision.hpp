@@ -1,0 +1,73 @@
+#pragma once
+
+#include "studies/runs/rung.hpp"
+#include "studies/scene/scene.hpp"
+#include "studies/work_precision/timing.hpp"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace tvbeam {
+
+/// One scheme along its ladder.
+struct SchemeRuns {
+    /// With the errors of an untimed run, and the counters of a timed one.
+    std::vector<RungResult> runs;
+    /// One a run, without error norms; none where the run failed.
+    std::vector<std::optional<Timing>> timings;
+};
+
+/// Two schemes at the same error.
+struct SchemeComparison {
+    std::size_t faster = 0; ///< by the medians; index of a scheme of the block
+    std::size_t slower = 0;
+    Comparison times;
+};
+
+/// What it takes to bring a norm down to an error.
+struct ReachedError {
+    double error = 0.0;
+    bool target = false;                       ///< the scene names it
+    std::vector<std::optional<Timing>> times;  ///< one a scheme; see time_to_reach
+    std::vector<SchemeComparison> comparisons; ///< of every two schemes that reach it
+};
+
+/// One norm over all schemes.
+struct NormCosts {
+    Norm norm;
+    /// From large to small: 1e-2 … 1e-9 and on to the smallest error measured, and the targets.
+    std::vector<ReachedError> errors;
+    std::vector<std::string> remarks; ///< errors that rise along a ladder, in sentences
+};
+
+/// The record of a [work_precision] study.
+struct WorkPrecisionResult {
+    std::vector<SchemeRuns> schemes; ///< in the order of the block
+    std::vector<NormCosts> norms;    ///< in the order of the block
+    std::string busy_remark;         ///< see busy_remark
+    bool interrupted = false;        ///< runs are missing, timed ones perhaps
+};
+
+/// A sentence where the runs had less than nine tenths of a core: a run that is shorter than the
+/// turn that the system gives a program is then timed right, a longer one with the turns of others,
+/// which no quartile shows. Empty otherwise.
+std::string busy_remark(double processor_seconds, double wall_clock_seconds);
+
+/// Elements times steps: the size of a run, whatever the algorithm makes of it.
+std::int64_t node_steps(const Rung& rung);
+
+/// Runs every rung of every scheme once for its errors, and then for its time: an untimed run, and
+/// block.runs timed ones, or one where a run takes longer than one_run_above seconds. The runs of
+/// all rungs take turns, so that a machine that is busy for a while slows all alike, and nothing
+/// runs beside them, whatever execution.jobs says. Errors are kept as run_or_find does; times are
+/// not.
+WorkPrecisionResult run_work_precision(const Scene& scene, const WorkPrecisionBlock& block,
+                                       const ProblemData& data, const Execution& execution = {},
+                                       double one_run_above = 2.0);
+
+/// What the rows say, for every norm of the block.
+std::vector<NormCosts> costs_of(const WorkPrecisionBlock& block,
+                                const std::vector<SchemeRuns>& schemes);
+
+} // namespace tvbeam

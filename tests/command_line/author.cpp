@@ -1,0 +1,166 @@
+// What the author of a solution calls: new, derive and list.
+
+#include "tests/command_line/called_program.hpp"
+#include "tests/temporary_directory.hpp"
+
+#include <boost/test/unit_test.hpp>
+
+#include <algorithm>
+#include <sstream>
+
+using namespace tvbeam;
+
+BOOST_AUTO_TEST_SUITE(command_line)
+
+BOOST_AUTO_TEST_CASE(derive_prints_formulas_for_a_scene_and_a_solution) {
+    const TemporaryDirectory directory;
+    const Called scene = call(directory, "derive table1");
+    const Called solution = call(directory, "derive copetti-fernandez-2011");
+    BOOST_TEST(scene.exit == 0);
+    BOOST_TEST(scene.output == solution.output);
+    for (const std::string symbol : {"f for", "G for", "m for", "theta0 for", "u0 for"})
+        BOOST_TEST(has(solution.output, symbol));
+    const Called latex = call(directory, "derive copetti-fernandez-2011 --latex");
+    BOOST_TEST(has(latex.output, "\\begin{align*}"));
+    BOOST_TEST(has(latex.output, "\\sin"));
+    BOOST_TEST(has(latex.output, "&& 0 \\le t \\le \\sqrt{2} \\\\"));
+    BOOST_TEST(!has(latex.output, "\\text{"));
+}
+
+BOOST_AUTO_TEST_CASE(derive_answers_for_every_shipped_name) {
+    const TemporaryDirectory directory;
+    std::istringstream names(call(directory, "list --names").output);
+    int count = 0;
+    for (std::string name; std::getline(names, name); ++count) {
+        const Called called = call(directory, "derive " + name);
+        const bool none = has(called.errors, "to derive from");
+        BOOST_TEST(called.exit == (none ? 2 : 0), name << ": " << called.errors);
+        BOOST_TEST(!has(called.output, "not admissible"), name << ": " << called.output);
+    }
+    BOOST_TEST(count > 30);
+    BOOST_TEST(
+        has(call(directory, "derive stress-beam").errors, "[stress] poses problems of its own"));
+}
+
+BOOST_AUTO_TEST_CASE(a_solution_is_looked_at_on_the_beam_of_the_scene_beside_it_that_runs_it) {
+    const TemporaryDirectory directory;
+    const std::string solution =
+        directory.write("mine.toml", "theta = \"t*sin(pi*x)\"\nu = \"x^2*t/100\"\n");
+    const auto scene = [](const std::string& runs) {
+        return "solution = \"./" + runs + "\"\n[beam]\nalpha = 0.3\nzeta = 0.7\n[ladder]\n" +
+               "final_time = 1\nelements = [4]\ndt = [0.1]\n";
+    };
+    directory.write("mine-scene.toml", scene("other.toml"));
+    directory.write("other.toml", "theta = \"sin(pi*x)\"\nu = \"x^2/100\"\n");
+    directory.write("torn.toml", "[beam");
+    BOOST_TEST(has(call(directory, "derive " + solution).output, "as no scene names another"));
+    directory.write("my-scene.toml", scene("mine.toml"));
+    BOOST_TEST(has(call(directory, "derive " + solution).output, "the beam of the scene my-scene"));
+    const Called run = call(directory, "run " + solution);
+    BOOST_TEST(run.exit == 2);
+    BOOST_TEST(has(run.errors, "is a solution, not a scene"), run.errors);
+}
+
+BOOST_AUTO_TEST_CASE(derive_says_what_a_solution_tests_and_what_to_expect) {
+    const TemporaryDirectory directory;
+    const Called called = call(directory, "derive cubic-deflection");
+    BOOST_TEST(called.exit == 0);
+    for (const std::string part :
+         {"On the beam of the scene cubic-deflection", "(1)            a heat source f",
+          "- (8) a force at the stop g2: the tip never reaches g2", "u_LinfH2semi    -",
+          "theta is linear in x: the linear elements hold it exactly"})
+        BOOST_TEST(has(called.output, part), part << " in " << called.output);
+    std::istringstream lines(called.output);
+    for (std::string line; std::getline(lines, line);)
+        BOOST_TEST(line.size() <= 82u, line);
+    // A file has the scene beside it, or else the paper's beam; and there it can be inadmissible.
+    const std::string file = directory.write("mine.toml", "theta = 'x*(1 - x)'\nu = 'x^2*t'\n");
+    const Called alone = call(directory, "derive " + file);
+    BOOST_TEST(alone.exit == 0);
+    BOOST_TEST(has(alone.output, "the paper's beam"));
+    BOOST_TEST(has(alone.output, "not admissible: "));
+    BOOST_TEST(has(alone.output, "(6): u(1,t)"));
+    directory.write("mine-scene.toml", "solution = './mine.toml'\n[beam]\nalpha = 0\nzeta = 0\n"
+                                       "[ladder]\nfinal_time = 1\nelements = [4]\ndt = [1]\n");
+    const Called beside = call(directory, "derive " + file);
+    BOOST_TEST(has(beside.output, "the beam of the scene mine-scene"));
+    BOOST_TEST(has(beside.output, "- (1) alpha*u_xxt: alpha = 0"));
+}
+
+BOOST_AUTO_TEST_CASE(new_writes_a_solution_and_a_scene_that_run_as_they_stand) {
+    const TemporaryDirectory directory;
+    const std::string there = "cd " + directory.path().string() + " && ";
+    const auto in_directory = [&](const std::string& arguments) {
+        return call(directory, arguments, there);
+    };
+    const Called made = in_directory("new warm_beam-2");
+    BOOST_TEST(made.exit == 0, made.errors);
+    BOOST_TEST(directory.count() == 2u);
+    for (const std::string arguments :
+         {"run warm_beam-2-scene.toml", "check warm_beam-2-scene.toml", "derive warm_beam-2.toml",
+          "run warm_beam-2-scene.toml --set scheme.time=bdf2 --set ladder.dt=0.1/s"}) {
+        const Called called = in_directory(arguments);
+        BOOST_TEST(called.exit == 0, called.output + called.errors);
+    }
+    BOOST_TEST(has(in_directory("derive warm_beam-2.toml").output,
+                   "the beam of the scene warm_beam-2-scene"));
+
+    // What is there is not touched, and where one file is in the way the other does not appear.
+    const std::string before = directory.read("warm_beam-2.toml");
+    const Called again = in_directory("new warm_beam-2");
+    BOOST_TEST(again.exit == 2);
+    BOOST_TEST(has(again.errors, "'warm_beam-2.toml' is there already"));
+    directory.write("other-scene.toml", "mine");
+    BOOST_TEST(in_directory("new other").exit == 2);
+    BOOST_TEST(directory.read("other-scene.toml") == "mine");
+    BOOST_TEST(directory.count() == 3u);
+    BOOST_TEST(directory.read("warm_beam-2.toml") == before);
+}
+
+BOOST_AUTO_TEST_CASE(new_refuses_what_is_no_name) {
+    const TemporaryDirectory directory;
+    const std::string there = "cd " + directory.path().string() + " && ";
+    for (const std::string name : {"''", "a/b", "../a", ".hidden", "'two words'", "mine.toml",
+                                   "'a\"b'", "\xC3\xA4", "-- -x"}) {
+        const Called called = call(directory, "new " + name, there);
+        BOOST_TEST(called.exit == 2, name);
+        BOOST_TEST(std::count(called.errors.begin(), called.errors.end(), '\n') == 1,
+                   called.errors);
+    }
+    BOOST_TEST(call(directory, "new " + std::string(65, 'a'), there).exit == 2);
+    BOOST_TEST(directory.count() == 0u);
+}
+
+// Its phases, which are comments, are a solution, too.
+BOOST_AUTO_TEST_CASE(the_phases_that_new_shows_are_admissible) {
+    const TemporaryDirectory directory;
+    const std::string there = "cd " + directory.path().string() + " && ";
+    BOOST_TEST(call(directory, "new mine", there).exit == 0);
+    std::istringstream lines(directory.read("mine.toml"));
+    std::string text;
+    bool in_phases = false;
+    for (std::string line; std::getline(lines, line);) {
+        in_phases = in_phases || line == "# [[phase]]";
+        if (in_phases)
+            text += line.substr(2) + "\n";
+        else if (!line.starts_with("u "))
+            text += line + "\n";
+    }
+    directory.write("mine.toml", text);
+    const Called called =
+        call(directory,
+             "run mine-scene.toml --set ladder.final_time=2 --set 'ladder.elements=[8,16]'", there);
+    BOOST_TEST(called.exit == 0, called.errors);
+    BOOST_TEST(in_phases);
+}
+
+BOOST_AUTO_TEST_CASE(list_names_what_is_shipped) {
+    const TemporaryDirectory directory;
+    const Called called = call(directory, "list");
+    BOOST_TEST(called.exit == 0);
+    for (const std::string name : {"table1:", "table1-consistent:", "table1-fixed-point:",
+                                   "table1-extended:", "copetti-fernandez-2011:"})
+        BOOST_TEST(has(called.output, name), name);
+}
+
+BOOST_AUTO_TEST_SUITE_END()

@@ -1,0 +1,99 @@
+// `tvbeam check` as CI calls it: exit codes, reports and baselines.
+
+#include "tests/command_line/called_program.hpp"
+#include "tests/temporary_directory.hpp"
+
+#include <boost/test/unit_test.hpp>
+
+#include <algorithm>
+
+using namespace tvbeam;
+
+BOOST_AUTO_TEST_SUITE(command_line)
+
+BOOST_AUTO_TEST_CASE(check_passes_shipped_scenes_and_writes_junit) {
+    const TemporaryDirectory directory;
+    const std::string xml = (directory.path() / "j.xml").string();
+    const Called called =
+        call(directory, "check --short free-oscillation heated-end --junit " + xml);
+    BOOST_TEST(called.exit == 0, called.output);
+    BOOST_TEST(has(called.output, "ok    free-oscillation"));
+    const std::string text = directory.read("j.xml");
+    BOOST_TEST(has(text, "<testsuite name=\"heated-end\""));
+    BOOST_TEST(!has(text, "<failure"));
+}
+
+BOOST_AUTO_TEST_CASE(check_fails_with_one_and_a_line_for_each_violation) {
+    const TemporaryDirectory directory;
+    const std::string xml = (directory.path() / "j.xml").string();
+    const Called called =
+        call(directory,
+             "check heated-end --set 'expect.ladder.theta_L2H1.orders=[1.9,2.1]' --junit " + xml);
+    BOOST_TEST(called.exit == 1);
+    BOOST_TEST(has(called.output, "FAIL  heated-end"));
+    BOOST_TEST(std::count(called.output.begin(), called.output.end(), '\n') == 1 + 3,
+               called.output);
+    BOOST_TEST(has(called.output, "expected 1.9 to 2.1, found 0.98"));
+    BOOST_TEST(has(directory.read("j.xml"), "<failure message=\"expected 1.9 to 2.1"));
+}
+
+BOOST_AUTO_TEST_CASE(check_of_a_run_that_fails_exits_with_three) {
+    const TemporaryDirectory directory;
+    const Called called = call(directory, "check heated-end --set beam.alpha=1e200");
+    BOOST_TEST(called.exit == 3);
+    BOOST_TEST(has(called.output, "a run failed"));
+}
+
+BOOST_AUTO_TEST_CASE(check_of_a_scene_without_expectations_is_refused) {
+    const TemporaryDirectory directory;
+    const std::string scene =
+        directory.write("s.toml", "solution = 'free-oscillation'\n[beam]\nalpha = 0\nzeta = 0\n"
+                                  "[ladder]\nfinal_time = 1\nelements = [4]\ndt = [0.1]\n");
+    const Called called = call(directory, "check " + scene);
+    BOOST_TEST(called.exit == 2);
+    BOOST_TEST(has(called.errors, "nothing to check"));
+}
+
+BOOST_AUTO_TEST_CASE(a_baseline_is_compared_with_the_new_run_and_never_read_in_its_place) {
+    const TemporaryDirectory directory;
+    const std::string file = (directory.path() / "base.json").string();
+    BOOST_TEST(call(directory, "check free-oscillation --record " + file).exit == 0);
+    BOOST_TEST(call(directory, "check free-oscillation --baseline " + file).exit == 0);
+    // The recorded errors are right, the new run's are not: it is the new run that is judged.
+    const Called changed =
+        call(directory,
+             "check free-oscillation --set beam.zeta=0.0501 --set expect={} --baseline " + file);
+    BOOST_TEST(changed.exit == 1);
+    BOOST_TEST(has(changed.output, "baseline: ladder.theta_L2L2: error at s = 5"));
+    // A run that the baseline has and the new result has not is missed.
+    const Called fewer =
+        call(directory, "check free-oscillation --set 'ladder.elements=[5, 10]' --set expect={} "
+                        "--baseline " +
+                            file);
+    BOOST_TEST(fewer.exit == 1);
+    BOOST_TEST(has(fewer.output, "this run is not made any more"));
+    BOOST_TEST(call(directory, "check heated-end --set expect={} --baseline " + file).exit == 1);
+    BOOST_TEST(
+        call(directory, "check heated-end --baseline " + directory.write("no.json", "{}")).exit ==
+        2);
+}
+
+BOOST_AUTO_TEST_CASE(a_baseline_keeps_figures_and_refuses_what_it_would_lose) {
+    const TemporaryDirectory directory;
+    const std::string file = (directory.path() / "base.json").string();
+    const std::string shorter = "check figure1 --set expect={} --set evolution.final_time=2 ";
+    BOOST_TEST(call(directory, shorter + "--record " + file).exit == 0);
+    BOOST_TEST(has(directory.read("base.json"), "evolution.u@1.greatest"));
+    BOOST_TEST(call(directory, shorter + "--baseline " + file).exit == 0);
+    const Called changed = call(directory, shorter + "--set scheme.time=bdf2 --baseline " + file);
+    BOOST_TEST(changed.exit == 1);
+    BOOST_TEST(has(changed.output, "baseline: evolution.theta@0.5.least"), changed.output);
+    // Two scenes of one name would be one record.
+    const Called twice =
+        call(directory, "check free-oscillation free-oscillation --short --record " + file);
+    BOOST_TEST(twice.exit == 2);
+    BOOST_TEST(has(twice.errors, "is the second scene that is called free-oscillation"));
+    BOOST_TEST(has(directory.read("base.json"), "figure1")); // as it was
+}
+
+BOOST_AUTO_TEST_SUITE_END()

@@ -1,0 +1,327 @@
+// The program as its users call it: exit codes, one message, nothing half written.
+
+#include "tests/command_line/called_program.hpp"
+#include "tests/temporary_directory.hpp"
+
+#include <boost/test/unit_test.hpp>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <sstream>
+
+using namespace tvbeam;
+
+namespace {
+
+const std::string small = "run table1 --set 'ladder.elements=[4,8]' --set ladder.dt=0.1 --set "
+                          "'ladder.dt=[0.1,0.05]' --set 'ladder.printed={}'";
+
+} // namespace
+
+BOOST_AUTO_TEST_SUITE(command_line)
+
+BOOST_AUTO_TEST_CASE(a_run_prints_its_table_and_exits_with_zero) {
+    const TemporaryDirectory directory;
+    const Called called = call(directory, small);
+    BOOST_TEST(called.exit == 0);
+    BOOST_TEST(called.errors.empty(), called.errors);
+    BOOST_TEST(has(called.output, "theta_L2L2_sq"));
+    BOOST_TEST(has(called.output, "ord."));
+    std::istringstream lines(called.output);
+    for (std::string line; std::getline(lines, line);)
+        BOOST_TEST(line.size() <= 82u, line); // 80 columns; é and other letters take two bytes
+}
+
+BOOST_AUTO_TEST_CASE(json_has_the_keys_of_its_schema_and_reads_back_exactly) {
+    const TemporaryDirectory directory;
+    const Called called = call(directory, small + " --json -");
+    BOOST_TEST(called.exit == 0);
+    const auto json = nlohmann::json::parse(called.output);
+    BOOST_TEST(json.at("schema") == "tvbeam-result/1");
+    BOOST_TEST(json.at("scene").at("beam").at("alpha") == 0.017);
+    BOOST_TEST(json.at("left_out").is_array());
+    BOOST_TEST(json.at("provenance").contains("version"));
+    const auto& rungs = json.at("ladder").at("rungs");
+    BOOST_REQUIRE(rungs.size() == 2u);
+    BOOST_TEST(rungs[0].at("elements") == 4);
+    BOOST_TEST(rungs[1].at("steps") == 40);
+    BOOST_TEST(rungs[1].at("status") == "ok");
+    BOOST_TEST(rungs[0].at("orders").at("theta_L2L2_sq").is_null());
+    const double e0 = rungs[0].at("errors").at("theta_L2L2_sq");
+    const double e1 = rungs[1].at("errors").at("theta_L2L2_sq");
+    BOOST_TEST(rungs[1].at("orders").at("theta_L2L2_sq").get<double>() ==
+                   std::log(e0 / e1) / std::log(2.0),
+               boost::test_tools::tolerance(1e-14));
+}
+
+BOOST_AUTO_TEST_CASE(csv_and_json_hold_the_same_doubles) {
+    const TemporaryDirectory directory;
+    const std::string csv = (directory.path() / "t.csv").string();
+    const std::string json_file = (directory.path() / "t.json").string();
+    BOOST_TEST(call(directory, small + " --csv " + csv + " --json " + json_file).exit == 0);
+    const auto json = nlohmann::json::parse(directory.read("t.json"));
+    std::istringstream lines(directory.read("t.csv"));
+    std::string line;
+    std::getline(lines, line);
+    BOOST_TEST(
+        line ==
+        "elements,h,dt,steps,status,theta_L2L2_sq,theta_L2L2_sq_order,theta_L2L2_sq_predicted,"
+        "u_LinfH2semi_sq,u_LinfH2semi_sq_order,u_LinfH2semi_sq_predicted,seconds,reason");
+    for (const auto& rung : json.at("ladder").at("rungs")) {
+        BOOST_REQUIRE(std::getline(lines, line));
+        std::istringstream fields(line);
+        std::string field;
+        for (int i = 0; i < 6; ++i)
+            std::getline(fields, field, ',');
+        BOOST_TEST(std::stod(field) == rung.at("errors").at("theta_L2L2_sq").get<double>());
+    }
+    BOOST_TEST(directory.count() == 2u); // no temporary file is left
+}
+
+BOOST_AUTO_TEST_CASE(two_reports_in_one_file_are_refused) {
+    const TemporaryDirectory directory;
+    const std::string file = (directory.path() / "r").string();
+    BOOST_TEST(call(directory, small + " --json " + file + " --csv " + file).exit == 2);
+    BOOST_TEST(directory.count() == 0u);
+}
+
+BOOST_AUTO_TEST_CASE(a_grid_without_a_ladder_has_a_csv_of_its_own) {
+    const TemporaryDirectory directory;
+    const std::string csv = (directory.path() / "grid.csv").string();
+    const std::string grid =
+        "run table1-orders --set 'orders.elements=[4,8,16]' --set 'orders.dt=[0.1,0.05,0.025]' ";
+    BOOST_TEST(call(directory, grid + "--csv " + csv).exit == 0);
+    BOOST_TEST(
+        has(call(directory, "analyse " + csv + " --error theta_L2L2").output, "a grid of 9 runs"));
+}
+
+BOOST_AUTO_TEST_CASE(bad_input_exits_with_two_says_one_line_and_writes_nothing) {
+    const TemporaryDirectory directory;
+    const std::string out = (directory.path() / "out.json").string();
+    for (const std::string arguments :
+         {"run no-such-scene", "run table1 --set beam.zeta=-1", "run table1 --set beam.zata=1",
+          "run table1 --set 'ladder.elements=[]'", "run table1 --set beam.alpha=1e400",
+          "run table1 --set solution=missing", "derive no-such-solution"}) {
+        const Called called =
+            call(directory, arguments + (arguments.starts_with("run") ? " --json " + out : ""));
+        BOOST_TEST(called.exit == 2, arguments);
+        BOOST_TEST(called.output.empty());
+        BOOST_TEST(called.errors.starts_with("tvbeam: "), called.errors);
+        BOOST_TEST(std::count(called.errors.begin(), called.errors.end(), '\n') == 1,
+                   called.errors);
+        BOOST_TEST(directory.count() == 0u, arguments);
+    }
+}
+
+BOOST_AUTO_TEST_CASE(wrong_usage_exits_with_two) {
+    const TemporaryDirectory directory;
+    for (const std::string arguments : {"", "frobnicate", "run", "run table1 --no-such-option",
+                                        "run table1 table1", "run table1 --json - --csv -"}) {
+        const Called called = call(directory, arguments);
+        BOOST_TEST(called.exit == 2, arguments);
+        BOOST_TEST(!called.errors.empty());
+    }
+    BOOST_TEST(call(directory, "runn table1").errors ==
+               "tvbeam: 'runn': is not a command; did you mean 'run'?; tvbeam --help lists them\n");
+}
+
+BOOST_AUTO_TEST_CASE(a_number_of_jobs_that_is_not_one_is_refused) {
+    const TemporaryDirectory directory;
+    for (const std::string command : {"run", "check"})
+        for (const std::string number : {"0", "-1", "two", "1.5", "99999999999999999999", "''"}) {
+            const Called called = call(directory, command + " table1 --jobs " + number);
+            BOOST_TEST(called.exit == 2, number);
+            BOOST_TEST(called.output.empty());
+            BOOST_TEST(has(called.errors, "--jobs"), called.errors);
+        }
+}
+
+BOOST_AUTO_TEST_CASE(jobs_change_nothing_but_the_seconds) {
+    const TemporaryDirectory directory;
+    const auto without_seconds = [&](const std::string& jobs) {
+        auto json =
+            nlohmann::json::parse(call(directory, small + " --json - --jobs " + jobs).output);
+        for (auto& rung : json.at("ladder").at("rungs"))
+            rung.erase("seconds");
+        for (auto& run : json.at("orders").at("runs"))
+            run.erase("seconds");
+        json.at("provenance").erase("date");
+        return json;
+    };
+    BOOST_TEST(without_seconds("1") == without_seconds("3"));
+}
+
+BOOST_AUTO_TEST_CASE(help_exits_with_zero_and_shows_an_example) {
+    const TemporaryDirectory directory;
+    for (const std::string command : {"run", "check", "analyse", "derive", "list"}) {
+        const Called called = call(directory, command + " --help");
+        BOOST_TEST(called.exit == 0);
+        BOOST_TEST(has(called.output, "Example: tvbeam " + command));
+    }
+    BOOST_TEST(call(directory, "--version").exit == 0);
+}
+
+BOOST_AUTO_TEST_CASE(a_failed_run_exits_with_three_and_keeps_what_was_finished) {
+    // The fixed point contracts by α²Δt/((Δt + ζ)(1 + π²Δt)): 0.5²·0.01/0.11/1.1 at the first step,
+    // but for Δt = 1 and α = 5 it is 25/1.1/10.9 > 1.
+    const TemporaryDirectory directory;
+    const Called called = call(
+        directory,
+        "run table1 --set scheme.algorithm=fixed-point --set beam.alpha=5 --set "
+        "'ladder.elements=[4,4]' --set 'ladder.dt=[1,1e-4]' --set 'ladder.printed={}' --json -");
+    BOOST_TEST(called.exit == 3);
+    const auto json = nlohmann::json::parse(called.output);
+    const auto& rungs = json.at("ladder").at("rungs");
+    BOOST_TEST(rungs[1].at("status") == "ok");
+    BOOST_TEST(rungs[1].at("errors").at("theta_L2L2_sq").is_number());
+    BOOST_TEST(rungs[0].at("status") == "failed");
+    BOOST_TEST(rungs[0].at("errors").at("theta_L2L2_sq").is_null());
+    BOOST_TEST(has(rungs[0].at("reason"), "predicted; use the direct algorithm"));
+    BOOST_TEST(has(called.errors, "a run failed"));
+}
+
+BOOST_AUTO_TEST_CASE(an_overflow_is_said_and_not_printed_as_a_number) {
+    const TemporaryDirectory directory;
+    const Called called = call(directory, small + " --set beam.alpha=1e200");
+    BOOST_TEST(called.exit != 0);
+    BOOST_TEST(!has(called.output, " nan"));
+    BOOST_TEST(has(called.output + called.errors, "finite"));
+}
+
+BOOST_AUTO_TEST_CASE(a_place_that_cannot_be_written_is_said_before_anything_runs) {
+    const TemporaryDirectory directory;
+    const Called called = call(directory, small + " --json /no/such/directory/r.json");
+    BOOST_TEST(called.exit == 3);
+    BOOST_TEST(called.output.empty());
+    BOOST_TEST(has(called.errors, "cannot write '/no/such/directory/r.json'"));
+}
+
+BOOST_AUTO_TEST_CASE(a_device_is_written_to_and_not_replaced) {
+    const TemporaryDirectory directory;
+    const Called called = call(directory, small + " --csv /dev/full");
+    BOOST_TEST(called.exit == 3);
+    BOOST_TEST(has(called.errors, "cannot write '/dev/full'"));
+    BOOST_TEST(std::filesystem::is_character_file("/dev/full"));
+}
+
+BOOST_AUTO_TEST_CASE(standard_output_that_cannot_be_written_is_said) {
+    const TemporaryDirectory directory;
+    const Called called = call(directory, small + " >/dev/full");
+    BOOST_TEST(called.exit == 3);
+    BOOST_TEST(has(called.errors, "cannot write to standard output"));
+}
+
+BOOST_AUTO_TEST_CASE(what_a_stress_study_did_not_measure_is_blank_or_said) {
+    const TemporaryDirectory directory;
+    const Called stopped = call(directory, "run roundoff --set stress.roundoff.alpha=100 --set "
+                                           "'stress.roundoff.elements=[10]'");
+    BOOST_TEST(has(stopped.output, "s = 10: the Hermite form stopped: the fixed-point iteration"),
+               stopped.output);
+
+    // A prime number of elements has no fast transform, hence no sine basis to compare with.
+    directory.write("scene.toml", "[stress.sweep.a]\nelements = [127]\nsteps = 2\n");
+    const Called few = call(directory, "run " + directory.path().string() + "/scene.toml");
+    // Without stops there is no contact either: the row ends with the residual.
+    const auto row = few.output.find("  all         1       0       0      0");
+    BOOST_REQUIRE(row != std::string::npos);
+    std::istringstream line(few.output.substr(row, few.output.find('\n', row) - row));
+    const std::vector<std::string> words{std::istream_iterator<std::string>(line), {}};
+    BOOST_TEST(words.size() == 7U); // all, four outcomes, energy, residual
+    BOOST_TEST(!has(few.output, "penetration:"));
+}
+
+BOOST_AUTO_TEST_CASE(analyse_reads_any_solver_s_errors) {
+    const TemporaryDirectory directory;
+    const std::string rising =
+        directory.write("r.csv", "h,error\n0.1,1e-3\n0.05,2e-3\n0.025,4e-3\n");
+    const Called called = call(directory, "analyse " + rising);
+    BOOST_TEST(called.exit == 0);
+    BOOST_TEST(has(called.output, "-1.000"));
+    BOOST_TEST(has(called.output, "diverging"));
+    // The program's own CSV is such a file.
+    const std::string csv = (directory.path() / "t.csv").string();
+    BOOST_TEST(call(directory, small + " --csv " + csv).exit == 0);
+    BOOST_TEST(has(call(directory, "analyse " + csv + " --error theta_L2L2_sq").output, "order"));
+    BOOST_TEST(call(directory, "analyse " + directory.write("bad.csv", "a,b\n1,2\n")).exit == 2);
+}
+
+BOOST_AUTO_TEST_CASE(the_examples_of_the_readme_run_as_they_stand) {
+    // Its first three TOML blocks are the solution, the scene and the expectations.
+    std::ostringstream readme;
+    readme << std::ifstream(TVBEAM_README).rdbuf();
+    const std::string text = readme.str();
+    std::vector<std::string> blocks;
+    const std::string fence = "```toml\n";
+    for (auto at = text.find(fence); at != std::string::npos; at = text.find(fence, at)) {
+        at += fence.size();
+        blocks.push_back(text.substr(at, text.find("```", at) - at));
+    }
+    BOOST_REQUIRE(blocks.size() >= 3u);
+    const TemporaryDirectory directory;
+    directory.write("mine.toml", blocks[0]);
+    const std::string scene = directory.write("my-scene.toml", blocks[1] + blocks[2]);
+    for (const std::string form : {"", " --short"}) {
+        const Called called = call(directory, "check " + scene + form);
+        BOOST_TEST(called.exit == 0, called.output + called.errors);
+    }
+}
+
+BOOST_AUTO_TEST_CASE(a_work_precision_study_has_json_csv_and_a_baseline_of_its_errors) {
+    const TemporaryDirectory directory;
+    const std::string scene =
+        " table1-work-precision --set work_precision.runs=2 --set "
+        "work_precision.scheme.0.elements=[4,8] "
+        "--set work_precision.scheme.1.elements=[4,8] --set work_precision.scheme.2.elements=[4,8] "
+        "--set work_precision.scheme.3.elements=[4,8] --set expect={} ";
+    const auto json = nlohmann::json::parse(call(directory, "run" + scene + "--json -").output);
+    const auto& schemes = json.at("work_precision").at("schemes");
+    BOOST_REQUIRE(schemes.size() == 4u);
+    BOOST_TEST(schemes[2].at("name") == "BDF2");
+    const auto& row = schemes[2].at("rows").at(1);
+    BOOST_TEST(row.at("elements") == 8);
+    BOOST_TEST(row.at("dt") == 0.25);
+    BOOST_TEST(row.at("status") == "ok");
+    BOOST_TEST(row.at("errors").at("theta_L2L2_sq").get<double>() > 0.0);
+    for (const std::string key : {"min", "median", "q1", "q3"})
+        BOOST_TEST(row.at("seconds").at(key).get<double>() > 0.0);
+    BOOST_TEST(row.at("seconds").at("runs") == 2);
+    BOOST_TEST(row.at("counters").at("steps") == 8);
+    BOOST_TEST(row.at("counters").at("node_steps") == 64);
+    BOOST_TEST(row.at("counters").contains("heat_solves"));
+    BOOST_TEST(row.at("counters").contains("fixed_point_iterations"));
+    const auto& reached = json.at("work_precision").at("time_to_reach").at("theta_L2L2_sq");
+    BOOST_TEST(reached.size() == 9u); // 1e-2 … 1e-9 and the target
+    BOOST_TEST(reached[0].at("seconds").at("BDF2").is_object());
+    BOOST_TEST(reached[7].at("seconds").at("BDF2").is_null());
+    BOOST_TEST(reached[0].at("comparisons")[0].at("ratio").get<double>() >= 1.0);
+
+    std::istringstream csv(call(directory, "run" + scene + "--csv -").output);
+    std::string line;
+    std::getline(csv, line);
+    BOOST_TEST(line == "scheme,elements,h,dt,steps,status,theta_L2L2_sq,u_LinfH2semi_sq,"
+                       "seconds_min,seconds_q1,seconds_median,seconds_q3,runs,node_steps,"
+                       "heat_solves,fixed_point_iterations,reason");
+    std::getline(csv, line);
+    BOOST_TEST(line.starts_with("\"Euler, fixed point\",4,0.25,0.0025,800,ok,"), line);
+
+    const Called printed = call(directory, "run" + scene);
+    BOOST_TEST(has(printed.output, "Seconds to reach an error"));
+    BOOST_TEST(
+        !has(printed.output, "direct algorithm, implicit Euler, lumped heat mass matrix\n\nWork"));
+
+    const std::string file = (directory.path() / "base.json").string();
+    BOOST_TEST(call(directory, "check" + scene + "--record " + file).exit == 0);
+    const std::string recorded = directory.read("base.json");
+    BOOST_TEST(has(recorded, "work_precision.BDF2.theta_L2L2_sq: error at s = 8, dt = 0.25"));
+    BOOST_TEST(!has(recorded, "seconds"));
+    BOOST_TEST(call(directory, "check" + scene + "--baseline " + file).exit == 0);
+    const Called failing =
+        call(directory, "check" + scene + "--set beam.alpha=1e200 --baseline " + file);
+    BOOST_TEST(failing.exit == 3);
+    BOOST_TEST(has(failing.output, "a run failed: "));
+}
+
+BOOST_AUTO_TEST_SUITE_END()

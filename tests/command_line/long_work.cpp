@@ -1,0 +1,202 @@
+// Long work: what is cut short is kept, and goes on; what accompanies it keeps to itself.
+
+#include "tests/command_line/called_program.hpp"
+
+#include <boost/test/data/monomorphic.hpp>
+#include <boost/test/data/test_case.hpp>
+#include <boost/test/unit_test.hpp>
+#include <nlohmann/json.hpp>
+
+using namespace tvbeam;
+namespace data = boost::unit_test::data;
+
+namespace {
+
+/// A ladder of the paper's problem in a file of the directory; how it is run.
+std::string ladder(const TemporaryDirectory& directory, const std::string& elements) {
+    const std::string file =
+        directory.write("ladder.toml", "solution = \"copetti-fernandez-2011\"\n[beam]\n"
+                                       "alpha = 0.017\nzeta = 0.1\nstops = [-0.02, 0.1]\n"
+                                       "[scheme]\nbasis = \"nodal\"\n"
+                                       "[ladder]\nfinal_time = 2.0\nelements = [" +
+                                           elements +
+                                           "]\ndt = \"0.1/s\"\n"
+                                           "norms = [\"theta_L2L2_sq\"]\n");
+    return "run " + file;
+}
+
+/// The last rung takes far longer than a second, those before it no time.
+const std::string many = "10, 20, 40, 20480";
+const std::string few = "4, 8";
+
+} // namespace
+
+BOOST_AUTO_TEST_SUITE(long_work)
+
+// Ctrl-C is SIGINT; a polite kill is SIGTERM.
+BOOST_DATA_TEST_CASE(a_run_that_is_asked_to_end_keeps_what_it_finished, data::make({"INT", "TERM"}),
+                     signal) {
+    const TemporaryDirectory directory;
+    const std::string out = (directory.path() / "out").string();
+    const Called cut = call(directory, ladder(directory, many) + " --out " + out,
+                            std::string("timeout -s ") + signal + " 1 ");
+    BOOST_TEST(cut.exit == 124); // timeout's: it had to send the signal
+    BOOST_TEST(has(cut.errors, "interrupted; the result holds what was finished; --resume"),
+               cut.errors);
+    BOOST_TEST(has(cut.output, "interrupted"), cut.output);
+    const auto json = nlohmann::json::parse(directory.read("out/result.json"));
+    const auto& rungs = json.at("ladder").at("rungs");
+    BOOST_TEST(rungs.at(2).at("status") == "ok");
+    BOOST_TEST(rungs.at(3).at("status") == "interrupted");
+    BOOST_TEST(rungs.at(3).at("errors").at("theta_L2L2_sq").is_null());
+    const auto kept = nlohmann::json::parse(directory.read("out/unfinished.json"));
+    BOOST_TEST(kept.at("runs").at("ladder").size() == 3U);
+    BOOST_TEST(kept.at("runs").at("ladder").at("2").at("errors").at(0) ==
+               rungs.at(2).at("errors").at("theta_L2L2_sq"));
+}
+
+BOOST_AUTO_TEST_CASE(an_attempt_that_was_cut_short_is_neither_lost_nor_mixed_with_another) {
+    const TemporaryDirectory directory;
+    const std::string out = " --out " + (directory.path() / "out").string();
+    call(directory, ladder(directory, many) + out, "timeout -s INT 1 ");
+    const std::string kept = directory.read("out/unfinished.json");
+    const auto refused = [&](const std::string& arguments, const std::string& message) {
+        const Called called = call(directory, arguments);
+        BOOST_TEST(called.exit == 2);
+        BOOST_TEST(has(called.errors, message), called.errors);
+        BOOST_TEST(called.output.empty());
+        BOOST_TEST(directory.read("out/unfinished.json") == kept);
+    };
+    refused(ladder(directory, many) + out, "go on with it by --resume, or remove the file");
+    refused(ladder(directory, few) + out + " --resume", "of another scene");
+    auto empty_entry = nlohmann::ordered_json::parse(kept);
+    empty_entry["runs"]["ladder"]["1"] = nlohmann::ordered_json::object();
+    for (const std::string& wrong : {std::string("{ \"schema\": "), empty_entry.dump()}) {
+        directory.write("out/unfinished.json", wrong);
+        const Called called = call(directory, ladder(directory, many) + out + " --resume");
+        BOOST_TEST(called.exit == 2);
+        BOOST_TEST(has(called.errors, "is not what tvbeam wrote"), called.errors);
+    }
+    // What no result depends on may change.
+    directory.write("out/unfinished.json", kept);
+    const Called renamed =
+        call(directory, ladder(directory, many) + out + " --resume --set title=\"other\"",
+             "timeout -s INT 1 ");
+    BOOST_TEST(has(renamed.errors, "goes on with 3 finished runs"), renamed.errors);
+}
+
+BOOST_AUTO_TEST_CASE(a_run_that_ends_leaves_nothing_unfinished) {
+    const TemporaryDirectory directory;
+    const std::string out = " --out " + (directory.path() / "out").string();
+    BOOST_TEST(call(directory, ladder(directory, few) + out + " --resume").exit == 0);
+    BOOST_TEST(!std::filesystem::exists(directory.path() / "out" / "unfinished.json"));
+    const Called without = call(directory, ladder(directory, few) + " --resume");
+    BOOST_TEST(without.exit == 2);
+    BOOST_TEST(has(without.errors, "--out"), without.errors);
+}
+
+// Two writers in one directory would tear each other's results.
+BOOST_AUTO_TEST_CASE(a_directory_that_another_run_writes_to_is_refused) {
+    const TemporaryDirectory directory;
+    const std::string out = " --quiet --out " + (directory.path() / "out").string();
+    const Called second = call(directory, ladder(directory, many) + out,
+                               "timeout -s INT 2 " TVBEAM_BINARY " " + ladder(directory, many) +
+                                   out + " 2>/dev/null & sleep 0.7; ");
+    BOOST_TEST(second.exit == 3);
+    BOOST_TEST(has(second.errors, "another tvbeam is writing there"), second.errors);
+    call(directory, "--version", "sleep 2; "); // until the first has ended
+    const auto json = nlohmann::json::parse(directory.read("out/result.json"));
+    BOOST_TEST(json.at("interrupted") == true);
+}
+
+// A closed pipe: the files are written all the same.
+BOOST_AUTO_TEST_CASE(results_in_files_do_not_depend_on_standard_output) {
+    const TemporaryDirectory directory;
+    const Called called = call(directory, ladder(directory, few) + " --out " +
+                                              (directory.path() / "out").string() + " >/dev/full");
+    BOOST_TEST(called.exit == 3);
+    BOOST_TEST(has(called.errors, "cannot write to standard output"), called.errors);
+    BOOST_TEST(std::filesystem::exists(directory.path() / "out" / "report.html"));
+    BOOST_TEST(!std::filesystem::exists(directory.path() / "out" / "unfinished.json"));
+}
+
+BOOST_AUTO_TEST_CASE(a_check_that_is_interrupted_reports_the_scenes_before) {
+    const TemporaryDirectory directory;
+    const Called cut = call(
+        directory, "check table1 stress-beam --junit " + (directory.path() / "junit.xml").string(),
+        "timeout -s INT 2 ");
+    BOOST_TEST(cut.exit == 124);
+    BOOST_TEST(has(cut.errors, "interrupted in stress-beam"), cut.errors);
+    BOOST_TEST(!has(cut.output, "FAIL"), cut.output);
+    const std::string junit = directory.read("junit.xml");
+    BOOST_TEST(has(junit, "testsuite name=\"table1\""), junit);
+    BOOST_TEST(has(junit, "it was interrupted"), junit);
+}
+
+BOOST_AUTO_TEST_CASE(names_that_are_empty_are_refused) {
+    const TemporaryDirectory directory;
+    for (const std::string option : {"--out ''", "--csv ''", "--json ''", "--out -"}) {
+        const Called called = call(directory, ladder(directory, few) + " " + option);
+        BOOST_TEST(called.exit == 2, option);
+        BOOST_TEST(called.output.empty(), option);
+    }
+}
+
+BOOST_AUTO_TEST_CASE(quiet_is_silent) {
+    const TemporaryDirectory directory;
+    const Called run = call(directory, ladder(directory, few) + " --quiet");
+    BOOST_TEST(run.exit == 0);
+    BOOST_TEST(run.output.empty());
+    BOOST_TEST(run.errors.empty());
+    const Called check = call(directory, "check figure1 --quiet");
+    BOOST_TEST(check.exit == 0);
+    BOOST_TEST(check.output.empty());
+}
+
+// `script` gives the program a terminal.
+BOOST_AUTO_TEST_CASE(progress_and_colour_are_for_terminals) {
+    const TemporaryDirectory directory;
+    const auto on_a_terminal = [&](const std::string& arguments, const std::string& first) {
+        return call(directory, "--version >/dev/null; " + first +
+                                   "script -qec '" TVBEAM_BINARY " " + arguments + "' /dev/null")
+            .output;
+    };
+    const std::string plain = call(directory, "check figure1").output;
+    BOOST_TEST(!has(plain, "\033["));
+    BOOST_TEST(has(on_a_terminal("check figure1", ""), "\033["));
+    BOOST_TEST(!has(on_a_terminal("check figure1", "NO_COLOR=1 "), "\033["));
+    const std::string cut =
+        "timeout -s INT 2.2 " TVBEAM_BINARY " " + ladder(directory, many) + " --json /dev/null";
+    const std::string shown =
+        call(directory, "--version >/dev/null; script -qec \"" + cut + "\" /dev/null").output;
+    BOOST_TEST(has(shown, " % done"), shown);
+    const std::string quiet =
+        call(directory, "--version >/dev/null; script -qec \"" + cut + " --quiet\" /dev/null")
+            .output;
+    BOOST_TEST(!has(quiet, " % done"), quiet);
+}
+
+BOOST_AUTO_TEST_CASE(completion_knows_every_command_and_option_and_the_shipped_names) {
+    const TemporaryDirectory directory;
+    const std::string script = (directory.path() / "completion").string();
+    BOOST_REQUIRE(call(directory, "completion > " + script).exit == 0);
+    // As bash asks: the words of the line so far, and which one is being typed.
+    const auto completed = [&](const std::string& words, int current) {
+        return call(directory, "--version >/dev/null; tvbeam() { " TVBEAM_BINARY
+                               " \"$@\"; }; bash -c 'export PATH=" +
+                                   std::filesystem::path(TVBEAM_BINARY).parent_path().string() +
+                                   ":$PATH; source " + script + "; COMP_WORDS=(" + words +
+                                   "); COMP_CWORD=" + std::to_string(current) +
+                                   "; _tvbeam; echo ${COMPREPLY[@]}'")
+            .output;
+    };
+    BOOST_TEST(has(completed("tvbeam ana", 1), "analyse"));
+    BOOST_TEST(completed("tvbeam run --re", 2) == "--resume\n");
+    BOOST_TEST(has(completed("tvbeam run figure", 2), "figure1"));
+    BOOST_TEST(has(completed("tvbeam derive impa", 2), "impact"));
+    const std::string help = call(directory, "--help").output;
+    for (const std::string command : {"run", "check", "analyse", "derive", "new", "list"})
+        BOOST_TEST(has(call(directory, command + " --help").output, "Example: "), command);
+}
+
+BOOST_AUTO_TEST_SUITE_END()

@@ -1,0 +1,124 @@
+// What certifies a run from outside: the energy law, the residuals and contact, read from a
+// solver's results.
+
+#include "core/certify/energy_law.hpp"
+#include "core/certify/residuals.hpp"
+#include "core/contact/contact_law.hpp"
+#include "tests/marching.hpp"
+
+#include <boost/test/data/monomorphic.hpp>
+#include <boost/test/data/test_case.hpp>
+#include <boost/test/unit_test.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+using namespace tvbeam;
+namespace data = boost::unit_test::data;
+
+namespace {
+
+/// Loads that swing the tip from one stop to the other, a strong coupling and a heated end.
+const Beam swinging_beam{.alpha = 0.8, .zeta = 0.02, .theta_A = 0.3, .stops = {-0.02, 0.1}};
+
+ProblemData swinging_problem() {
+    return forced_problem(
+        {{[](double t) { return -3.0 * std::sin(9.0 * t); }, {}},
+         {[](double t) { return 40.0 * std::cos(5.0 * t); },
+          [](const Eigen::ArrayXd& x) -> Eigen::ArrayXd { return (3.0 * x).sin(); }}});
+}
+
+/// The worst of each check over a run.
+struct Worst {
+    double energy = 0.0;
+    double heat = 0.0;
+    double beam = 0.0;
+    double contact = 0.0;
+};
+
+/// spoil: changes the record before it is judged.
+Worst worst_of(const Scheme& scheme, const Beam& beam, int elements, double dt, int steps,
+               const std::function<void(SolveRecord&)>& spoil = {}) {
+    const Mesh mesh = Mesh::uniform(elements);
+    const ProblemData problem = swinging_problem();
+    const auto solver = make_solver(beam, problem, mesh, scheme, dt, Needs{true, true, true});
+    SolveRecorder recorder(beam, problem, mesh, *solver, dt, {});
+    EnergyLaw energy(beam, mesh, scheme.thermal_mass);
+    Worst worst;
+    SolveRecord last;
+    solver->observe([&](const Solve& solve) {
+        last = recorder.record(solve);
+        if (spoil)
+            spoil(last);
+        const Residuals residual = residuals(beam, mesh, scheme.thermal_mass, last, 0.0);
+        worst.heat = std::max(worst.heat, residual.heat);
+        worst.beam = std::max(worst.beam, residual.beam);
+        const ContactDefects contact = contact_defects(beam, mesh, last);
+        worst.contact = std::max(
+            {worst.contact, contact.penetration, contact.wrong_sign, contact.complementarity});
+        energy.add(last);
+    });
+    march(*solver, problem, scheme.time, dt, steps, [&](double) {
+        worst.energy = std::max(worst.energy, energy.end_step(recorder, last));
+        recorder.end_step();
+    });
+    return worst;
+}
+
+const std::vector<Scheme> direct_schemes = [] {
+    std::vector<Scheme> direct;
+    std::copy_if(all_schemes.begin(), all_schemes.end(), std::back_inserter(direct),
+                 [](const Scheme& scheme) { return scheme.algorithm == Algorithm::direct; });
+    return direct;
+}();
+
+} // namespace
+
+BOOST_AUTO_TEST_SUITE(energy_law_with_sources)
+
+BOOST_AUTO_TEST_CASE(tableaus_follow_from_the_rows) {
+    // Alexander's SDIRK2: A = [γ, 0; 1 − γ, γ], b = (1 − γ, γ); so m_11 = 2γ(1 − γ) − (1 − γ)² =
+    // −γ² for γ = 1 − 1/√2 (γ² − 2γ + 1/2 = 0), m_12 = 0, m_22 = γ²: not algebraically stable.
+    const double gamma = 1.0 - std::sqrt(0.5);
+    const ButcherTableau tableau = ButcherTableau::of(TimeScheme::named("sdirk2"));
+    const auto close = [](double a, double b) { return std::abs(a - b) <= 1e-15; };
+    BOOST_TEST(close(tableau.a(0, 0), gamma));
+    BOOST_TEST(close(tableau.a(0, 1), 0.0));
+    BOOST_TEST(close(tableau.a(1, 0), 1.0 - gamma));
+    BOOST_TEST(close(tableau.a(1, 1), gamma));
+    const Eigen::MatrixXd m = tableau.algebraic_stability();
+    BOOST_TEST(close(m(0, 0), -gamma * gamma));
+    BOOST_TEST(close(m(0, 1), 0.0));
+    BOOST_TEST(close(m(1, 1), gamma * gamma));
+    // Euler: A = b = m = 1, which makes N = ½‖y^n − y^{n−1}‖².
+    const ButcherTableau euler = ButcherTableau::of(TimeScheme::named("euler"));
+    BOOST_TEST(euler.a(0, 0) == 1.0);
+    BOOST_TEST(euler.algebraic_stability()(0, 0) == 1.0);
+}
+
+BOOST_DATA_TEST_CASE(energy_residuals_and_contact_hold_to_round_off,
+                     data::make(direct_schemes) * data::make({1, 2, 3, 40}) *
+                         data::make({1e-6, 4e-3, 10.0}),
+                     scheme, elements, dt) {
+    const Worst worst = worst_of(scheme, swinging_beam, elements, dt, 60);
+    BOOST_TEST(worst.energy <= 1e-14);
+    // A residual is a sum of a few rounded terms, and the elimination's of a few more.
+    BOOST_TEST(worst.heat <= 16.0);
+    BOOST_TEST(worst.beam <= 16.0);
+    BOOST_TEST(worst.contact <= 1e-15);
+}
+
+BOOST_DATA_TEST_CASE(a_result_wrong_in_the_tenth_digit_is_noticed, data::make(direct_schemes),
+                     scheme) {
+    // 1e-9 of a term is 4.5e6 units of round-off of it; half a dozen terms share the unit.
+    const auto spoilt = [&](const std::function<void(SolveRecord&)>& spoil) {
+        return worst_of(scheme, swinging_beam, 20, 4e-3, 20, spoil);
+    };
+    BOOST_TEST(spoilt([](SolveRecord& r) { r.now.theta *= 1.0 + 1e-9; }).heat > 1e4);
+    BOOST_TEST(spoilt([](SolveRecord& r) { r.now.w *= 1.0 + 1e-9; }).beam > 1e4);
+    BOOST_TEST(spoilt([](SolveRecord& r) { r.heat_load *= 1.0 + 1e-6; }).energy > 1e-12);
+    BOOST_TEST(spoilt([](SolveRecord& r) { r.moment *= 1.0 + 1e-6; }).energy > 1e-12);
+    BOOST_TEST(spoilt([](SolveRecord& r) { r.stress += 1e-9; }).contact > 1e-13);
+}
+
+BOOST_AUTO_TEST_SUITE_END()

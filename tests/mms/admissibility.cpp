@@ -1,0 +1,328 @@
+#include "mms/admissible/admissibility.hpp"
+#include "mms/manufactured_problem.hpp"
+#include "tests/suited_beam.hpp"
+
+#include <boost/test/data/monomorphic.hpp>
+#include <boost/test/data/test_case.hpp>
+#include <boost/test/unit_test.hpp>
+
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <optional>
+#include <ostream>
+#include <string>
+#include <vector>
+
+namespace data = boost::unit_test::data;
+using namespace tvbeam;
+
+namespace {
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+const Beam between_stops = {0.017, 0.1, 0.0, {-0.02, 0.1}};
+const Beam heated = {0.017, 0.1, 0.5, {-0.02, 0.1}};
+const Beam without_stops = {0.017, 0.1, 0.0, {}};
+
+struct Case {
+    std::string document;
+    Beam beam;
+    std::string place;
+    std::vector<std::string> message; ///< parts of it; none: the solution is admissible
+};
+
+std::ostream& operator<<(std::ostream& stream, const Case& c) {
+    return stream << c.document;
+}
+
+std::string solution(const std::string& theta, const std::string& u,
+                     const std::string& sigma = "0") {
+    return "theta = \"" + theta + "\"\nu = \"" + u + "\"\nsigma = \"" + sigma + "\"\n";
+}
+
+/// Two phases that meet at t = 1.
+std::string phases(const std::string& before, const std::string& after) {
+    return "[[phase]]\nuntil = 1\n" + before + "[[phase]]\n" + after;
+}
+
+const std::string sine = "theta = \"sin(pi*x)\"\n";
+
+const std::vector<Case> cases = {
+    // (5)
+    {solution("sin(pi*x)", "x^2*t/100 + t/1000"),
+     between_stops,
+     "2:6",
+     {"(5): u(0,t) is", "at t = 0.0078125", "it must be 0", "x^2"}},
+    {solution("sin(pi*x)", "x*t/100"),
+     between_stops,
+     "2:6",
+     {"(5): u_x(0,t) is", "at t = 0.0078125", "it must be 0", "x^2"}},
+    {solution("sin(pi*x)", "x^2*(sin(t)^2 + cos(t)^2 - 1 + t)/100"), between_stops, "", {}},
+    // The clamped end holds by cos² + sin² = 1, which is not expanded to zero: the numerical check.
+    {solution("sin(pi*x)", "(x + sin(t)^2 + cos(t)^2 - 1)^2/100"), between_stops, "", {}},
+    {solution("sin(pi*x)", "(x + sin(t)^2 + cos(t)^2 - 1)^2/100 + 1e-9"),
+     between_stops,
+     "2:6",
+     {"(5): u(0,t) is", "at t = 0;"}},
+    // (10)
+    {solution("cos(pi*x)", "0"),
+     between_stops,
+     "1:10",
+     {"(10): theta(0,t) is 1 at t = 0", "it must be 0 = theta_A"}},
+    {solution("sin(pi*x)", "0"),
+     heated,
+     "1:10",
+     {"(10): theta(0,t) is 0 at t = 0", "it must be 0.5", "theta_A*(1 - x)"}},
+    {solution("theta_A*(1-x) + sin(pi*x)", "0"), heated, "", {}},
+    {solution("t*x", "0"),
+     between_stops,
+     "1:10",
+     {"(10): theta(1,t) is 0.0078125 at t = 0.0078125", "it must be 0"}},
+    // (6): the tip is at t/10 - 0.05.
+    {solution("0", "x^2*(t/10 - 0.05)"),
+     between_stops,
+     "2:6",
+     {"(6): u(1,t) is -0.05 at t = 0;", "at least g1 = -0.02"}},
+    {solution("0", "x^2*t/10"),
+     between_stops,
+     "2:6",
+     {"(6): u(1,t) is 0.100781 at t = 1.00781;", "at most g2 = 0.1"}},
+    {solution("0", "x^2*t/10"), {0.0, 0.0, 0.0, {-0.02, infinite}}, "", {}},
+    {solution("0", "x^2*(t - 1)"), {0.0, 0.0, 0.0, {-infinite, 1.0}}, "", {}},
+    {solution("0", "x^2*g2"), between_stops, "", {}},
+    // (7)
+    {solution("0", "x^2*t/100", "-t"),
+     between_stops,
+     "3:10",
+     {"(7): sigma(1,t) is -0.0078125 at t = 0.0078125, where u(1,t) is 7.8125e-05", "it must be 0",
+      "set sigma to 0"}},
+    {solution("0", "x^2*t/100", "-t"),
+     without_stops,
+     "3:10",
+     {"(7): sigma(1,t) is -0.0078125 at t = 0.0078125", "no stops"}},
+    // (8)
+    {solution("0", "x^2*g2", "t"),
+     between_stops,
+     "3:10",
+     {"(8): sigma(1,t) is 0.0078125 at t = 0.0078125, where u(1,t) is 0.1",
+      "at most 0 at the stop g2"}},
+    {solution("0", "x^2*g1", "-t"),
+     between_stops,
+     "3:10",
+     {"(8): sigma(1,t) is -0.0078125 at t = 0.0078125, where u(1,t) is -0.02",
+      "at least 0 at the stop g1"}},
+    {solution("0", "x^2*g2", "-t"), between_stops, "", {}},
+    {solution("0", "x^2*g1", "t"), between_stops, "", {}},
+    // A stop that is not there.
+    {solution("0", "x^2*g2"), without_stops, "2:10", {"'g2' is used, but the beam has no stop"}},
+    {solution("g1*x*(1-x)", "0"), {0.0, 0.0, 0.0, {-infinite, 0.1}}, "1:10", {"'g1' is used"}},
+    {solution("0", "0", "g2 - g2"), without_stops, "3:10", {"'g2' is used"}},
+    // Continuity.
+    {phases("theta = \"sin(pi*x)\"\nu = 0\n", "theta = \"2*sin(pi*x)\"\nu = 0\n"),
+     between_stops,
+     "6:10",
+     {"(1): theta jumps by 1 at t = 1, x = 0.5"}},
+    {sine + phases("u = \"x^2*t/100\"\n", "u = \"x^2/50\"\n"),
+     between_stops,
+     "6:6",
+     {"(3): u jumps by 0.01 at t = 1, x = 1"}},
+    {sine + phases("u = \"x^2*t/100\"\n", "u = \"x^2/100\"\n"), between_stops, "", {}},
+    // A bump of the curvature that is invisible in u to 1e-12 of it.
+    {sine + phases("u = \"x^2/100\"\n", "u = \"x^2/100 + 1e-16*sin(pi*x*64)^2/64\"\n"),
+     between_stops,
+     "6:6",
+     {"(3): u_xx jumps by", "at t = 1"}},
+    // The jump is at a time after the last one.
+    {sine + "[[phase]]\nuntil = 2\nu = 0\n[[phase]]\nu = \"x^2\"\n", between_stops, "", {}},
+    {sine + "[[phase]]\nuntil = 5\nu = 0\n[[phase]]\nu = \"x\"\n", between_stops, "", {}},
+    // Finite values.
+    {solution("exp(exp(10*t))*sin(pi*x)", "0"),
+     between_stops,
+     "1:10",
+     {"theta is not finite at x = 0, t = 0.6875 (it is nan)"}},
+    {solution("sin(pi*x)", "x^2*log(1 - t)"),
+     without_stops,
+     "2:6",
+     {"u is not finite at x = 0, t = 1"}},
+    {solution("sin(pi*x)*sqrt(t)", "0"),
+     between_stops,
+     "1:10",
+     {"a derivative of theta is not finite at x = 0, t = 0"}},
+    {solution("sin(pi*x)", "x^(5/2)/100"),
+     without_stops,
+     "2:6",
+     {"a derivative of u is not finite at x = 0, t = 0"}},
+    {solution("x*log(x)", "0"), between_stops, "1:10", {"theta is not finite at x = 0, t = 0"}},
+    {solution("0", "x^2*g2", "-1/t"),
+     between_stops,
+     "3:10",
+     {"sigma is not finite at x = 0, t = 0"}},
+    {solution("sin(pi*x)*1e400", "0"), between_stops, "1:10", {"beyond the range"}},
+    {solution("sin(pi*x)", "x^2/alpha"),
+     {0.0, 0.0, 0.0, {-1.0, 1.0}},
+     "2:6",
+     {"u has no value with this beam's numbers: division by zero"}},
+    {solution("2^(x*10^10)*(1-x)*x", "0"), between_stops, "1:10", {"constant exponent"}},
+};
+
+/// A wrong solution, the whole message that it is refused with, and what the message advises.
+struct Repair {
+    std::string wrong;
+    Beam beam;
+    std::string message;
+    std::string repaired;
+    std::optional<Beam> repaired_beam = std::nullopt; ///< none: the same beam
+};
+
+std::ostream& operator<<(std::ostream& stream, const Repair& r) {
+    return stream << r.wrong;
+}
+
+const std::vector<Repair> repairs = {
+    // (5): what u has too much of at x = 0.
+    {solution("0", "x^2/100 + t/1000"), between_stops,
+     "2:6: (5): u(0,t) is 7.8125e-06 at t = 0.0078125; it must be 0 at the clamped end: subtract "
+     "t/1000 from u, or give u a factor x^2",
+     solution("0", "x^2/100 + t/1000 - t/1000")},
+    {solution("0", "sin(x*t)/100"), between_stops,
+     "2:6: (5): u_x(0,t) is 7.8125e-05 at t = 0.0078125; it must be 0 at the clamped end: subtract "
+     "t*x/100 from u, or give u a factor x^2",
+     solution("0", "sin(x*t)/100 - t*x/100")},
+    // (10), either end.
+    {solution("cos(pi*x/2)*t", "0"), heated,
+     "1:10: (10): theta(0,t) is 0 at t = 0; it must be 0.5 = theta_A: add (2*t - 1)*(x - 1)/2 to "
+     "theta",
+     solution("cos(pi*x/2)*t + (t - 1/2)*(x - 1)", "0")},
+    {solution("sin(pi*x)", "0"), heated,
+     "1:10: (10): theta(0,t) is 0 at t = 0; it must be 0.5 = theta_A: add theta_A*(1 - x) to theta",
+     solution("sin(pi*x) + theta_A*(1 - x)", "0")},
+    {solution("sin(3*pi*x/2)*exp(-t)", "0"), between_stops,
+     "1:10: (10): theta(1,t) is -1 at t = 0; it must be 0: add exp(-t)*x to theta",
+     solution("sin(3*pi*x/2)*exp(-t) + exp(-t)*x", "0")},
+    // (6): 0.1/0.15 = 0.66666…, rounded so that the stop is kept.
+    {solution("0", "x^2*sin(pi*t/2)*0.15"), between_stops,
+     "2:6: (6): u(1,t) is 0.100734 at t = 0.46875; it must be at most g2 = 0.1; it is greatest, "
+     "0.15, at t = 1: multiply u by 0.6666, or move g2 to 0.15",
+     solution("0", "0.6666*x^2*sin(pi*t/2)*0.15")},
+    {solution("0", "x^2*(sin(pi*t/2)*0.15 - 0.05)"), between_stops,
+     "2:6: (6): u(1,t) is -0.05 at t = 0; it must be at least g1 = -0.02; it is least, -0.05, at t "
+     "= 0: multiply u by 0.4, or move g1 to -0.05",
+     solution("0", "x^2*(sin(pi*t/2)*0.15 - 0.05)"), Beam{0.017, 0.1, 0.0, {-0.05, 0.1}}},
+    // Pressed against g2 in the second phase: what is made smaller there would come off the stop.
+    {phases("theta = 0\nu = \"x^2*g2*(1 + t*(1 - t))\"\n",
+            "theta = 0\nu = \"x^2*g2\"\nsigma = \"1 - t\"\n"),
+     between_stops,
+     "4:6: (6): u(1,t) is 0.100389 at t = 0.00390625; it must be at most g2 = 0.1; it is greatest, "
+     "0.125, at t = 0.5: change u(1,t) by -0.025 there; (3*x^2 - x^3)/2 is a deflection that is 1 "
+     "at the tip",
+     phases("theta = 0\nu = \"x^2*g2*(1 + t*(1 - t)) - g2*t*(1 - t)*(3*x^2 - x^3)/2\"\n",
+            "theta = 0\nu = \"x^2*g2\"\nsigma = \"1 - t\"\n")},
+    // (7): a force on a tip that is free.
+    {solution("0", "x^2*t/100", "-t"), between_stops,
+     "3:10: (7): sigma(1,t) is -0.0078125 at t = 0.0078125, where u(1,t) is 7.8125e-05; it must be "
+     "0 strictly between the stops: set sigma to 0 in this phase, or bring the tip to g1, "
+     "0.0200781 away",
+     solution("0", "x^2*t/100", "0")},
+    {solution("0", "x^2*t/100", "-t"), without_stops,
+     "3:10: (7): sigma(1,t) is -0.0078125 at t = 0.0078125, where u(1,t) is 7.8125e-05; it must be "
+     "0, as the beam has no stops; leave sigma out or give the beam stops",
+     solution("0", "x^2*t/100")},
+    // (8): the wrong sign all the time, and from a time on.
+    {solution("0", "x^2*g2", "exp(t)"), between_stops,
+     "3:10: (8): sigma(1,t) is 1 at t = 0, where u(1,t) is 0.1; it must be at most 0 at the stop "
+     "g2: change its sign, sigma = \"-(exp(t))\"",
+     solution("0", "x^2*g2", "-(exp(t))")},
+    {solution("0", "x^2*g1", "3/2 - t"), between_stops,
+     "3:10: (8): sigma(1,t) is -0.0078125 at t = 1.50781, where u(1,t) is -0.02; it must be at "
+     "least 0 at the stop g1: it changes its sign at t = 1.5; end the phase there",
+     "theta = 0\nu = \"x^2*g1\"\n[[phase]]\nuntil = 1.5\nsigma = \"3/2 - t\"\n[[phase]]\n"},
+    {solution("0", "x^2*g2", "1/2 - t"), between_stops,
+     "3:10: (8): sigma(1,t) is 0.5 at t = 0, where u(1,t) is 0.1; it must be at most 0 at the stop "
+     "g2: it changes its sign at t = 0.5; begin the contact there",
+     "theta = 0\nu = \"x^2*g2\"\n[[phase]]\nuntil = 0.5\n[[phase]]\nsigma = \"1/2 - t\"\n"},
+    // Phases that do not meet: by how much, in which term, and where they would.
+    {sine + phases("u = \"x^2*t/100\"\n", "u = \"x^2*(1/50 - (t - 2)^2/1000)\"\n"), between_stops,
+     "6:6: (3): u jumps by 0.009 at t = 1, x = 1; it must be continuous: subtract 9*x^2/1000 from "
+     "u of the later phase, or move until to 2, where the phases meet",
+     sine + phases("u = \"x^2*t/100\"\n", "u = \"x^2*(1/50 - (t - 2)^2/1000) - 9*x^2/1000\"\n")},
+    {phases("theta = \"sin(pi*x)\"\nu = 0\n",
+            "theta = \"t*sin(pi*x) + exp(-t)*x*(1 - x)\"\nu = 0\n"),
+     between_stops,
+     "6:10: (1): theta jumps by 0.0919699 at t = 1, x = 0.5; it must be continuous: add "
+     "exp(-1)*x*(x - 1) to theta of the later phase",
+     phases("theta = \"sin(pi*x)\"\nu = 0\n",
+            "theta = \"t*sin(pi*x) + exp(-t)*x*(1 - x) + exp(-1)*x*(x - 1)\"\nu = 0\n")},
+    // No finite value.
+    {solution("sin(pi*x)", "x^2*log(1 - t)"), without_stops,
+     "2:6: u is not finite at x = 0, t = 1 (it is nan); write it so that it and its derivatives "
+     "exist everywhere on [0, 1] x [0, 2], or end the run before that time",
+     solution("sin(pi*x)", "x^2*log(1 + t)")},
+    // A stop that the beam does not have.
+    {solution("0", "x^2*g2"), without_stops,
+     "2:10: 'g2' is used, but the beam has no stop on that side; give the beam the stop, or use a "
+     "parameter of your own",
+     solution("0", "x^2*g2"), between_stops},
+};
+
+std::vector<std::string> shipped() {
+    std::vector<std::string> paths;
+    for (const auto& entry : std::filesystem::directory_iterator(TVBEAM_SOLUTIONS_DIR))
+        paths.push_back(entry.path().string());
+    return paths;
+}
+
+} // namespace
+
+BOOST_AUTO_TEST_SUITE(mms_admissibility)
+
+BOOST_DATA_TEST_CASE(a_broken_rule_is_named_with_equation_time_and_place, data::make(cases)) {
+    const Solution parsed = parse_solution(sample.document, "my.toml");
+    if (sample.message.empty()) {
+        BOOST_CHECK_NO_THROW(require_admissible(parsed, sample.beam, 2.0));
+        return;
+    }
+    BOOST_CHECK_EXCEPTION(
+        require_admissible(parsed, sample.beam, 2.0), InputError, [&](const InputError& error) {
+            const std::string what = error.what();
+            const std::string place = "my.toml:" + sample.place + ": ";
+            BOOST_TEST_INFO(what);
+            BOOST_TEST(what.substr(0, place.size()) == place);
+            for (const std::string& part : sample.message)
+                BOOST_TEST(what.find(part) != std::string::npos, part << " in " << what);
+            return true;
+        });
+    BOOST_CHECK_THROW(manufactured_problem(parsed, sample.beam, 2.0), InputError);
+}
+
+BOOST_DATA_TEST_CASE(shipped_solutions_are_admissible_for_any_material,
+                     data::make(shipped()) * data::make({0.0, 0.017, 1e3}) *
+                         data::make({0.0, 0.1, 1e4}),
+                     path, alpha, zeta) {
+    const Solution parsed = read_solution(path);
+    for (const double theta_A : {-3.0, 0.0, 1e3})
+        BOOST_CHECK_NO_THROW(
+            require_admissible(parsed, suited({alpha, zeta, theta_A, {-0.02, 0.1}}, parsed), 2.0));
+}
+
+BOOST_DATA_TEST_CASE(a_wrong_solution_is_told_the_nearest_repair, data::make(repairs)) {
+    BOOST_CHECK_EXCEPTION(
+        require_admissible(parse_solution(sample.wrong, "my.toml"), sample.beam, 2.0), InputError,
+        [&](const InputError& error) {
+            BOOST_TEST(std::string(error.what()) == "my.toml:" + sample.message);
+            return true;
+        });
+    // And it is one: who does as told has an admissible solution.
+    BOOST_CHECK_NO_THROW(require_admissible(parse_solution(sample.repaired, "my.toml"),
+                                            sample.repaired_beam.value_or(sample.beam), 2.0));
+}
+
+BOOST_AUTO_TEST_CASE(beams_and_times_must_be_finite) {
+    const Solution parsed = parse_solution(solution("sin(pi*x)", "0"), "my.toml");
+    BOOST_CHECK_THROW(require_admissible(parsed, between_stops, 0.0), InputError);
+    BOOST_CHECK_THROW(require_admissible(parsed, between_stops, infinite), InputError);
+    BOOST_CHECK_THROW(require_admissible(parsed, between_stops, std::nan("")), InputError);
+    BOOST_CHECK_THROW(require_admissible(parsed, {std::nan(""), 0.0, 0.0, {}}, 1.0), InputError);
+    BOOST_CHECK_THROW(require_admissible(parsed, {0.0, infinite, 0.0, {}}, 1.0), InputError);
+}
+
+BOOST_AUTO_TEST_SUITE_END()

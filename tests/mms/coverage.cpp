@@ -1,0 +1,220 @@
+// What a solution tests, and what the discrete equations make of it, before anything is run.
+
+#include "mms/coverage.hpp"
+#include "core/time/time_scheme.hpp"
+#include "mms/admissible/consistency.hpp"
+#include "mms/expected_orders.hpp"
+#include "tests/suited_beam.hpp"
+
+#include <boost/test/data/monomorphic.hpp>
+#include <boost/test/data/test_case.hpp>
+#include <boost/test/unit_test.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace data = boost::unit_test::data;
+using namespace tvbeam;
+
+namespace {
+
+const Beam coupled = {0.4, 0.15, 0.8, {-0.02, 0.1}};
+
+std::vector<std::string> shipped() {
+    std::vector<std::string> names;
+    for (const auto& entry : std::filesystem::directory_iterator(TVBEAM_SOLUTIONS_DIR))
+        names.push_back(entry.path().stem().string());
+    return names;
+}
+
+Solution shipped_solution(const std::string& name) {
+    return read_solution(std::string(TVBEAM_SOLUTIONS_DIR "/") + name + ".toml");
+}
+
+/// The use of one term; equation and term begin as given.
+TermUse use(const std::vector<TermUse>& terms, const std::string& equation,
+            const std::string& term) {
+    const auto found = std::find_if(terms.begin(), terms.end(), [&](const TermUse& candidate) {
+        return candidate.equation == equation && candidate.term == term;
+    });
+    BOOST_REQUIRE_MESSAGE(found != terms.end(), equation << " " << term);
+    return *found;
+}
+
+void check_unused(const std::vector<TermUse>& terms, const std::string& equation,
+                  const std::string& term, const std::string& why_not) {
+    const TermUse found = use(terms, equation, term);
+    BOOST_TEST(!found.is_exercised(), equation << " " << term);
+    BOOST_TEST(found.why_not == why_not);
+}
+
+bool is_smooth(const std::string& name) {
+    return shipped_solution(name).phases.size() == 1;
+}
+
+std::vector<std::string> smooth() {
+    std::vector<std::string> names = shipped();
+    std::erase_if(names, [](const std::string& name) { return !is_smooth(name); });
+    return names;
+}
+
+} // namespace
+
+BOOST_AUTO_TEST_SUITE(mms_coverage)
+
+// θ̃ = t x (1 − x), u = x² t/100: each size is the largest of a polynomial on [0,1] × [0,2].
+BOOST_AUTO_TEST_CASE(sizes_of_terms_are_those_of_their_formulas) {
+    const auto terms =
+        coverage(parse_solution("theta = 't*x*(1 - x)'\nu = 'x^2*t/100'\n", "my.toml"),
+                 {0.4, 0.15, 0.0, {-0.02, 0.1}}, 2.0);
+    const auto close = boost::test_tools::tolerance(1e-12);
+    BOOST_TEST(use(terms, "(1)", "theta_t").largest == 0.25, close); // at x = 1/2
+    BOOST_TEST(use(terms, "(1)", "theta_xx").largest == 4.0, close); // 2 t
+    BOOST_TEST(use(terms, "(1)", "alpha*u_xxt").largest == 0.4 * 0.02, close);
+    BOOST_TEST(use(terms, "(3)", "alpha*theta_x").largest == 0.4 * 2.0, close); // t (1 − 2x)
+    BOOST_TEST(use(terms, "(9)", "an end moment m").largest == 0.04 + 0.15 * 0.02, close);
+    check_unused(terms, "(3)", "u_xxx", "u is quadratic in x");
+    check_unused(terms, "(3)", "zeta*u_xxxt", "u_xxxt is zero");
+    check_unused(terms, "(2)", "a body force q", "sigma does not depend on x");
+    check_unused(terms, "(8)", "a force at the stop g1", "the tip never reaches g1");
+    check_unused(terms, "(10)", "an end temperature theta_A", "theta_A = 0");
+    check_unused(terms, "t = 0", "an initial temperature", "theta0 is zero");
+}
+
+BOOST_AUTO_TEST_CASE(cases_of_contact_are_told_apart) {
+    const auto on = [&](const std::string& name, const Beam& beam) {
+        const Solution solution = shipped_solution(name);
+        return coverage(solution, suited(beam, solution), 2.0);
+    };
+    const auto touching = on("touch-without-force", coupled);
+    check_unused(touching, "(8)", "a force at the stop g2", "the tip touches g2 without a force");
+    BOOST_TEST(use(touching, "(6)(7)", "a free tip between stops").is_exercised());
+    const auto pressed = on("pressed-front", coupled);
+    check_unused(pressed, "(6)(7)", "a free tip between stops",
+                 "the tip is on a stop all the time");
+    BOOST_TEST(use(pressed, "(8)", "a force at the stop g1").largest == 3.0); // 1 + t
+    const auto released = on("released-from-g2", coupled);
+    BOOST_TEST(use(released, "(8)", "a force at the stop g2").largest == 0.5625); // (3/4)²
+    const auto unstopped = on("free-oscillation", {0.4, 0.15, 0.0, {}});
+    check_unused(unstopped, "(6)(7)", "a free tip between stops", "the beam has no stops");
+    check_unused(unstopped, "(8)", "a force at the stop g2", "there is no stop g2");
+}
+
+// The shipped solutions together leave nothing untested.
+BOOST_AUTO_TEST_CASE(every_term_is_exercised_by_some_shipped_solution) {
+    std::vector<TermUse> all;
+    for (const std::string& name : shipped()) {
+        const Solution solution = shipped_solution(name);
+        const auto terms = coverage(solution, suited(coupled, solution), 2.0);
+        if (all.empty())
+            all = terms;
+        for (std::size_t i = 0; i < terms.size(); ++i)
+            all[i].largest = std::max(all[i].largest, terms[i].largest);
+    }
+    for (const TermUse& term : all)
+        BOOST_TEST(term.is_exercised(), term.equation << " " << term.term);
+}
+
+// Interpolation and projection have the order 2, unless the spaces hold the solution; a wrong load
+// would leave a residual that no refinement takes away.
+BOOST_DATA_TEST_CASE(space_residuals_have_order_two_or_vanish,
+                     data::make(shipped()) * data::make({false, true}), name, lumped) {
+    const ThermalMass mass = lumped ? ThermalMass::lumped : ThermalMass::consistent;
+    const Solution solution = shipped_solution(name);
+    const Beam beam = suited(coupled, solution);
+    const ExpectedOrders expected = expected_orders(solution, beam, 2.0);
+    const auto residuals = space_residuals(solution, beam, 2.0, mass, {64, 128});
+    const Residual& finest = residuals.back();
+    BOOST_TEST((finest.heat == 0.0) == expected.theta_is_exact, finest.heat);
+    BOOST_TEST((finest.beam == 0.0) == expected.theta_is_exact, finest.beam);
+    if (expected.theta_is_exact)
+        return;
+    BOOST_TEST(std::abs(finest.heat_order.value() - 2.0) < 0.03, *finest.heat_order);
+    BOOST_TEST(std::abs(finest.beam_order.value() - 2.0) < 0.03, *finest.beam_order);
+}
+
+BOOST_DATA_TEST_CASE(time_residuals_have_the_order_of_the_scheme,
+                     data::make(smooth()) * data::make(TimeScheme::names()), name, scheme) {
+    const Solution solution = shipped_solution(name);
+    const Beam beam = suited(coupled, solution);
+    // The layer e^(−1000 t) must be resolved.
+    const double final_time = name == "stiff-layer" ? 0.01 : 2.0;
+    const auto residuals = time_residuals(solution, beam, final_time, scheme, {256, 512});
+    const int order = TimeScheme::named(scheme).order;
+    // exp(−π² t) has next terms of about one part in fifteen at these steps.
+    constexpr double tolerance = 0.08;
+    BOOST_TEST(std::abs(residuals.back().heat_order.value() - order) < tolerance,
+               *residuals.back().heat_order);
+    // Over so short a time the deflection hardly moves: its residual is rounding.
+    if (name == "stiff-layer")
+        return;
+    BOOST_TEST(std::abs(residuals.back().beam_order.value() - order) < tolerance,
+               *residuals.back().beam_order);
+}
+
+// u_xxt jumps by 0.3 at t = 1: BDF2 sees half of it in the step behind a time level, however small.
+BOOST_AUTO_TEST_CASE(a_jump_leaves_a_residual_in_schemes_that_look_across_it) {
+    const Solution solution = shipped_solution("impact");
+    const Beam beam = suited(coupled, solution);
+    const auto back = time_residuals(solution, beam, 2.0, "bdf2", {256, 512});
+    BOOST_TEST(std::abs(back.back().beam_order.value()) < 0.05);
+    const auto across = time_residuals(solution, beam, 2.0, "sdirk2", {255, 511});
+    BOOST_TEST(std::abs(across.back().beam_order.value()) < 0.05);
+    const auto level = time_residuals(solution, beam, 2.0, "sdirk2", {256, 512});
+    BOOST_TEST(std::abs(level.back().beam_order.value() - 2.0) < 0.05);
+    const auto switches = expected_orders(solution, beam, 2.0).switches;
+    BOOST_REQUIRE(switches.size() == 1U);
+    BOOST_TEST(switches[0].t == 1.0);
+    // g2 times the largest curvature of (3 x² − x³)/2, which is 3.
+    BOOST_TEST(switches[0].u_xxt_jump == 0.3, boost::test_tools::tolerance(1e-12));
+    BOOST_TEST(switches[0].theta_t_jump == 0.0);
+    BOOST_TEST(expected_orders(solution, beam, 1.0).switches.empty());
+}
+
+BOOST_AUTO_TEST_CASE(a_solution_linear_in_time_has_no_time_residual) {
+    const Solution solution = parse_solution("theta = 'x*(1 - x)*t'\nu = 'x^2*t/100'\n", "my.toml");
+    const Beam beam = {0.4, 0.15, 0.0, {}};
+    const ExpectedOrders expected = expected_orders(solution, beam, 1.0);
+    BOOST_TEST(!expected.theta_has_time_error);
+    BOOST_TEST(!expected.u_has_time_error);
+    for (const auto& scheme : TimeScheme::names()) {
+        const auto residuals = time_residuals(solution, beam, 1.0, scheme, {16, 32});
+        BOOST_TEST(residuals.back().heat == 0.0);
+        BOOST_TEST(residuals.back().beam == 0.0);
+    }
+}
+
+// Without coupling each equation has the time error of what it differences itself: the heat
+// equation of theta, the beam equation, if zeta is not 0, of u_xx.
+BOOST_AUTO_TEST_CASE(a_time_error_is_forecast_where_a_residual_is) {
+    for (const std::string theta : {"t", "t^2"})
+        for (const std::string u : {"t", "t^2"})
+            for (const double alpha : {0.0, 0.4})
+                for (const double zeta : {0.0, 0.15}) {
+                    const Solution solution = parse_solution(
+                        "theta = 'sin(pi*x)*" + theta + "'\nu = 'x^2*" + u + "/100'\n", "my.toml");
+                    const Beam beam{alpha, zeta, 0.0, {}};
+                    const ExpectedOrders expected = expected_orders(solution, beam, 1.0);
+                    const Residual residual =
+                        time_residuals(solution, beam, 1.0, "euler", {16, 32}).back();
+                    const bool heat = residual.heat > 0.0;
+                    const bool bending = residual.beam > 0.0;
+                    BOOST_TEST_CONTEXT(theta << ", " << u << ", " << alpha << ", " << zeta) {
+                        // The coupling passes an error on.
+                        BOOST_TEST(expected.theta_has_time_error ==
+                                   (heat || (alpha != 0.0 && bending)));
+                        BOOST_TEST(expected.u_has_time_error ==
+                                   (bending || (alpha != 0.0 && heat)));
+                        for (const ExpectedOrder& order : expected.orders)
+                            BOOST_TEST(order.euler.has_value() ==
+                                       (order.norm.starts_with("theta")
+                                            ? expected.theta_has_time_error
+                                            : expected.u_has_time_error));
+                    }
+                }
+}
+
+BOOST_AUTO_TEST_SUITE_END()

@@ -1,0 +1,202 @@
+#include "mms/expression/algebra.hpp"
+#include "mms/expression/expression_parser.hpp"
+#include "mms/expression/numeric_value.hpp"
+#include "mms/expression/symbols.hpp"
+#include "mms/expression/tape_compiler.hpp"
+
+#include <boost/test/data/monomorphic.hpp>
+#include <boost/test/data/test_case.hpp>
+#include <boost/test/unit_test.hpp>
+
+#include <cmath>
+#include <random>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace data = boost::unit_test::data;
+using Eigen::ArrayXd;
+using namespace tvbeam;
+
+namespace {
+
+GiNaC::ex parsed(const std::string& text) {
+    return parse_expression(SourceText(text, {"file", 1, 1}), model_symbol_table());
+}
+
+ArrayXd random_array(Eigen::Index size, double low, double high, unsigned seed) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> uniform(low, high);
+    return ArrayXd::NullaryExpr(size, [&](Eigen::Index) { return uniform(random); });
+}
+
+/// The value by GiNaC in 30 digits.
+double evaluated(const GiNaC::ex& expression, double x, double t) {
+    const long digits = GiNaC::Digits;
+    GiNaC::Digits = 30;
+    const GiNaC::ex value = expression
+                                .subs({{model_symbols().x, GiNaC::ex(exact_rational(x)).evalf()},
+                                       {model_symbols().t, GiNaC::ex(exact_rational(t)).evalf()}})
+                                .evalf();
+    const double result = GiNaC::ex_to<GiNaC::numeric>(value).to_double();
+    GiNaC::Digits = digits;
+    return result;
+}
+
+const std::vector<std::string> formulas = {
+    "x",
+    "t",
+    "7/3",
+    "pi^2*sqrt(2)",
+    "exp(t)*sin(pi*x)",
+    "-3*(x^3/6 - x^2/2)*(sqrt(2)*t - t^2/2)/10",
+    "(x-1)^10",
+    "(1-x)^2 + 2*(t-x)^4",
+    "(1-x)^3 - (x-t)^3 + (x-1)^2",
+    "x^7 + x^-3 + 1/x",
+    "1/(1+x)^3/(2+t)^2",
+    "t/(1+x)",
+    "-x-t-1",
+    "-x*t",
+    "(1+x*t)^(3/2) + sqrt(x) + 1/sqrt(t)",
+    "(1+x)^t + 2^x + t^(1/3)",
+    "tan(x) + asin(x/2) + acos(x/2) + atan(t)",
+    "sinh(x) + cosh(t) + tanh(x*t) + log(1+x) + cos(t)",
+    "tanh(5*(x-1/4-t/4)) + sin(pi*x*(1+t*(1-x)))",
+    "exp(-pi^2*t)*cos(pi*x)^2*(1 - cos(pi*x))",
+};
+
+} // namespace
+
+BOOST_AUTO_TEST_SUITE(mms_tape)
+
+// Against GiNaC's own evaluation in 30 digits. The conditioning of these formulas is below 30 or
+// so; a tape with a wrong operation is off by far more than 1e-13.
+BOOST_DATA_TEST_CASE(values_are_those_of_the_expression, data::make(formulas)) {
+    const GiNaC::ex expression = parsed(sample);
+    const Tape tape = compile_tape({expression});
+    const ArrayXd x = random_array(20, 0.05, 1.0, 1);
+    const ArrayXd t = random_array(20, 0.05, 2.0, 2);
+    const Eigen::ArrayXXd values = tape.evaluate(x, t);
+    for (Eigen::Index i = 0; i < x.size(); ++i) {
+        const double expected = evaluated(expression, x(i), t(i));
+        BOOST_TEST(std::abs(values(0, i) - expected) <= 1e-13 * std::max(1.0, std::abs(expected)));
+    }
+}
+
+BOOST_AUTO_TEST_CASE(many_expressions_together_are_each_by_itself) {
+    std::vector<GiNaC::ex> expressions;
+    expressions.reserve(formulas.size());
+    for (const std::string& formula : formulas)
+        expressions.push_back(parsed(formula));
+    const Tape together = compile_tape(expressions);
+    const ArrayXd x = random_array(300, 0.05, 1.0, 3);
+    const ArrayXd t = random_array(300, 0.05, 2.0, 4);
+    const Eigen::ArrayXXd values = together.evaluate(x, t);
+    BOOST_REQUIRE(values.rows() == static_cast<Eigen::Index>(expressions.size()));
+    for (Eigen::Index k = 0; k < values.rows(); ++k) {
+        const Tape alone = compile_tape({expressions[static_cast<std::size_t>(k)]});
+        BOOST_TEST((values.row(k) == alone.evaluate(x, t).row(0)).all());
+    }
+}
+
+// More points than a block, in part blocks too; one time for many points, one point for many times.
+BOOST_AUTO_TEST_CASE(a_value_does_not_depend_on_its_place_in_the_array) {
+    std::vector<GiNaC::ex> expressions;
+    expressions.reserve(formulas.size());
+    for (const std::string& formula : formulas)
+        expressions.push_back(parsed(formula));
+    const Tape tape = compile_tape(expressions);
+    const ArrayXd x = random_array(1000, 0.05, 1.0, 5);
+    const ArrayXd one = ArrayXd::Constant(1, 0.7);
+    const Eigen::ArrayXXd over_x = tape.evaluate(x, one);
+    const Eigen::ArrayXXd over_t = tape.evaluate(one, x);
+    const Eigen::ArrayXXd over_both = tape.evaluate(x, ArrayXd::Constant(1000, 0.7));
+    BOOST_TEST((over_x == over_both).all());
+    for (const Eigen::Index i : {0, 1, 127, 128, 129, 511, 999}) {
+        const ArrayXd point = x.segment(i, 1);
+        BOOST_TEST((over_x.col(i) == tape.evaluate(point, one).col(0)).all());
+        BOOST_TEST((over_t.col(i) == tape.evaluate(one, point).col(0)).all());
+    }
+}
+
+BOOST_AUTO_TEST_CASE(no_points_give_no_values) {
+    const Tape tape = compile_tape({parsed("x*t"), parsed("1")});
+    BOOST_TEST(tape.evaluate(ArrayXd(0), ArrayXd::Zero(1)).cols() == 0);
+    BOOST_TEST(tape.evaluate(ArrayXd::Zero(1), ArrayXd(0)).rows() == 2);
+    BOOST_CHECK_THROW(tape.evaluate(ArrayXd::Zero(2), ArrayXd::Zero(3)), std::invalid_argument);
+}
+
+// pi x, its sine, exp t, their product; then one addition.
+BOOST_AUTO_TEST_CASE(common_subexpressions_are_computed_once) {
+    const Tape tape = compile_tape(
+        {parsed("exp(t)*sin(pi*x)"), parsed("1 + exp(t)*sin(pi*x)"), parsed("exp(t)")});
+    BOOST_TEST(tape.instruction_count() == 5U);
+    BOOST_TEST(compile_tape({parsed("exp(t)"), parsed("exp(t)")}).instruction_count() == 1U);
+}
+
+// x + sin(x + sin(x + …)) needs x, one intermediate value, and no more however long it is.
+BOOST_AUTO_TEST_CASE(registers_are_used_again) {
+    std::string text = "x";
+    for (int i = 0; i < 40; ++i)
+        text.insert(0, "x + sin(").append(")");
+    const Tape tape = compile_tape({parsed(text)});
+    BOOST_TEST(tape.instruction_count() >= 80U);
+    BOOST_TEST(tape.register_count() <= 4);
+}
+
+// 2^10 = ((2^2)^2·2)^2: four products. A power function would be off in the last digit for some of
+// these.
+BOOST_AUTO_TEST_CASE(integer_powers_are_products) {
+    const Tape tape = compile_tape({parsed("x^10")});
+    BOOST_TEST(tape.instruction_count() == 4U);
+    const ArrayXd x = random_array(100, 0.5, 1.5, 6);
+    const ArrayXd squared = x * x;
+    const ArrayXd fifth = squared * squared * x;
+    BOOST_TEST((tape.evaluate(x, ArrayXd::Zero(1)).row(0).transpose() == fifth * fifth).all());
+}
+
+BOOST_AUTO_TEST_CASE(rationals_round_to_the_nearest_double) {
+    std::mt19937_64 random(7);
+    for (int i = 0; i < 2000; ++i) {
+        // Any double of ordinary size, written out and read back.
+        const double value = std::ldexp(1.0 + std::uniform_real_distribution<>(0, 1)(random),
+                                        int(random() % 600) - 300);
+        BOOST_TEST(nearest_double(exact_rational(value)) == value);
+    }
+    BOOST_TEST(nearest_double(GiNaC::numeric(1, 3)) == 1.0 / 3.0);
+    BOOST_TEST((exact_rational(0.017).is_equal(GiNaC::numeric(17, 1000))));
+    BOOST_TEST((exact_rational(-2.5e-7).is_equal(GiNaC::numeric(-1, 4000000))));
+    BOOST_TEST((exact_rational(0.0).is_zero()));
+    BOOST_TEST((exact_rational(1e22).is_equal(GiNaC::numeric("10000000000000000000000"))));
+}
+
+BOOST_AUTO_TEST_CASE(constants_beyond_the_range_are_refused_and_tiny_ones_vanish) {
+    BOOST_CHECK_THROW(compile_tape({parsed("1e400*x")}), AlgebraError);
+    BOOST_CHECK_THROW(compile_tape({parsed("x*exp(1000)")}), AlgebraError);
+    BOOST_CHECK_THROW(compile_tape({parsed("x + exp(exp(1000.0))")}), AlgebraError);
+    BOOST_CHECK_THROW(compile_tape({parsed("alpha*x")}), AlgebraError);
+    BOOST_TEST(numeric_value(parsed("1e-400")) == 0.0);
+    BOOST_TEST(numeric_value(parsed("exp(-1000)")) == 0.0);
+}
+
+BOOST_AUTO_TEST_CASE(threads_may_evaluate_one_tape_together) {
+    const Tape tape = compile_tape({parsed("exp(t)*sin(pi*x) + tanh(x*t)")});
+    const ArrayXd x = random_array(5000, 0.0, 1.0, 8);
+    const ArrayXd t = ArrayXd::Constant(1, 0.3);
+    const Eigen::ArrayXXd expected = tape.evaluate(x, t);
+    std::vector<int> differing(4, 0);
+    {
+        std::vector<std::jthread> threads;
+        threads.reserve(differing.size());
+        for (int& count : differing)
+            threads.emplace_back([&] {
+                for (int i = 0; i < 20; ++i)
+                    count += (tape.evaluate(x, t) != expected).any() ? 1 : 0;
+            });
+    }
+    for (const int count : differing)
+        BOOST_TEST(count == 0);
+}
+
+BOOST_AUTO_TEST_SUITE_END()

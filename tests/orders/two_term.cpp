@@ -1,0 +1,464 @@
+#include "studies/orders/two_term_fit.hpp"
+
+#include <boost/test/unit_test.hpp>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+using namespace tvbeam;
+
+namespace {
+
+template <class Error>
+std::vector<Refinement> grid(Error error) {
+    std::vector<Refinement> records;
+    for (const double elements : {10, 20, 40, 80, 160})
+        for (const double dt : {2e-2, 1e-2, 5e-3, 2e-3, 1e-3})
+            records.push_back({.h = 1 / elements, .dt = dt, .error = error(1 / elements, dt)});
+    return records;
+}
+
+/// On this grid the two terms are equal for 1/h between 17 and 77: the cancellation is in its
+/// middle.
+const TwoTermModel cancelling{.a = 3.5, .p = 2, .b = 0.6, .q = 1, .rho = -0.92};
+
+/// ‖θ − Θⁿ‖ in L2 of (0, T) × (0, 1) for θ_t − θ_xx = f, θ = eᵗ sin πx, on linear elements with
+/// lumped mass and implicit Euler, T = 2. sin πx_i is an eigenvector of the scheme, so Θⁿ = c_n sin
+/// πx_i with
+///     c_n (1 + Δt k) = c_{n−1} + Δt (1 + π²) e^{t_n} g,   k = 4 sin²(πh/2) / h²,   g = k / π²,
+/// and ‖θ − Θⁿ‖² = e^{2t}/2 − e^t c g + c² (2 + cos πh) / 6. In ε = c − eᵗ this is
+///     e^{2t} (1/2 − g + (2 + cos πh)/6) + e^t ε ((2 + cos πh)/3 − g) + ε² (2 + cos πh)/6.
+/// An error that no one made up: all higher-order terms are in it.
+double heat_error(double h, double dt) {
+    constexpr long double pi = std::numbers::pi_v<long double>;
+    const long double width = h;
+    const long double root = std::sin(pi * width / 2);
+    const long double k = 4 * root * root / (width * width);
+    const long double g = k / (pi * pi);
+    const long double mass = (3 - 2 * root * root) / 6; // (2 + cos πh) / 6
+    const auto steps = std::lround(2 / dt);
+    long double epsilon = 0;
+    long double sum = 0;
+    for (long n = 1; n <= steps; ++n) {
+        const long double before = std::exp(static_cast<long double>(n - 1) * dt);
+        const long double now = std::exp(static_cast<long double>(n) * dt);
+        // The scheme with c = eᵗ + ε: what eᵗ leaves over drives ε.
+        epsilon =
+            (epsilon + before - now * (1 + dt * k) + dt * (1 + pi * pi) * now * g) / (1 + dt * k);
+        sum += dt * (now * now * (0.5L - g + mass) + now * epsilon * (2 * mass - g) +
+                     epsilon * epsilon * mass);
+    }
+    return static_cast<double>(std::sqrt(sum));
+}
+
+std::vector<Refinement> ladder(std::initializer_list<double> elements, double dt_over_h) {
+    std::vector<Refinement> rows;
+    for (const double s : elements)
+        rows.push_back({.h = 1 / s, .dt = dt_over_h / s});
+    return rows;
+}
+
+bool rejects(const TwoTermFit& fit, std::size_t record, Rejection why) {
+    for (const auto& rejected : fit.rejected)
+        if (rejected.record == record)
+            return rejected.why == why && !rejected.reason.empty();
+    return false;
+}
+
+} // namespace
+
+BOOST_AUTO_TEST_SUITE(two_term_model)
+
+// At A = B: e² = 2 (1 + ρ) A², whatever ρ; with one term alone the error is that term.
+BOOST_AUTO_TEST_CASE(equal_terms_leave_the_half_angle) {
+    for (const double rho : {-1.0, -0.999999, -0.92, 0.0, 0.5, 1.0}) {
+        const TwoTermModel model{.a = 4, .p = 2, .b = 1, .q = 1, .rho = rho};
+        BOOST_TEST(std::abs(model.error(0.5, 1) - std::sqrt(2 * (1 + rho))) < 1e-8);
+        BOOST_TEST(model.error(0.5, 1e-20) == 1.0, boost::test_tools::tolerance(1e-12));
+    }
+    const TwoTermModel space{.a = 4, .p = 2, .b = 0, .q = std::nan(""), .rho = 0};
+    BOOST_TEST(space.error(0.5, 0.1) == 1.0);
+}
+
+BOOST_AUTO_TEST_CASE(all_five_parameters_are_recovered) {
+    for (const double rho : {-0.98, -0.92, -0.5, 0.0, 0.7, 0.98})
+        for (const double p : {1.0, 2.0, 4.0})
+            for (const double q : {1.0, 2.0}) {
+                const TwoTermModel truth{.a = 3.5,
+                                         .p = p,
+                                         .b = 3.5 * std::pow(0.025, p) / std::pow(5e-3, q),
+                                         .q = q,
+                                         .rho = rho};
+                const auto fit =
+                    fit_two_term(grid([&](double h, double dt) { return truth.error(h, dt); }));
+                BOOST_TEST_CONTEXT("rho " << rho << " p " << p << " q " << q) {
+                    BOOST_TEST(fit.holds());
+                    BOOST_TEST(fit.used.size() == 25U);
+                    BOOST_TEST(fit.dof == 20);
+                    BOOST_TEST(std::abs(fit.model.p - truth.p) < 1e-6);
+                    BOOST_TEST(std::abs(fit.model.q - truth.q) < 1e-6);
+                    BOOST_TEST(std::abs(fit.model.rho - truth.rho) < 1e-6);
+                    BOOST_TEST(fit.model.a == truth.a, boost::test_tools::tolerance(1e-5));
+                    BOOST_TEST(fit.model.b == truth.b, boost::test_tools::tolerance(1e-5));
+                    BOOST_TEST(fit.rms < 1e-7);
+                }
+            }
+}
+
+// The unit of length and of time is no part of a term: the variance of ln a h^p at a fixed place,
+// var ln a + 2 ln h cov(ln a, p) + (ln h)² var p, is the same in metres and in millimetres. Every
+// other record is two per cent up, so that there is a variance.
+BOOST_AUTO_TEST_CASE(uncertainty_does_not_depend_on_the_units) {
+    const auto variances = [](double unit) {
+        auto records = grid([](double h, double dt) { return cancelling.error(h, dt); });
+        double factor = 1;
+        for (auto& record : records) {
+            record.error *= factor;
+            factor = 1.02 / factor;
+            record.h *= unit;
+            record.dt *= unit;
+        }
+        const auto fit = fit_two_term(records, {.all_records = true});
+        const double place = std::log(0.03 * unit);
+        const auto& cov = fit.covariance;
+        return std::pair{cov(0, 0) + 2 * place * cov(0, 1) + place * place * cov(1, 1),
+                         cov(2, 2) + 2 * place * cov(2, 3) + place * place * cov(3, 3)};
+    };
+    const auto metres = variances(1);
+    const auto millimetres = variances(1000);
+    BOOST_TEST(metres.first > 1e-6);
+    BOOST_TEST(metres.first == millimetres.first, boost::test_tools::tolerance(1e-4));
+    BOOST_TEST(metres.second == millimetres.second, boost::test_tools::tolerance(1e-4));
+}
+
+// |A − B|: the parametrisation ends at ρ = −1, and the orders are still known there.
+BOOST_AUTO_TEST_CASE(a_difference_of_numbers_is_fitted_at_the_bound) {
+    const TwoTermModel truth{.a = 3.5, .p = 2, .b = 0.613, .q = 1, .rho = -1};
+    const auto fit = fit_two_term(grid([&](double h, double dt) { return truth.error(h, dt); }));
+    BOOST_TEST(fit.model.rho == -1.0, boost::test_tools::tolerance(1e-5));
+    BOOST_TEST(std::abs(fit.model.p - 2) < 1e-4);
+    BOOST_TEST(std::abs(fit.model.q - 1) < 1e-4);
+    BOOST_TEST(std::isfinite(fit.p_half_width));
+    BOOST_TEST(fit.p_half_width < 1e-3);
+
+    // With two per cent of any pattern on it the best ρ lies at the bound as often as not. Without
+    // ρ the orders would still be known to 2 % over the ln 16 of the grid: to a few hundredths.
+    for (int pattern = 0; pattern < 40; ++pattern) {
+        int record = 0;
+        const auto disturbed = fit_two_term(grid([&](double h, double dt) {
+            return truth.error(h, dt) * (1 + 0.02 * std::sin(13.0 * ++record + 7.0 * pattern));
+        }));
+        BOOST_TEST(disturbed.p_half_width < 0.1);
+        BOOST_TEST(disturbed.q_half_width < 0.1);
+        BOOST_TEST(disturbed.rho_se < 0.1);
+    }
+}
+
+// Terms of the next order as large as they come on these grids: 1 + 6h² is 6 % at h = 0.1 (linear
+// elements for sin πx have less than 1 %), 1 ± 2Δt is 4 % at Δt = 0.02. The orders stay within
+// 0.02, and within what is quoted for them.
+BOOST_AUTO_TEST_CASE(higher_order_terms_are_borne_and_their_bias_is_quoted) {
+    for (const double rho : {-0.92, 0.0, 0.5})
+        for (const double in_h : {-3.0, 0.8, 6.0})
+            for (const double in_dt : {-2.0, 0.5, 2.0}) {
+                const auto fit = fit_two_term(grid([&](double h, double dt) {
+                    const double in_space = 3.5 * h * h * (1 + in_h * h * h);
+                    const double in_time = 0.6 * dt * (1 + in_dt * dt);
+                    return std::sqrt(in_space * in_space + 2 * rho * in_space * in_time +
+                                     in_time * in_time);
+                }));
+                BOOST_TEST_CONTEXT("rho " << rho << ", 1 + " << in_h << " h^2, 1 + " << in_dt
+                                          << " dt") {
+                    BOOST_TEST(std::abs(fit.model.p - 2) < 0.02);
+                    BOOST_TEST(std::abs(fit.model.q - 1) < 0.02);
+                    BOOST_TEST(std::abs(fit.model.rho - rho) < 0.05);
+                    BOOST_TEST(std::abs(fit.model.p - 2) <= fit.p_uncertainty());
+                    BOOST_TEST(std::abs(fit.model.q - 1) <= fit.q_uncertainty());
+                }
+            }
+}
+
+// A scheme whose errors are known in closed form. h² and Δt are its orders by Taylor's theorem; the
+// rows predicted are 2 to 16 times finer than any that was fitted, through the cancellation and out
+// of it.
+BOOST_AUTO_TEST_CASE(the_heat_equation_is_predicted_through_its_cancellation) {
+    const auto fit = fit_two_term(grid(heat_error));
+    BOOST_TEST(std::abs(fit.model.p - 2) < 0.02);
+    BOOST_TEST(std::abs(fit.model.q - 1) < 0.02);
+    double worst = 0;
+    for (const auto& row : ladder({320, 640, 1280, 2560}, 0.01))
+        worst = std::max(worst,
+                         std::abs(fit.model.error(row.h, row.dt) / heat_error(row.h, row.dt) - 1));
+    BOOST_TEST_MESSAGE("p " << fit.model.p << ", q " << fit.model.q << ", rho " << fit.model.rho
+                            << ", worst prediction off by " << worst);
+    BOOST_TEST(worst < 0.1);
+}
+
+// e = a (h^p − h_r^p) A + b (Δt^q − Δt_r^q) B for fields A and B: the distance to a reference run.
+BOOST_AUTO_TEST_CASE(the_error_of_a_reference_run_is_part_of_the_model) {
+    const Refinement reference{.h = 1.0 / 200, .dt = 5e-4};
+    const auto records = grid([&](double h, double dt) {
+        const double in_space = 3.5 * (h * h - reference.h * reference.h);
+        const double in_time = 0.6 * (dt - reference.dt);
+        return std::sqrt(in_space * in_space - 1.6 * in_space * in_time + in_time * in_time);
+    });
+    const auto fit = fit_two_term(records, {.reference = reference});
+    BOOST_TEST(std::abs(fit.model.p - 2) < 1e-6);
+    BOOST_TEST(std::abs(fit.model.q - 1) < 1e-6);
+    BOOST_TEST(fit.model.a == 3.5, boost::test_tools::tolerance(1e-5));
+    BOOST_TEST(fit.model.rho == -0.8, boost::test_tools::tolerance(1e-5));
+    for (const double residual : fit.residuals)
+        BOOST_TEST(std::abs(residual) < 1e-6);
+    BOOST_TEST(std::abs(fit_two_term(records).model.p - 2) > 0.01);
+    BOOST_CHECK_THROW(fit_two_term(records, {.reference = Refinement{.h = 0.05, .dt = 5e-4}}),
+                      std::invalid_argument);
+}
+
+// Errors that do not depend on Δt have an order in h, and none in Δt.
+BOOST_AUTO_TEST_CASE(a_term_that_is_not_there_gets_no_order) {
+    const auto in_space = fit_two_term(grid([](double h, double) { return 3 * h * h; }));
+    BOOST_TEST(in_space.model.p == 2.0, boost::test_tools::tolerance(1e-9));
+    BOOST_TEST(in_space.model.b == 0.0);
+    BOOST_TEST(std::isnan(in_space.model.q));
+    BOOST_TEST(std::isinf(in_space.q_half_width));
+    BOOST_TEST(in_space.p_half_width < 1e-6);
+    const auto in_time = fit_two_term(grid([](double, double dt) { return 3 * dt; }));
+    BOOST_TEST(in_time.model.q == 1.0, boost::test_tools::tolerance(1e-9));
+    BOOST_TEST(in_time.model.a == 0.0);
+    BOOST_TEST(std::isinf(in_time.p_half_width));
+}
+
+BOOST_AUTO_TEST_CASE(an_order_is_determined_where_it_is_positive_and_known_to_a_half) {
+    TwoTermFit fit;
+    BOOST_TEST(!fit.p_determined());
+    fit.model.p = fit.model.q = 2;
+    fit.change_by_h = fit.change_by_dt = 1;
+    fit.p_half_width = 0.3;
+    fit.q_half_width = 0.3;
+    BOOST_TEST(fit.p_determined());
+    BOOST_TEST(fit.q_determined());
+    fit.p_drift = 0.3; // bias counts
+    BOOST_TEST(!fit.p_determined());
+    fit.model.q = -0.3;
+    BOOST_TEST(!fit.q_determined());
+    BOOST_TEST(fit_two_term(grid([](double h, double) { return 3 * h * h; })).p_determined());
+    BOOST_TEST(!fit_two_term(grid([](double h, double) { return 3 * h * h; })).q_determined());
+}
+
+// A next term in h, a scatter of one per cent and no term in Δt at all: the longer fit has an order
+// in Δt, of a term that the model handed out does not have.
+BOOST_AUTO_TEST_CASE(a_term_that_is_gone_has_no_drift) {
+    int gone = 0;
+    int longer = 0;
+    for (const double in_h : {6.0, 20.0, 40.0})
+        for (int pattern = 0; pattern < 20; ++pattern) {
+            int record = 0;
+            const auto fit = fit_two_term(grid([&](double h, double) {
+                return 3 * h * h * (1 + in_h * h * h) *
+                       (1 + 0.01 * std::sin(13.0 * ++record + 7.0 * pattern));
+            }));
+            if (fit.model.b > 0)
+                continue;
+            ++gone;
+            longer += fit.p_drift > 0 ? 1 : 0;
+            BOOST_TEST(fit.q_drift == 0.0);
+            BOOST_TEST(!fit.q_determined());
+        }
+    BOOST_TEST(gone > 0);
+    BOOST_TEST(longer > 0);
+}
+
+// 300 to one of Δt on the finest of four Δt that go down from 0.5, with a next term of 15 % in Δt
+// at the coarsest: h changes the errors by less than the next term does, and what is fitted as a
+// h^p is the next term's. The records hold no order in h, and the one in Δt bends with the term.
+BOOST_AUTO_TEST_CASE(a_term_far_below_the_other_s_next_term_is_not_determined) {
+    for (const double rho : {-0.9, 0.0, 0.5})
+        for (const double next : {0.3, 1.0, -0.5}) {
+            std::vector<Refinement> records;
+            const double a = 0.01 * 0.0625 * 40 * 40;
+            for (const double elements : {40, 60, 80, 120})
+                for (const double dt : {0.5, 0.25, 0.125, 0.0625}) {
+                    const double in_space = a / (elements * elements);
+                    const double in_time = dt * (1 + next * dt);
+                    records.push_back(
+                        {.h = 1 / elements,
+                         .dt = dt,
+                         .error = std::sqrt(in_space * in_space + 2 * rho * in_space * in_time +
+                                            in_time * in_time)});
+                }
+            const auto fit = fit_two_term(records);
+            BOOST_TEST_CONTEXT("rho " << rho << ", 1 + " << next << " dt: p " << fit.model.p
+                                      << " ± " << fit.p_uncertainty() << ", q " << fit.model.q
+                                      << " ± " << fit.q_uncertainty()) {
+                BOOST_TEST(
+                    (!fit.p_determined() || std::abs(fit.model.p - 2) <= fit.p_uncertainty()));
+                BOOST_TEST(
+                    (!fit.q_determined() || std::abs(fit.model.q - 1) <= fit.q_uncertainty()));
+            }
+        }
+    const auto clear =
+        fit_two_term(grid([](double h, double dt) { return cancelling.error(h, dt); }));
+    BOOST_TEST(clear.p_determined());
+    BOOST_TEST(clear.q_determined());
+}
+
+BOOST_AUTO_TEST_CASE(too_little_data_are_no_fit) {
+    auto records = grid([](double h, double dt) { return cancelling.error(h, dt); });
+    // Six records, although in five h and five Δt: one degree of freedom is no judge of a window.
+    std::vector<Refinement> six{records[1]};
+    for (const std::size_t diagonal : {0, 6, 12, 18, 24})
+        six.push_back(records[diagonal]);
+    BOOST_TEST(!fit_two_term(six).holds());
+    for (auto& record : records)
+        record.dt = record.dt > 5e-3 ? 1e-2 : 1e-3;
+    BOOST_TEST(!fit_two_term(records).holds());
+    BOOST_TEST(std::isinf(fit_two_term(records).p_half_width));
+    BOOST_TEST(!fit_two_term({}).holds());
+}
+
+BOOST_AUTO_TEST_SUITE_END()
+
+BOOST_AUTO_TEST_SUITE(two_term_window)
+
+BOOST_AUTO_TEST_CASE(failed_and_exact_runs_are_named_and_left_out) {
+    auto records = grid([](double h, double dt) { return cancelling.error(h, dt); });
+    records[3].error = std::numeric_limits<double>::quiet_NaN();
+    records[7].error = 0;
+    records[9].error = std::numeric_limits<double>::infinity();
+    const auto fit = fit_two_term(records);
+    BOOST_TEST(fit.rejected.size() == 3U);
+    BOOST_TEST(rejects(fit, 3, Rejection::failed));
+    BOOST_TEST(rejects(fit, 7, Rejection::exact));
+    BOOST_TEST(rejects(fit, 9, Rejection::failed));
+    BOOST_TEST(std::abs(fit.model.p - 2) < 1e-6);
+    BOOST_TEST(std::isnan(fit.residuals[3]));
+}
+
+// A floor at 1e-3 hides every error below it: those in the finest corner of the grid.
+BOOST_AUTO_TEST_CASE(records_on_a_rounding_floor_are_rejected_as_such) {
+    const double level = 1e-3;
+    int hidden = 0;
+    const auto records = grid([&](double h, double dt) {
+        hidden += cancelling.error(h, dt) < level ? 1 : 0;
+        return std::max(cancelling.error(h, dt), level);
+    });
+    BOOST_TEST(hidden >= 3);
+    const auto fit = fit_two_term(records);
+    BOOST_TEST(static_cast<int>(fit.rejected.size()) == hidden);
+    for (const auto& rejected : fit.rejected)
+        BOOST_TEST(rejects(fit, rejected.record, Rejection::rounding_floor), rejected.reason);
+    BOOST_TEST(std::abs(fit.model.p - 2) < 1e-6);
+    BOOST_TEST(std::abs(fit.model.rho + 0.92) < 1e-6);
+}
+
+// On the coarsest mesh the error is twice the model's: five of 25 records, all pre-asymptotic.
+BOOST_AUTO_TEST_CASE(pre_asymptotic_records_are_rejected_as_such) {
+    const auto records =
+        grid([](double h, double dt) { return (h > 0.09 ? 2 : 1) * cancelling.error(h, dt); });
+    const auto fit = fit_two_term(records);
+    BOOST_TEST(fit.rejected.size() == 5U);
+    for (std::size_t i = 0; i < 5; ++i)
+        BOOST_TEST(rejects(fit, i, Rejection::pre_asymptotic));
+    BOOST_TEST(std::abs(fit.model.p - 2) < 1e-6);
+}
+
+BOOST_AUTO_TEST_CASE(one_wrong_record_does_not_turn_the_fit) {
+    auto records = grid([](double h, double dt) { return cancelling.error(h, dt); });
+    records[12].error *= 1.5;
+    const auto fit = fit_two_term(records);
+    BOOST_TEST(fit.rejected.size() == 1U);
+    BOOST_TEST(rejects(fit, 12, Rejection::outlier));
+    BOOST_TEST(fit.residuals[12] == std::log(1.5), boost::test_tools::tolerance(1e-5));
+    BOOST_TEST(std::abs(fit.model.p - 2) < 1e-6);
+    BOOST_TEST(std::abs(fit_two_term(records, {.all_records = true}).model.p - 2) > 1e-3);
+}
+
+// Coarse meshes of order one, finer ones of order two: the finer half has the say, at its own
+// order.
+BOOST_AUTO_TEST_CASE(where_two_regimes_are_consistent_the_finer_counts) {
+    std::vector<Refinement> records;
+    for (const double elements : {10, 20, 40, 80, 160, 320, 640, 1280})
+        for (const double dt : {2e-2, 1e-2, 5e-3, 2e-3, 1e-3}) {
+            const double h = 1 / elements;
+            const double joint = 1.0 / 80;
+            const double in_space = h > joint ? h * joint : h * h;
+            records.push_back({.h = h, .dt = dt, .error = std::hypot(in_space, 1e-3 * dt)});
+        }
+    const auto fit = fit_two_term(records);
+    BOOST_TEST(std::abs(fit.model.p - 2) < 1e-3);
+    BOOST_TEST(std::abs(fit.model.q - 1) < 1e-3);
+    BOOST_TEST(rejects(fit, 0, Rejection::pre_asymptotic));
+}
+
+BOOST_AUTO_TEST_SUITE_END()
+
+BOOST_AUTO_TEST_SUITE(ladder_forecast)
+
+// A = h², B = h/16 cross at h = 1/16. Along Δt ∝ h the lower order, that of Δt, wins in the end.
+BOOST_AUTO_TEST_CASE(the_crossing_is_where_the_terms_are_equal) {
+    const TwoTermModel model{.a = 1, .p = 2, .b = 1.0 / 16, .q = 1, .rho = -0.9};
+    const auto view = forecast(model, ladder({1, 3}, 1));
+    BOOST_REQUIRE(view.cancellation.has_value());
+    BOOST_TEST(view.cancellation->h == 1.0 / 16, boost::test_tools::tolerance(1e-12));
+    BOOST_TEST(view.cancellation->dt == 1.0 / 16, boost::test_tools::tolerance(1e-12));
+    // h = 1, 1/3, 1/9, 1/27: the crossing is between rows 2 and 3, past the end of the ladder.
+    BOOST_TEST(view.cancellation->row == 2U);
+    BOOST_TEST(view.asymptotic_order == 1.0, boost::test_tools::tolerance(1e-12));
+    BOOST_TEST((view.asymptotic_ruling == Ruling::time));
+
+    TwoTermModel adding = model;
+    adding.rho = 0.9;
+    BOOST_TEST(!forecast(adding, ladder({1, 3}, 1)).cancellation.has_value());
+}
+
+// With ρ = 0 and A/B = t the order of a row is (2t² + 1)/(t² + 1) = 1 + t²/(1 + t²) in the limit of
+// small ratios. It is within a tenth of 1 for t < 1/3. Δt = h: t = 16 h, so from h = 1/48 on.
+BOOST_AUTO_TEST_CASE(the_asymptotic_order_shows_from_where_the_algebra_says) {
+    const TwoTermModel model{.a = 1, .p = 2, .b = 1.0 / 16, .q = 1, .rho = 0};
+    std::vector<Refinement> rows;
+    for (int i = 0; i < 460; ++i) {
+        const double h = 0.5 * std::pow(1.01, -i);
+        rows.push_back({.h = h, .dt = h});
+    }
+    const auto view = forecast(model, rows);
+    BOOST_REQUIRE(view.asymptotic_from.has_value());
+    BOOST_TEST(view.asymptotic_from->h == 1.0 / 48, boost::test_tools::tolerance(0.011));
+    BOOST_TEST(view.asymptotic_from->row < rows.size());
+    BOOST_TEST(*view.rows[1].order > 1.9);
+    BOOST_TEST((view.rows.front().ruling == Ruling::space));
+    BOOST_TEST((view.rows.back().ruling == Ruling::time));
+}
+
+// Δt ∝ h²: orders p and 2q. Fixed h: nothing in space, q in time, and in the end order 0.
+BOOST_AUTO_TEST_CASE(the_coupling_of_the_ladder_sets_its_orders) {
+    const TwoTermModel model{.a = 1, .p = 2, .b = 1, .q = 1, .rho = 0};
+    const std::vector<Refinement> parabolic{{.h = 0.1, .dt = 0.01}, {.h = 0.05, .dt = 0.0025}};
+    const auto both = forecast(model, parabolic);
+    BOOST_TEST(both.temporal_order == 2.0, boost::test_tools::tolerance(1e-12));
+    BOOST_TEST((both.asymptotic_ruling == Ruling::both));
+    BOOST_TEST(both.asymptotic_from->row == 1U);
+
+    const std::vector<Refinement> in_time{{.h = 0.1, .dt = 0.1}, {.h = 0.1, .dt = 0.05}};
+    const auto stagnant = forecast(model, in_time);
+    BOOST_TEST(stagnant.spatial_order == 0.0);
+    BOOST_TEST(stagnant.temporal_order == 1.0, boost::test_tools::tolerance(1e-12));
+    BOOST_TEST(stagnant.asymptotic_order == 0.0);
+    BOOST_TEST((stagnant.asymptotic_ruling == Ruling::space));
+}
+
+BOOST_AUTO_TEST_CASE(a_ladder_without_refinement_has_its_rows_only) {
+    const TwoTermModel model{.a = 1, .p = 2, .b = 1, .q = 1, .rho = -0.5};
+    BOOST_TEST(forecast(model, ladder({10}, 1)).rows.size() == 1U);
+    const auto still = forecast(model, ladder({10, 10}, 1));
+    BOOST_TEST(still.rows.size() == 2U);
+    BOOST_TEST(!still.asymptotic_from.has_value());
+    BOOST_TEST(still.asymptotic_order == 0.0);
+    const std::vector<Refinement> no_step{{.h = 0.1}, {.h = 0.05}};
+    BOOST_CHECK_THROW(forecast(model, no_step), std::invalid_argument);
+}
+
+BOOST_AUTO_TEST_SUITE_END()

@@ -1,0 +1,229 @@
+#include "studies/orders/verdict.hpp"
+
+#include <boost/test/unit_test.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+using namespace tvbeam;
+
+namespace {
+
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+
+std::vector<Refinement> halving(const std::vector<double>& errors) {
+    std::vector<Refinement> ladder;
+    double h = 1.0;
+    for (const double error : errors) {
+        ladder.push_back({.h = h, .error = error});
+        h /= 2;
+    }
+    return ladder;
+}
+
+/// Errors whose pairwise orders, under halving, are these.
+std::vector<Refinement> with_orders(const std::vector<double>& orders) {
+    std::vector<double> errors{1.0};
+    for (const double order : orders)
+        errors.push_back(errors.back() * std::exp2(-order));
+    return halving(errors);
+}
+
+/// One letter a row, so that a ladder's verdicts read as a word.
+std::string word(const LadderVerdict& judged) {
+    std::string letters;
+    for (const auto& row : judged.rows) {
+        BOOST_TEST(!row.reason.empty());
+        switch (row.verdict) {
+        case Verdict::asymptotic:
+            letters += 'A';
+            break;
+        case Verdict::pre_asymptotic:
+            letters += 'p';
+            break;
+        case Verdict::cancellation:
+            letters += 'c';
+            break;
+        case Verdict::floor:
+            letters += 'f';
+            break;
+        case Verdict::diverging:
+            letters += 'd';
+            break;
+        case Verdict::exact:
+            letters += '0';
+            break;
+        case Verdict::failed:
+            letters += 'x';
+            break;
+        }
+    }
+    return letters;
+}
+
+std::string word(const std::vector<Refinement>& ladder, const VerdictOptions& options = {}) {
+    return word(judge(ladder, options));
+}
+
+} // namespace
+
+BOOST_AUTO_TEST_SUITE(verdicts)
+
+BOOST_AUTO_TEST_CASE(order_one_on_a_ladder_of_ratio_ten_is_asymptotic) {
+    std::vector<Refinement> ladder;
+    for (const double h : {1.0, 0.1, 0.01, 0.001})
+        ladder.push_back({.h = h, .error = 3 * h});
+    const auto judged = judge(ladder);
+    BOOST_TEST(word(judged) == "AAAA");
+    BOOST_TEST(judged.window->order == 1.0, boost::test_tools::tolerance(1e-14));
+}
+
+BOOST_AUTO_TEST_CASE(order_minus_one_is_diverging) {
+    const auto judged = judge(with_orders({-1, -1, -1}));
+    BOOST_TEST(word(judged) == "dddd");
+    BOOST_TEST(!judged.window.has_value());
+}
+
+// Up and down by a factor of two: half of the rows look like order one, and none is asymptotic.
+BOOST_AUTO_TEST_CASE(an_oscillating_ladder_is_nowhere_asymptotic) {
+    BOOST_TEST(word(with_orders({1, -1, 1, -1, 1})) == "ppdpdp");
+    BOOST_TEST(word(with_orders({-1, 1, -1, 1})) == "ddpdp");
+}
+
+BOOST_AUTO_TEST_CASE(equal_errors_stand_on_a_floor) {
+    BOOST_TEST(word(halving({0.1, 0.1, 0.1, 0.1})) == "ffff");
+    // Nearly equal is no slow convergence either: orders of a thousandth agree with each other.
+    BOOST_TEST(word(with_orders({0.001, 0.001, 0.001})) == "ffff");
+}
+
+BOOST_AUTO_TEST_CASE(a_zero_error_is_exact_and_the_rest_is_judged_without_it) {
+    BOOST_TEST(word(halving({1.0, 0.5, 0.25, 0.0})) == "AAA0");
+    BOOST_TEST(word(halving({0.0, 0.0})) == "00");
+}
+
+BOOST_AUTO_TEST_CASE(a_failed_run_is_named_and_the_rest_is_judged_without_it) {
+    BOOST_TEST(word(halving({1.0, not_a_number, 0.25, 0.125})) == "AxAA");
+    BOOST_TEST(word(halving({not_a_number})) == "x");
+    BOOST_TEST(word(halving({1.0, -0.5, std::numeric_limits<double>::infinity()})) == "pxx");
+}
+
+BOOST_AUTO_TEST_CASE(one_row_shows_nothing) {
+    BOOST_TEST(word(halving({1.0})) == "p");
+    BOOST_TEST(word(halving({})).empty());
+}
+
+// Two rows have one order, and any two errors have one: nothing confirms it but an expectation.
+BOOST_AUTO_TEST_CASE(two_rows_are_asymptotic_only_where_the_expected_order_is_met) {
+    const auto ladder = with_orders({2});
+    BOOST_TEST(word(ladder) == "pp");
+    BOOST_TEST(word(ladder, {.expected_order = 2.0}) == "AA");
+    BOOST_TEST(word(ladder, {.expected_order = 1.0}) == "pp");
+    BOOST_TEST(word(with_orders({-2}), {.expected_order = 2.0}) == "dd");
+}
+
+// A scheme of order two that converges with order one everywhere meets no expectation of two.
+BOOST_AUTO_TEST_CASE(a_wrong_order_is_not_asymptotic_where_another_is_expected) {
+    BOOST_TEST(word(with_orders({1, 1, 1}), {.expected_order = 2.0}) == "pppp");
+}
+
+// h² + 1e-12 from h = 1e-3 on by tens: 1e-6, 1e-8, 1e-10, 2e-12, 1.01e-12, 1.0001e-12.
+BOOST_AUTO_TEST_CASE(a_floor_at_1e_12_is_told_from_convergence) {
+    std::vector<Refinement> ladder;
+    for (const double h : {1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9})
+        ladder.push_back({.h = h, .error = h * h + 1e-12});
+    const auto judged = judge(ladder);
+    // Row 3, order log10(1.01e-10 / 2e-12) = 1.70, departs from 2.00 and leads into the floor.
+    BOOST_TEST(word(judged) == "AAAffff");
+    BOOST_TEST(judged.window->order == 2.0, boost::test_tools::tolerance(0.01));
+}
+
+// Rounding scatters: errors within a factor of three of the least are no divergence, and two of
+// them that happen to fall regularly are no order.
+BOOST_AUTO_TEST_CASE(a_floor_that_scatters_is_a_floor) {
+    BOOST_TEST(word(with_orders({2, 2, 2, 0.3, -0.6, 0.4, -0.2})) == "AAAAffff");
+    BOOST_TEST(word(with_orders({2, 2, 2, 0.1, 0.2, 0.21})) == "AAAAfff");
+}
+
+BOOST_AUTO_TEST_CASE(growth_after_convergence_is_diverging) {
+    BOOST_TEST(word(with_orders({2, 2, 2, -2, -4})) == "AAAAdd");
+}
+
+// The finest rows decide: what a kink leaves behind it is pre-asymptotic.
+BOOST_AUTO_TEST_CASE(past_a_kink_the_finer_order_counts) {
+    const auto judged = judge(with_orders({2, 2, 2, 1, 1}));
+    BOOST_TEST(word(judged) == "pppAAA");
+    BOOST_TEST(judged.window->order == 1.0, boost::test_tools::tolerance(1e-12));
+    // A kink in the last row alone is not confirmed, and not hidden.
+    BOOST_TEST(word(with_orders({2, 2, 2, 1})) == "AAAAp");
+}
+
+// h² + 0.01 h: the order runs from 1.99 down towards 1, which is the true one, and passes every
+// value between. Neighbours that agree to a tenth on the way are no window while finer rows go on
+// falling, wherever the ladder ends on that way.
+BOOST_AUTO_TEST_CASE(a_drifting_order_is_not_asymptotic) {
+    const auto drifting = [](int rows) {
+        std::vector<Refinement> ladder;
+        for (int i = 0; i < rows; ++i) {
+            const double h = std::exp2(-i);
+            ladder.push_back({.h = h, .error = h * h + 0.01 * h});
+        }
+        return ladder;
+    };
+    BOOST_TEST(word(drifting(10)) == "pppppppppp");
+    BOOST_TEST(!judge(drifting(10)).window.has_value());
+    BOOST_TEST(word(drifting(9)) == "ppppppppp");
+    // Far enough down it shows the order that it has.
+    const auto resolved = judge(drifting(16));
+    BOOST_REQUIRE(resolved.window.has_value());
+    BOOST_TEST(resolved.window->last == 15u);
+    BOOST_TEST(resolved.window->order == 1.0, boost::test_tools::tolerance(0.05));
+}
+
+// Errors about a sign change: 1/4 of the row before, then almost nothing, then back on a line.
+BOOST_AUTO_TEST_CASE(a_dip_is_a_cancellation) {
+    BOOST_TEST(word(with_orders({2, 2, 12, -9})) == "AAAcc");
+    BOOST_TEST(word(with_orders({2, 12, -9, 1, 1})) == "ppcAAA");
+}
+
+// e = |A − B| with A = h², B = h/16 on h = 1, 1/2 …: A = B at h = 1/16, the fourth halving. With ρ
+// = −0.9 e² = (A − B)² + 0.2 AB. The larger term loses a tenth where e < 0.9 max(A, B).
+BOOST_AUTO_TEST_CASE(with_a_model_the_cancellation_is_known_before_it_shows) {
+    const TwoTermModel model{.a = 1, .p = 2, .b = 1.0 / 16, .q = 1, .rho = -0.9};
+    std::vector<Refinement> ladder;
+    for (int halvings = 0; halvings < 14; ++halvings) {
+        const double h = std::exp2(-halvings);
+        ladder.push_back({.h = h, .dt = h, .error = model.error(h, h)});
+    }
+    std::string expected;
+    for (const auto& record : ladder) {
+        const double larger = std::max(record.h * record.h, record.h / 16);
+        expected += record.error < 0.9 * larger ? 'c' : record.h > 1.0 / 16 ? 'p' : 'A';
+    }
+    BOOST_TEST(expected == "pcccccccAAAAAA");
+    BOOST_TEST(word(ladder, {.model = &model}) == expected);
+}
+
+// A row that the model does not describe is judged by its neighbours.
+BOOST_AUTO_TEST_CASE(a_model_of_something_else_decides_nothing) {
+    const TwoTermModel other{.a = 5, .p = 2, .b = 1, .q = 1, .rho = 0};
+    std::vector<Refinement> ladder;
+    for (const double h : {0.1, 0.05, 0.025, 0.0125})
+        ladder.push_back({.h = h, .dt = h, .error = h * h * h});
+    BOOST_TEST(word(ladder, {.model = &other}) == word(ladder));
+    BOOST_TEST(word(ladder) == "AAAA");
+}
+
+BOOST_AUTO_TEST_CASE(every_verdict_has_its_name) {
+    BOOST_TEST(name_of(Verdict::asymptotic) == "asymptotic");
+    BOOST_TEST(name_of(Verdict::pre_asymptotic) == "pre-asymptotic");
+    BOOST_TEST(name_of(Verdict::cancellation) == "cancellation");
+    BOOST_TEST(name_of(Verdict::floor) == "floor");
+    BOOST_TEST(name_of(Verdict::diverging) == "diverging");
+    BOOST_TEST(name_of(Verdict::exact) == "exact");
+    BOOST_TEST(name_of(Verdict::failed) == "failed");
+}
+
+BOOST_AUTO_TEST_SUITE_END()

@@ -1,0 +1,283 @@
+// What the figures show: the numbers in their data, and what is chosen to be shown.
+
+#include "core/contraction.hpp"
+#include "reports/document/number_text.hpp"
+#include "reports/formats/html_report.hpp"
+#include "reports/plots/plot.hpp"
+#include "reports/plots/plot_style.hpp"
+#include "studies/study.hpp"
+
+#include <boost/test/unit_test.hpp>
+
+#include <cmath>
+#include <limits>
+#include <map>
+#include <sstream>
+
+using namespace tvbeam;
+
+namespace {
+
+bool has(const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
+}
+
+using Rows = std::vector<std::vector<double>>;
+
+/// The blocks of a figure's data by their headings.
+std::map<std::string, Rows> blocks_of(const Plot& plot) {
+    std::map<std::string, Rows> blocks;
+    std::istringstream lines(plot.data);
+    std::string heading;
+    for (std::string line; std::getline(lines, line);) {
+        if (line.starts_with("# ")) {
+            heading = line.substr(2);
+            blocks[heading];
+        } else if (!line.empty()) {
+            std::istringstream words(line);
+            auto& row = blocks[heading].emplace_back();
+            for (std::string word; words >> word;)
+                row.push_back(std::stod(word));
+        }
+    }
+    return blocks;
+}
+
+const Rows& block(const std::map<std::string, Rows>& blocks, const std::string& begin) {
+    const auto found = blocks.lower_bound(begin);
+    BOOST_REQUIRE(found != blocks.end() && found->first.starts_with(begin));
+    return found->second;
+}
+
+/// A grid and a ladder of the paper's problem, in some ten milliseconds.
+const StudyResult& paper() {
+    static const StudyResult result = run_study(read_scene("table1"));
+    return result;
+}
+
+/// A ladder whose errors are made up: e = error(h).
+template <typename Error>
+StudyResult made_up(const Error& error) {
+    StudyResult result = paper();
+    auto& ladder = *result.ladder;
+    for (std::size_t k = 0; k < ladder.norms.size(); ++k)
+        for (auto& rung : ladder.rungs)
+            rung.errors[k] = error(1.0 / static_cast<double>(rung.rung.elements), k);
+    for (auto& norm : ladder.norms)
+        norm.predictions.clear();
+    return result;
+}
+
+StressCase stress_case(double alpha, double zeta, double dt, Outcome outcome) {
+    StressCase one;
+    one.parameters.alpha = alpha;
+    one.parameters.zeta = zeta;
+    one.parameters.dt = dt;
+    one.parameters.elements = 10;
+    one.parameters.load = 1.0;
+    one.outcome = outcome;
+    return one;
+}
+
+} // namespace
+
+BOOST_AUTO_TEST_SUITE(plots)
+
+BOOST_AUTO_TEST_CASE(the_points_of_a_convergence_figure_are_the_errors_and_the_printed_figures) {
+    const auto plots = convergence_plots(paper());
+    BOOST_REQUIRE(plots.size() == 1u);
+    const auto blocks = blocks_of(plots[0]);
+    const auto& rungs = paper().ladder->rungs;
+    const Rows& rows = block(blocks, "theta_L2L2_sq: h, dt, error");
+    BOOST_REQUIRE(rows.size() == rungs.size());
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        BOOST_TEST(rows[i][0] == 1.0 / static_cast<double>(rungs[i].rung.elements));
+        BOOST_TEST(rows[i][1] == rungs[i].rung.dt);
+        BOOST_TEST(rows[i][2] == rungs[i].errors[0]);
+        BOOST_TEST(rows[i][3] == paper().scene.ladder->printed->figures.at("theta_L2L2_sq").at(i));
+    }
+    BOOST_TEST(has(plots[0].script, "(and Δt = 0.01 h with it)"), plots[0].script);
+    BOOST_TEST(has(plots[0].script, "printed in Table 1"));
+}
+
+BOOST_AUTO_TEST_CASE(a_fitted_line_and_its_triangle_have_the_slope_of_the_errors) {
+    // e = 3 h² and e = 5e-4 h^3.5: the orders are 2 and 3.5.
+    const auto plots = convergence_plots(made_up(
+        [](double h, std::size_t k) { return k == 0 ? 3.0 * h * h : 5e-4 * std::pow(h, 3.5); }));
+    BOOST_REQUIRE(plots.size() == 1u);
+    BOOST_TEST(has(plots[0].script, "slope 2.00'"), plots[0].script);
+    BOOST_TEST(has(plots[0].script, "slope 3.50'"), plots[0].script);
+    const auto blocks = blocks_of(plots[0]);
+    for (const auto& [norm, slope] : {std::pair{"theta_L2L2_sq", 2.0}, {"u_LinfH2semi_sq", 3.5}}) {
+        for (const std::string part : {": the fitted line", ": the triangle of its slope"}) {
+            const Rows& rows = block(blocks, norm + part);
+            double least = 1.0;
+            double greatest = 1.0;
+            for (const auto& row : rows) {
+                least = std::min(least, row[0] / rows[0][0]);
+                greatest = std::max(greatest, row[0] / rows[0][0]);
+            }
+            double low = rows[0][1];
+            double high = low;
+            for (const auto& row : rows) {
+                low = std::min(low, row[1]);
+                high = std::max(high, row[1]);
+            }
+            BOOST_TEST(std::log(high / low) / std::log(greatest / least) == slope,
+                       boost::test_tools::tolerance(1e-9));
+        }
+    }
+}
+
+BOOST_AUTO_TEST_CASE(errors_that_cannot_stand_on_a_logarithmic_axis_are_left_out) {
+    BOOST_TEST(convergence_plots(made_up([](double, std::size_t) { return 0.0; })).empty());
+    const auto plots =
+        convergence_plots(made_up([](double h, std::size_t k) { return k == 0 ? 0.0 : h; }));
+    BOOST_REQUIRE(plots.size() == 1u);
+    const auto blocks = blocks_of(plots[0]);
+    for (const auto& row : block(blocks, "theta_L2L2_sq: h"))
+        BOOST_TEST(std::isnan(row[2]));
+}
+
+BOOST_AUTO_TEST_CASE(
+    the_model_has_its_error_on_a_line_of_equal_error_and_is_balanced_on_the_balance) {
+    const auto plots = error_surface_plots(paper());
+    BOOST_REQUIRE(plots.size() == 2u);
+    for (std::size_t k = 0; k < plots.size(); ++k) {
+        const TwoTermModel& model = paper().orders->norms[k].fit.model;
+        BOOST_TEST(model.rho < 0.0); // the lines bulge: the angle of ρ is not that of −ρ
+        std::size_t lines = 0;
+        for (const auto& [heading, rows] : blocks_of(plots[k])) {
+            if (heading.starts_with("model equal to ")) {
+                const double level = std::stod(heading.substr(15));
+                // Six digits of h and dt.
+                for (const auto& row : rows)
+                    BOOST_TEST(model.error(row[0], row[1]) == level,
+                               boost::test_tools::tolerance(1e-4));
+                ++lines;
+            }
+            if (heading.starts_with("balance"))
+                for (const auto& row : rows)
+                    BOOST_TEST(model.spatial(row[0]) == model.temporal(row[1]),
+                               boost::test_tools::tolerance(1e-12));
+        }
+        BOOST_TEST(lines >= 3u);
+        const auto runs = blocks_of(plots[k]);
+        BOOST_TEST(block(runs, "runs of the fit").size() ==
+                   paper().orders->norms[k].fit.used.size());
+    }
+}
+
+BOOST_AUTO_TEST_CASE(where_no_model_holds_the_runs_stand_with_their_errors) {
+    StudyResult result = paper();
+    result.orders->norms[0].fit.failure = "none";
+    const Plot plot = error_surface_plots(result).at(0);
+    BOOST_TEST(!has(plot.data, "model"));
+    BOOST_TEST(block(blocks_of(plot), "other runs").size() == result.orders->runs.size());
+}
+
+BOOST_AUTO_TEST_CASE(the_two_parameters_that_decide_the_outcome_are_the_axes) {
+    StudyResult result = paper();
+    result.stress.emplace();
+    // Refused where α > 1 and Δt > 1; ζ has more values, and decides nothing.
+    int i = 0;
+    for (const double alpha : {1e-2, 1e-1, 1e1, 1e2})
+        for (const double dt : {1e-3, 1e-1, 1e1, 1e3})
+            for (const double zeta : {0.0, 1e-4, 1e-2, 1e0, 1e2, 1e4, 1e6})
+                result.stress->cases.push_back(
+                    stress_case(alpha, zeta * (1 + i++ % 3), dt,
+                                alpha > 1.0 && dt > 1.0 ? Outcome::refused : Outcome::certified));
+    const Plot plot = stress_plots(result).at(0);
+    BOOST_TEST(has(plot.script, "set xlabel 'thermal expansion α'"), plot.script);
+    BOOST_TEST(has(plot.script, "set ylabel 'time step Δt'"), plot.script);
+    BOOST_TEST(has(plot.script, "'refused: 28'"), plot.script);
+    BOOST_TEST(has(plot.script, "'certified: 84'"), plot.script);
+    const auto blocks = blocks_of(plot);
+    double cases = 0;
+    for (const auto& [heading, rows] : blocks)
+        for (const auto& row : rows)
+            cases += row[2];
+    BOOST_TEST(cases == 112.0);
+    for (const auto& row : block(blocks, "refused"))
+        BOOST_TEST((row[0] >= 1.0 && row[1] >= 1.0)); // decimal logarithms
+}
+
+BOOST_AUTO_TEST_CASE(zero_and_no_stops_have_places_of_their_own_on_a_logarithmic_axis) {
+    StudyResult result = paper();
+    result.stress.emplace();
+    for (const double alpha : {0.0, 1e-2, 1.0})
+        for (const double gap : {1e-3, 1.0, std::numeric_limits<double>::infinity()}) {
+            result.stress->cases.push_back(stress_case(alpha, 1.0, 1.0, Outcome::certified));
+            result.stress->cases.back().parameters.stops = {-gap, gap};
+        }
+    const Plot plot = stress_plots(result).at(0);
+    // A decade below 1e-2, a decade above 1.
+    BOOST_TEST(has(plot.script, "('0' -3, '10^{-2}' -2"), plot.script);
+    BOOST_TEST(has(plot.script, "'none' 1)"), plot.script);
+}
+
+BOOST_AUTO_TEST_CASE(the_lines_of_a_contraction_map_are_where_it_is_predicted) {
+    StudyResult result = paper();
+    result.stress.emplace();
+    const double zeta = 0.05;
+    result.stress->contraction =
+        measure_contraction({{0.1, 1.0, 10.0}, {1e-3, 0.1}, zeta, 8, "euler", ThermalMass::lumped});
+    const auto blocks = blocks_of(contraction_plots(result).at(0));
+    for (const double level : {0.01, 0.1, 1.0}) {
+        const Rows& line = block(blocks, "predicted: " + shortest(level) + ":");
+        BOOST_TEST(line.size() == 2U);
+        for (const auto& row : line)
+            BOOST_TEST(contraction({.alpha = row[0], .zeta = zeta}, Mesh::uniform(8),
+                                   ThermalMass::lumped, 1.0 / row[1]) == level,
+                       boost::test_tools::tolerance(1e-12));
+    }
+    const Rows& below = block(blocks, "measured: below 1");
+    const Rows& above = block(blocks, "measured: 1 or more");
+    BOOST_TEST(below.size() + above.size() == 6U);
+    for (const auto& row : above)
+        BOOST_TEST(row[2] >= 1.0);
+}
+
+BOOST_AUTO_TEST_CASE(what_a_round_off_study_did_not_measure_is_not_drawn) {
+    StudyResult result = paper();
+    result.stress.emplace();
+    RoundOffRow coarse;
+    coarse.elements = 10;
+    coarse.moment.value = 1e-15;
+    coarse.hermite.value = 1e-14;
+    coarse.hermite_predicted = 1e-13;
+    RoundOffRow fine = coarse;
+    fine.elements = 100;
+    fine.hermite = {std::nullopt, "stopped"};
+    result.stress->roundoff = RoundOffTable{{coarse, fine}};
+    const auto blocks = blocks_of(round_off_plots(result).at(0));
+    BOOST_TEST(block(blocks, "moment form, nodal").size() == 2U);
+    BOOST_TEST(block(blocks, "Hermite form:").size() == 1U);
+    BOOST_TEST(block(blocks, "Hermite form, predicted").size() == 2U);
+    BOOST_TEST(blocks.size() == 3U); // no sine basis, no discretisation error
+}
+
+BOOST_AUTO_TEST_CASE(text_of_a_scene_cannot_leave_its_quotes_in_a_script) {
+    BOOST_TEST(gnuplot_text("it's `id` \"x\"\nsystem('y')") == "'it''s `id` \"x\" system(''y'')'");
+}
+
+BOOST_AUTO_TEST_CASE(series_differ_in_more_than_colour) {
+    for (std::size_t i = 0; i < 6; ++i)
+        for (std::size_t j = i + 1; j < 6; ++j) {
+            BOOST_TEST(series_style(i).colour != series_style(j).colour);
+            BOOST_TEST(series_style(i).point != series_style(j).point);
+        }
+}
+
+BOOST_AUTO_TEST_CASE(an_inline_picture_has_ids_of_its_own) {
+    const Figure figure{"p", "what \"it\" shows",
+                        "<?xml version=\"1.0\"?>\n<svg \n width=\"540\" height=\"400\"\n "
+                        "viewBox=\"0 0 540 400\"><title>x</title><path id='a'/>"
+                        "<use xlink:href='#a' id=\"b\" fill=\"url(#c)\"/></svg>"};
+    BOOST_TEST(inline_svg(figure) ==
+               "<svg \n role=\"img\" aria-label=\"what &quot;it&quot; shows\"\n "
+               "viewBox=\"0 0 540 400\"><path id='p-a'/>"
+               "<use xlink:href='#p-a' id=\"p-b\" fill=\"url(#p-c)\"/></svg>");
+}
+
+BOOST_AUTO_TEST_SUITE_END()

@@ -1,0 +1,213 @@
+// One table, written as text, Markdown, LaTeX and HTML.
+
+#include "core/norms/norms.hpp"
+#include "reports/document/html_text.hpp"
+#include "reports/document/norm_words.hpp"
+#include "reports/document/number_text.hpp"
+#include "reports/document/text_table.hpp"
+#include "reports/document/written_number.hpp"
+#include "reports/formats/html_report.hpp"
+#include "reports/formats/latex_report.hpp"
+#include "reports/formats/markdown_report.hpp"
+
+#include <boost/test/unit_test.hpp>
+
+#include <algorithm>
+#include <clocale>
+#include <locale>
+#include <sstream>
+
+using namespace tvbeam;
+
+namespace {
+
+bool has(const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
+}
+
+Table table() {
+    return {"Errors.",
+            {"", {{"s", {"10", "20"}}}},
+            {{"theta_L2L2", {{"error", {"1.25e-3", "7.5e-10"}}, {"ord.", {"", "4.01"}}}},
+             {"", {{"note", {"failed", "a | b"}}}}}};
+}
+
+Document document() {
+    return {
+        "Title & <more>",
+        {"alpha = 0.1"},
+        {{"Ladder", {Paragraph{"At s = 10 the error is 1.25e-3."}, Finding{"found_it"}, table()}}},
+        {"contact"},
+        {{"theta_L2L2", "temperature"}},
+        {{"version", "1"}}};
+}
+
+/// Decimal commas and points between thousands, for C++ and, where one is installed, for C.
+class CommaLocale {
+public:
+    CommaLocale() {
+        struct Comma : std::numpunct<char> {
+            char do_decimal_point() const override { return ','; }
+            char do_thousands_sep() const override { return '.'; }
+            std::string do_grouping() const override { return "\3"; }
+        };
+        before_ = std::locale::global(std::locale(std::locale::classic(), new Comma));
+        std::setlocale(LC_ALL, "de_DE.UTF-8");
+    }
+    ~CommaLocale() {
+        std::locale::global(before_);
+        std::setlocale(LC_ALL, "C");
+    }
+    CommaLocale(const CommaLocale&) = delete;
+    CommaLocale& operator=(const CommaLocale&) = delete;
+    CommaLocale(CommaLocale&&) = delete;
+    CommaLocale& operator=(CommaLocale&&) = delete;
+
+private:
+    std::locale before_;
+};
+
+} // namespace
+
+BOOST_AUTO_TEST_SUITE(tables)
+
+BOOST_AUTO_TEST_CASE(a_written_number_has_its_parts) {
+    const auto number = written_number("-1.25e-3");
+    BOOST_REQUIRE(number.has_value());
+    BOOST_TEST(number->whole == "-1");
+    BOOST_TEST(number->fraction == "25");
+    BOOST_TEST(number->exponent == "-3");
+    BOOST_TEST(written_number("3.00*")->suffix == "*");
+    BOOST_TEST(written_number("2.31µ")->suffix == "µ");
+    BOOST_TEST(written_number("160")->fraction.empty());
+    for (const std::string text : {"", "failed", "2.0 ± 0.1", "1e", "e-3", "1.e3", "0x1", "16/16"})
+        BOOST_TEST(!written_number(text), text);
+    // Whatever number_text writes is one.
+    for (const double value : {1.0, -0.02, 6.25e-5, 1e22, 123456.0, 3e-320})
+        for (const auto& text : {scientific(value, 4), shortest(value), fixed(value, 2)})
+            BOOST_TEST(written_number(text).has_value(), text);
+}
+
+BOOST_AUTO_TEST_CASE(the_pieces_of_a_sentence_are_the_sentence) {
+    const std::string text = "dt = 6.25e-5, (1e-3) and 2098; at 1.5e-10.";
+    std::string joined;
+    int numbers = 0;
+    for (const auto& piece : pieces_of(text)) {
+        joined += piece.text;
+        numbers += piece.number ? 1 : 0;
+    }
+    BOOST_TEST(joined == text);
+    BOOST_TEST(numbers == 3); // those with an exponent
+}
+
+BOOST_AUTO_TEST_CASE(text_breaks_a_table_that_is_too_wide_and_repeats_its_key) {
+    BOOST_TEST(text_table(table(), 80) == "     theta_L2L2\n"
+                                          " s   error ord.   note\n"
+                                          "10 1.25e-3      failed\n"
+                                          "20 7.5e-10 4.01  a | b\n");
+    const std::string narrow = text_table(table(), 18);
+    BOOST_TEST(has(narrow, "\n\n s   note\n10 failed\n20  a | b\n"), narrow);
+    BOOST_TEST(parts_of(table(), 18).size() == 2u);
+    BOOST_TEST(parts_of(table(), 80).size() == 1u);
+}
+
+BOOST_AUTO_TEST_CASE(latex_sets_points_and_powers_of_ten_below_each_other) {
+    const std::string latex = latex_report(document());
+    BOOST_TEST(has(latex, "$1$&$.25$&${}\\times10^{-3}$"), latex);
+    BOOST_TEST(has(latex, "$7$&$.5$&${}\\times10^{-10}$"), latex);
+    // error: three columns, ord.: two, note: text
+    BOOST_TEST(has(latex, "\\begin{tabular}{rr@{}l@{}lr@{}ll}"), latex);
+    BOOST_TEST(has(latex, "\\multicolumn{5}{c}{theta\\_L2L2}"), latex);
+    BOOST_TEST(has(latex, "\\cmidrule(lr){2-6}"), latex);
+    BOOST_TEST(has(latex, "the error is $1.25\\times10^{-3}$."), latex);
+    for (const std::string rule : {"\\toprule", "\\midrule", "\\bottomrule"})
+        BOOST_TEST(has(latex, rule));
+    // Every row has as many columns as the table.
+    std::istringstream lines(latex);
+    bool in_rows = false;
+    for (std::string line; std::getline(lines, line);) {
+        in_rows = line == "  \\midrule" || (in_rows && line != "  \\bottomrule");
+        if (in_rows && line != "  \\midrule")
+            BOOST_TEST(std::count(line.begin(), line.end(), '&') == 6, line);
+    }
+}
+
+BOOST_AUTO_TEST_CASE(markdown_has_a_cell_a_column_and_no_markup_of_a_cell) {
+    const std::string markdown = markdown_report(document());
+    BOOST_TEST(has(markdown, "| s | theta_L2L2 error | theta_L2L2 ord. | note |\n"
+                             "| ---: | ---: | ---: | :--- |\n"
+                             "| 10 | 1.25e-3 |  | failed |\n"
+                             "| 20 | 7.5e-10 | 4.01 | a \\| b |\n"),
+               markdown);
+    BOOST_TEST(has(markdown, "# Title \\& \\<more\\>\n"), markdown);
+    BOOST_TEST(has(markdown, "## What it shows\n\n- found_it\n"), markdown);
+    BOOST_TEST(markdown_text("*a* _b_ `c` [d](e) # | ~f~ a_b") ==
+               "\\*a\\* \\_b\\_ \\`c\\` \\[d\\](e) \\# \\| \\~f\\~ a_b");
+}
+
+BOOST_AUTO_TEST_CASE(html_has_a_table_with_headings_and_hides_what_aligns_it) {
+    const std::string html = html_report({.document = document(),
+                                          .failed = false,
+                                          .formulas = {},
+                                          .figures = {},
+                                          .no_figures = "",
+                                          .scene_text = ""});
+    BOOST_TEST(has(html, "<th class=\"group\" scope=\"colgroup\" colspan=\"2\">theta_L2L2</th>"));
+    BOOST_TEST(has(html, "<th scope=\"row\">10</th><td>1.25 × 10<sup>−3<span"), html);
+    BOOST_TEST(has(html, "<td>7.5<span class=\"pad\" aria-hidden=\"true\">0</span> × "
+                         "10<sup>−10</sup></td>"),
+               html);
+    BOOST_TEST(has(html, "<h1>Title &amp; &lt;more&gt;</h1>"));
+    BOOST_TEST(has(html, "<figcaption>Errors.</figcaption>"));
+    BOOST_TEST(has(html, "<li>found_it</li>"));
+}
+
+BOOST_AUTO_TEST_CASE(text_is_shown_and_never_taken_for_markup) {
+    BOOST_TEST(html_text("<a href=\"x\">'&'\x01</a>") ==
+               "&lt;a href=&quot;x&quot;&gt;&#39;&amp;&#39; &lt;/a&gt;");
+    BOOST_TEST(latex_text("50% a_b \\x {y} $ # & ~ ^") ==
+               "50\\% a\\_b \\textbackslash{}x \\{y\\} \\$ \\# \\& \\textasciitilde{} "
+               "\\textasciicircum{}");
+    BOOST_TEST(latex_text("Fernández ± L∞ 中") == "Fernández $\\pm$ L$^\\infty$ ?");
+}
+
+BOOST_AUTO_TEST_CASE(formulas_are_set_with_raised_exponents_and_greek_letters) {
+    BOOST_TEST(html_formula("exp(-t)*sin(pi*x)") ==
+               "exp(−<i>t</i>)\u2009sin(<i>π</i>\u2009<i>x</i>)");
+    BOOST_TEST(html_formula("g2*x^2") == "<i>g</i><sub>2</sub>\u2009<i>x</i><sup>2</sup>");
+    BOOST_TEST(html_formula("x^(-1/2)") == "<i>x</i><sup>−1/2</sup>");
+    BOOST_TEST(html_formula("x^sin(t)*u") == "<i>x</i><sup>sin(<i>t</i>)</sup>\u2009<i>u</i>");
+    BOOST_TEST(html_formula("theta_A <= 1") == "<i>θ</i><sub>A</sub> ≤ 1");
+    BOOST_TEST(html_formula("a<b&c^") == "<i>a</i>&lt;<i>b</i>&amp;<i>c</i>^");
+}
+
+BOOST_AUTO_TEST_CASE(every_norm_has_words_and_no_two_the_same) {
+    std::vector<std::string> words;
+    for (const auto& name : Norm::names()) {
+        words.push_back(norm_words(name));
+        BOOST_TEST(words.back() != name);
+        if (Norm::named(name + "_sq"))
+            BOOST_TEST(norm_words(name + "_sq") == words.back() + ", squared");
+    }
+    std::sort(words.begin(), words.end());
+    BOOST_TEST((std::adjacent_find(words.begin(), words.end()) == words.end()));
+    BOOST_TEST(norm_words("u_LinfH2semi_sq") == "deflection in L∞(0,T; H² seminorm), squared");
+}
+
+BOOST_AUTO_TEST_CASE(a_decimal_comma_changes_nothing) {
+    const HtmlContents contents{.document = document(),
+                                .failed = false,
+                                .formulas = {{"u", "", "0.5*x^2"}},
+                                .figures = {},
+                                .no_figures = "",
+                                .scene_text = ""};
+    const auto all = [&] {
+        return text_table(table()) + markdown_report(document()) + latex_report(document()) +
+               html_report(contents) + shortest(12345.678) + scientific(0.25, 3) + fixed(1234.5, 2);
+    };
+    const std::string before = all();
+    const CommaLocale locale;
+    BOOST_TEST(all() == before);
+}
+
+BOOST_AUTO_TEST_SUITE_END()

@@ -1,0 +1,183 @@
+// The report of a work-precision study: what it says of made-up rows, in 80 columns.
+
+#include "reports/document/number_text.hpp"
+#include "reports/document/text_document.hpp"
+#include "reports/document/work_precision_section.hpp"
+
+#include <boost/test/unit_test.hpp>
+
+#include <algorithm>
+#include <optional>
+#include <sstream>
+
+using namespace tvbeam;
+
+namespace {
+
+bool has(const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
+}
+
+struct Row {
+    std::optional<double> error; ///< none: the run failed
+    double seconds;
+    int runs = 20;
+};
+
+/// Names of the greatest length, and quartiles a hundredth off the median.
+struct Study {
+    WorkPrecisionBlock block;
+    WorkPrecisionResult result;
+
+    void add(const std::string& name, const std::vector<Row>& rows) {
+        TimedScheme scheme{name, {}, {}};
+        SchemeRuns runs;
+        std::int64_t elements = 10;
+        for (const auto& row : rows) {
+            scheme.rungs.push_back(
+                {elements, 100 * elements, 0.02 / static_cast<double>(elements)});
+            RungResult run;
+            run.rung = scheme.rungs.back();
+            run.counters.steps = run.rung.steps;
+            run.counters.heat_solves = run.rung.steps;
+            if (row.error)
+                run.errors.assign(block.norms.size(), *row.error);
+            else
+                run.status = RunStatus::failed;
+            run.reason = row.error ? "" : "the fixed point did not converge in step 1 of 20";
+            runs.runs.push_back(run);
+            Timing timing{row.seconds, 0.99 * row.seconds, row.seconds, 1.01 * row.seconds,
+                          row.runs};
+            runs.timings.push_back(row.error ? std::optional(timing) : std::nullopt);
+            elements *= 2;
+        }
+        block.schemes.push_back(scheme);
+        result.schemes.push_back(runs);
+    }
+
+    [[nodiscard]] std::string text() {
+        result.norms = costs_of(block, result.schemes);
+        return text_section(work_precision_section(result, block));
+    }
+};
+
+Study study(const std::vector<std::string>& norms) {
+    Study made;
+    for (const auto& norm : norms)
+        made.block.norms.push_back(*Norm::named(norm));
+    made.block.final_time = 2.0;
+    return made;
+}
+
+std::size_t shown(const std::string& line) {
+    return static_cast<std::size_t>(std::count_if(line.begin(), line.end(), [](char c) {
+        return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U;
+    }));
+}
+
+} // namespace
+
+BOOST_AUTO_TEST_SUITE(work_precision_report)
+
+BOOST_AUTO_TEST_CASE(every_line_fits_into_80_columns) {
+    Study wide = study({"theta_LinfL2_sq", "u_LinfH2semi_sq", "theta_L2L2", "u_L2H2_sq"});
+    for (const char last : {'a', 'b', 'c', 'd', 'e'})
+        wide.add("a scheme of twenty-eight l." + std::string(1, last),
+                 {{1e-3, 1.234e-5}, {1.5e-7, 3.21e-1}, {std::nullopt, 1.0}, {1.2e-9, 123.0, 1}});
+    wide.block.targets["theta_L2L2"] = {1.23456789e-5};
+    std::istringstream lines(wide.text());
+    for (std::string line; std::getline(lines, line);)
+        BOOST_TEST(shown(line) <= 80u, line);
+}
+
+BOOST_AUTO_TEST_CASE(the_faster_scheme_is_named_with_its_ratio_and_quartiles) {
+    Study two = study({"theta_L2L2"});
+    two.add("Euler", {{1e-2, 1.0}, {1e-4, 62.0}});
+    two.add("BDF2", {{1e-2, 0.1}, {1e-4, 1.0}});
+    two.block.targets["theta_L2L2"] = {1e-4};
+    // 62 · 0.99/1.01 = 60.8 and 62 · 1.01/0.99 = 63.3
+    BOOST_TEST(has(two.text(), "theta_L2L2 = 1e-4 is reached\n"
+                               "by BDF2 62 times sooner than by Euler (quartiles 61 … 63)\n"),
+               two.text());
+}
+
+BOOST_AUTO_TEST_CASE(without_targets_the_smallest_power_of_ten_that_two_reach_is_spoken_of) {
+    Study two = study({"theta_L2L2"});
+    two.add("Euler", {{1e-2, 1.0}, {0.9e-4, 2.0}});
+    two.add("BDF2", {{1e-2, 0.1}, {1e-6, 0.2}});
+    BOOST_TEST(has(two.text(), "theta_L2L2 = 1e-4 is reached\nby BDF2 "), two.text());
+}
+
+BOOST_AUTO_TEST_CASE(times_too_near_each_other_are_not_told_apart) {
+    Study two = study({"theta_L2L2"});
+    two.add("one", {{1e-2, 1.0}, {1e-4, 2.0}});
+    two.add("other", {{1e-2, 1.1}, {1e-4, 2.2}});
+    BOOST_TEST(has(two.text(), "by one and by other in times not told apart: ratio 1.1 "),
+               two.text());
+    BOOST_TEST(!has(two.text(), "sooner"));
+}
+
+BOOST_AUTO_TEST_CASE(what_is_not_reached_is_blank_and_said) {
+    Study two = study({"theta_L2L2"});
+    two.add("coarse", {{1e-2, 1.0}, {1e-3, 2.0}});
+    two.add("fine", {{1e-2, 1.0}, {1e-4, 8.0}});
+    two.block.targets["theta_L2L2"] = {1e-4};
+    const std::string text = two.text();
+    BOOST_TEST(has(text, "by fine alone\n"), text);
+    BOOST_TEST(has(text, "not, as far as measured, by coarse\n"), text);
+    BOOST_TEST(has(text, "\n      1e-4        8.00\n"), text);
+    BOOST_TEST(!has(text, "1e-5"), text); // reached by none, and no target
+}
+
+BOOST_AUTO_TEST_CASE(one_run_is_marked_and_has_no_quartiles) {
+    Study one = study({"theta_L2L2"});
+    one.add("slow", {{1e-2, 1.0}, {1e-4, 3.0, 1}});
+    one.add("fast", {{1e-2, 0.1}, {1e-4, 0.3}});
+    const std::string text = one.text();
+    BOOST_TEST(has(text, " 3.00* "), text);
+    BOOST_TEST(!has(text, "2.97"), text);
+    BOOST_TEST(has(text, "*: of one run"), text);
+    BOOST_TEST(has(text, "sooner than by slow (of one run)"), text);
+    Study many = study({"theta_L2L2"});
+    many.add("fast", {{1e-2, 0.1}, {1e-4, 0.3}});
+    BOOST_TEST(!has(many.text(), "*"));
+}
+
+BOOST_AUTO_TEST_CASE(a_busy_machine_is_said_behind_the_ratios) {
+    Study two = study({"theta_L2L2"});
+    two.add("Euler", {{1e-2, 1.0}, {1e-4, 62.0}});
+    two.add("BDF2", {{1e-2, 0.1}, {1e-4, 1.0}});
+    two.result.busy_remark = busy_remark(1.0, 8.0);
+    const std::string text = two.text();
+    BOOST_TEST(text.find("The machine was busy") > text.find("times sooner"), text);
+    BOOST_TEST(has(text, "The machine was busy"));
+}
+
+BOOST_AUTO_TEST_CASE(a_failed_run_stays_in_the_table_with_its_reason) {
+    Study failing = study({"theta_L2L2"});
+    failing.add("paper's", {{std::nullopt, 0.0}, {1e-4, 3.0}});
+    const std::string text = failing.text();
+    BOOST_TEST(has(text, "failed\n"), text);
+    BOOST_TEST(has(text, "s = 10, dt = 2e-3 failed: the fixed point did not converge"), text);
+}
+
+BOOST_AUTO_TEST_CASE(seconds_have_three_digits_and_a_prefix) {
+    for (const auto& [value, text] : {std::pair{2.305, "2.31"},
+                                      {12.34, "12.3"},
+                                      {123.4, "123"},
+                                      {1234.0, "1230"},
+                                      {0.2781, "278m"},
+                                      {1.0349e-3, "1.03m"},
+                                      {1e-3, "1.00m"},
+                                      {9.997e-4, "1.00m"},
+                                      {9.994e-4, "999µ"},
+                                      {1.15e-5, "11.5µ"},
+                                      {1e-6, "1.00µ"},
+                                      {9.99e-6, "9.99µ"},
+                                      {3.2e-9, "3.20n"},
+                                      {3.2e-10, "3.20e-10"},
+                                      {0.0, "0"}})
+        BOOST_TEST(with_prefix(value) == text);
+}
+
+BOOST_AUTO_TEST_SUITE_END()

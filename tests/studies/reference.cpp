@@ -1,0 +1,376 @@
+// Errors against a computed reference: the same orders as against the exact solution, and an honest
+// account of the reference's own error.
+
+#include "core/space/quadrature.hpp"
+#include "mms/text/input_error.hpp"
+#include "studies/gates/check.hpp"
+#include "studies/reference/piecewise_polynomial.hpp"
+#include "studies/reference/reference_solution.hpp"
+#include "studies/study.hpp"
+#include "tests/temporary_directory.hpp"
+
+#include <boost/test/data/monomorphic.hpp>
+#include <boost/test/data/test_case.hpp>
+#include <boost/test/unit_test.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <ostream>
+
+using namespace tvbeam;
+using Eigen::ArrayXd;
+namespace data = boost::unit_test::data;
+
+namespace {
+
+const std::string free_beam = R"(solution = "free-oscillation"
+[beam]
+alpha = 0.3
+zeta = 0.05
+stops = [-0.1, 0.1]
+)";
+
+const std::string pressed_beam = R"(solution = "pressed-on-g1"
+[beam]
+alpha = 0.4
+zeta = 0.15
+stops = [-0.05, 0.1]
+)";
+
+const std::string grid = R"([orders]
+final_time = 1
+elements = [8, 16, 32, 64]
+dt = [0.02, 0.01, 0.005, 0.0025]
+norms = ["theta_L2L2", "u_LinfH2semi"]
+)";
+
+const std::string steps = R"([ladder]
+final_time = 1
+elements = [8, 16, 32]
+dt = [0.02, 0.01, 0.005]
+norms = ["theta_L2L2", "u_L2H2"]
+)";
+
+std::string reference(int elements, const std::string& dt, bool richardson = false) {
+    return "[reference]\nelements = " + std::to_string(elements) + "\ndt = " + dt +
+           "\nrichardson = " + (richardson ? "true" : "false") + "\n";
+}
+
+Scene scene_of(const std::string& text) {
+    const TemporaryDirectory directory;
+    return read_scene(directory.write("scene.toml", text));
+}
+
+StudyResult study_of(const std::string& text) {
+    return run_study(scene_of(text));
+}
+
+/// The greatest distance of a reference from the exact solution, at the levels of one rung, field
+/// by field: θ̃, θ̃_x, u, u_x, u_xx, σ̃.
+std::vector<double> distances(const Scene& scene) {
+    const double final_time = scene.ladder->final_time;
+    const ProblemData exact = problem_of(scene, final_time);
+    ProblemData computed = problem_of(scene, final_time);
+    BOOST_REQUIRE(measure_against_reference(scene, final_time, computed).failure.empty());
+    const ArrayXd x = ArrayXd::LinSpaced(203, 0.001, 0.999);
+    std::vector<double> result(6, 0.0);
+    const Rung& rung = scene.ladder->rungs.front();
+    for (std::int64_t n = 1; n <= rung.steps; ++n) {
+        const double t = final_time * static_cast<double>(n) / static_cast<double>(rung.steps);
+        std::size_t at = 0;
+        for (const auto field : {&ExactSolution::theta, &ExactSolution::theta_x, &ExactSolution::u,
+                                 &ExactSolution::u_x, &ExactSolution::u_xx}) {
+            const ArrayXd error = values(computed, (*computed.exact).*field, x, t) -
+                                  values(exact, (*exact.exact).*field, x, t);
+            result[at] = std::max(result[at], error.abs().maxCoeff());
+            ++at;
+        }
+        const auto stress = [t](const ProblemData& problem) {
+            return problem.exact->stress
+                       ? problem.amplitudes(ArrayXd::Constant(1, t))(*problem.exact->stress, 0)
+                       : 0.0;
+        };
+        result[at] = std::max(result[at], std::abs(stress(computed) - stress(exact)));
+    }
+    return result;
+}
+
+} // namespace
+
+BOOST_AUTO_TEST_SUITE(references)
+
+BOOST_AUTO_TEST_CASE(piecewise_cubics_reproduce_cubics_and_integrate_what_they_differentiate) {
+    const auto f = [](const ArrayXd& x) -> ArrayXd { return x.cube() - 2.0 * x.square() + 0.5; };
+    const ArrayXd nodes = ArrayXd::LinSpaced(6, 0.0, 1.0);
+    const ArrayXd x = ArrayXd::LinSpaced(38, 0.0, 1.0);
+    const auto p = PiecewisePolynomial::cubic(f(nodes).matrix());
+    BOOST_TEST((p(x) - f(x)).abs().maxCoeff() < 1e-14);
+    BOOST_TEST((p.derivative()(x) - (3.0 * x.square() - 4.0 * x)).abs().maxCoeff() < 1e-13);
+    BOOST_TEST((p.derivative().integral()(x) - (f(x) - 0.5)).abs().maxCoeff() < 1e-14);
+    // Of x⁴ in the middle of an inner element the cubic through its four nearest nodes misses
+    // 9/16 h⁴; one to a side would miss more.
+    const auto quartic = PiecewisePolynomial::cubic(nodes.pow(4).matrix());
+    const ArrayXd middle = ArrayXd::LinSpaced(3, 0.3, 0.7);
+    BOOST_TEST(
+        ((quartic(middle) - middle.pow(4)).abs() / std::pow(0.2, 4) - 9.0 / 16.0).abs().maxCoeff() <
+        1e-10);
+    BOOST_CHECK_THROW(PiecewisePolynomial::cubic(Eigen::Vector3d::Zero()), std::invalid_argument);
+}
+
+BOOST_AUTO_TEST_CASE(a_repeated_rule_is_exact_for_a_kink_between_its_parts) {
+    const GaussRule rule = element_rule().repeated(3);
+    BOOST_TEST(rule.points.size() == 18);
+    const double integral = (rule.weights * (rule.points - 1.0 / 3.0).abs()).sum();
+    BOOST_TEST(std::abs(integral - 5.0 / 18.0) < 1e-15);
+    const double plain = (element_rule().weights * (element_rule().points - 1.0 / 3.0).abs()).sum();
+    BOOST_TEST(std::abs(plain - 5.0 / 18.0) > 1e-4);
+}
+
+BOOST_AUTO_TEST_CASE(a_reference_gives_the_orders_that_the_exact_solution_gives) {
+    const OrdersResult exact = *study_of(free_beam + grid).orders;
+    const auto hold = [&](const std::string& block, double orders, double constants) {
+        const StudyResult study = study_of(free_beam + grid + block);
+        BOOST_REQUIRE(study.reference);
+        for (std::size_t k = 0; k < exact.norms.size(); ++k) {
+            const TwoTermFit& fit = study.orders->norms[k].fit;
+            const TwoTermModel& wanted = exact.norms[k].fit.model;
+            BOOST_REQUIRE(fit.holds());
+            BOOST_TEST(std::abs(fit.model.p - wanted.p) < orders, fit.model.p << " " << wanted.p);
+            BOOST_TEST(std::abs(fit.model.q - wanted.q) < orders, fit.model.q << " " << wanted.q);
+            BOOST_TEST(std::abs(fit.model.a / wanted.a - 1.0) < constants);
+            BOOST_TEST(std::abs(fit.model.b / wanted.b - 1.0) < constants);
+        }
+    };
+    // Half of the finest Δt: without the account of its error, q would be 1.18.
+    hold(reference(256, "1.25e-3"), 0.02, 0.03);
+    hold(reference(256, "6.25e-4"), 0.02, 0.02);
+    hold(reference(128, "1.25e-3", true), 1e-3, 0.002);
+}
+
+BOOST_AUTO_TEST_CASE(
+    an_extrapolated_reference_is_closer_to_the_exact_solution_than_its_finest_run) {
+    for (const auto& beam : {free_beam, pressed_beam}) {
+        const auto finest = distances(scene_of(beam + steps + reference(32, "2.5e-3")));
+        const auto extrapolated = distances(scene_of(beam + steps + reference(32, "2.5e-3", true)));
+        for (std::size_t k = 0; k < 5; ++k)
+            BOOST_TEST(extrapolated[k] < 0.1 * finest[k],
+                       "field " << k << ": " << extrapolated[k] << " of " << finest[k]);
+        if (beam == pressed_beam) {
+            BOOST_TEST(finest[5] > 0.0);
+            BOOST_TEST(extrapolated[5] < 0.1 * finest[5]);
+        }
+    }
+}
+
+BOOST_AUTO_TEST_CASE(a_rung_that_is_the_reference_has_no_error_and_no_order) {
+    const StudyResult study = study_of(free_beam + steps + reference(32, "5e-3"));
+    const LadderResult& ladder = *study.ladder;
+    for (std::size_t k = 0; k < ladder.norms.size(); ++k) {
+        BOOST_TEST(ladder.rungs[1].errors[k] > 1e-5);
+        BOOST_TEST(ladder.rungs[2].errors[k] == 0.0);
+        BOOST_TEST(ladder.norms[k].orders[1].has_value());
+        BOOST_TEST(!ladder.norms[k].orders[2].has_value());
+        BOOST_TEST((ladder.norms[k].verdicts[2].verdict == Verdict::exact));
+    }
+    // The rung before it is within a factor of two, the first is not.
+    const std::string& remark = ladder.reference_remark;
+    BOOST_TEST(remark.find("s = 16 (dt = 0.01), s = 32 (dt = 0.005)") != std::string::npos, remark);
+    BOOST_TEST(remark.find("s = 8 ") == std::string::npos, remark);
+}
+
+BOOST_AUTO_TEST_CASE(a_norm_integrates_the_kinks_of_the_reference_exactly) {
+    // One step: the error is piecewise linear on the mesh of the reference.
+    const std::string rung =
+        "[ladder]\nfinal_time = 0.1\nelements = [5]\ndt = [0.1]\nnorms = [\"theta_LinfL2\"]\n";
+    const Mesh fine = Mesh::uniform(15);
+    const auto nodal = [&](int elements) {
+        const Scene scene = scene_of(free_beam + rung + reference(elements, "0.1"));
+        ProblemData problem = problem_of(scene, 0.1);
+        measure_against_reference(scene, 0.1, problem);
+        return problem.exact->theta.rest(fine.nodes, 0.1);
+    };
+    const double wanted = std::sqrt(squared_norm(fine, (nodal(15) - nodal(5)).matrix()));
+    const StudyResult study = study_of(free_beam + rung + reference(15, "0.1"));
+    BOOST_TEST(std::abs(study.ladder->rungs[0].errors[0] / wanted - 1.0) < 1e-12);
+}
+
+BOOST_AUTO_TEST_CASE(a_rung_close_to_the_reference_in_dt_alone_is_remarked) {
+    const std::string remark =
+        study_of(free_beam + steps + reference(96, "2.5e-3")).ladder->reference_remark;
+    BOOST_TEST(remark.starts_with("The rung s = 32 (dt = 0.005) has"), remark);
+}
+
+BOOST_AUTO_TEST_CASE(rungs_far_from_the_reference_or_one_extrapolated_are_not_remarked) {
+    const std::string measured = free_beam + steps;
+    for (const auto& block : {reference(96, "1e-3"), reference(32, "2.5e-3", true)})
+        BOOST_TEST(study_of(measured + block).ladder->reference_remark.empty());
+}
+
+BOOST_AUTO_TEST_CASE(the_stress_is_measured_against_the_reference_s) {
+    const std::string ladder = R"([ladder]
+final_time = 2
+elements = [8, 16]
+dt = [0.02, 0.01]
+norms = ["sigma_L2"]
+)";
+    const LadderResult exact = *study_of(pressed_beam + ladder).ladder;
+    const std::string measured = pressed_beam + ladder;
+    for (const auto& [block, tolerance] : {std::pair{reference(256, "6.25e-4"), 0.08},
+                                           std::pair{reference(64, "2.5e-3", true), 0.02}}) {
+        const LadderResult found = *study_of(measured + block).ladder;
+        for (std::size_t i = 0; i < 2; ++i) {
+            const double ratio = found.rungs[i].errors[0] / exact.rungs[i].errors[0];
+            BOOST_TEST(std::abs(ratio - 1.0) < tolerance, ratio);
+        }
+    }
+}
+
+BOOST_DATA_TEST_CASE(a_reference_serves_every_time_scheme, data::make(TimeScheme::names()), time) {
+    // The reference's own error is (1/8)² of the finer rung's in h, and in Δt as little or less;
+    // that of the extrapolated one is of higher order.
+    const std::string measured = free_beam + "[scheme]\ntime = '" + time + "'\n" +
+                                 "[ladder]\nfinal_time = 1\nelements = [32, 64]\n"
+                                 "dt = [0.1, 0.05]\nnorms = ['theta_L2L2', 'u_LinfH2semi']\n";
+    const LadderResult exact = *study_of(measured).ladder;
+    for (const auto& block : {reference(512, "7.8125e-4"), reference(256, "0.0125", true)}) {
+        const LadderResult found = *study_of(measured + block).ladder;
+        for (std::size_t i = 0; i < 2; ++i)
+            for (std::size_t k = 0; k < 2; ++k) {
+                const double ratio = found.rungs[i].errors[k] / exact.rungs[i].errors[k];
+                BOOST_TEST(std::abs(ratio - 1.0) < 0.03, ratio);
+            }
+    }
+}
+
+BOOST_AUTO_TEST_CASE(predictions_are_of_what_is_measured_against_the_reference) {
+    const std::string ladder = R"([ladder]
+final_time = 1
+elements = [32, 64, 128]
+dt = [0.01, 0.005, 0.0025]
+norms = ["theta_L2L2_sq"]
+)";
+    const StudyResult study = study_of(free_beam + grid + ladder + reference(256, "1.25e-3"));
+    const LadderNorm& norm = study.ladder->norms.front();
+    for (std::size_t i = 0; i < 3; ++i) {
+        const double ratio = study.ladder->rungs[i].errors[0] / *norm.predictions[i];
+        BOOST_TEST(std::abs(ratio - 1.0) < 0.03, ratio);
+    }
+    // The measured orders rise towards the reference; the model knows better.
+    BOOST_TEST(*norm.orders[2] > 2.8);
+    BOOST_TEST(norm.remarks.empty()); // all but one rung are close to the reference in dt or h
+    BOOST_TEST((norm.verdicts[2].verdict == Verdict::asymptotic), norm.verdicts[2].reason);
+}
+
+BOOST_AUTO_TEST_CASE(a_time_that_no_rung_has_is_a_logic_error) {
+    const Scene scene = scene_of(free_beam + steps + reference(32, "2.5e-3"));
+    ProblemData problem = problem_of(scene, 1.0);
+    measure_against_reference(scene, 1.0, problem);
+    const ArrayXd x = ArrayXd::Constant(1, 0.5);
+    BOOST_CHECK_NO_THROW(problem.exact->theta.rest(x, 0.015)); // of the rung with dt = 0.005
+    BOOST_CHECK_THROW(problem.exact->theta.rest(x, 0.0175), std::logic_error); // 7 steps of 2.5e-3
+    BOOST_CHECK_THROW(problem.exact->u.rest(x, 0.016), std::logic_error);
+    BOOST_CHECK_THROW(problem.exact->u.rest(x, 1.02), std::logic_error);
+}
+
+BOOST_AUTO_TEST_CASE(a_reference_that_fails_fails_every_run_with_its_reason) {
+    const StudyResult study = study_of("[data]\ntheta0 = '1e300*sin(pi*x)'\n[beam]\nalpha = 1e100\n"
+                                       "zeta = 0\n" +
+                                       steps + reference(32, "2.5e-3"));
+    BOOST_REQUIRE(study.reference);
+    BOOST_TEST(!study.reference->failure.empty());
+    BOOST_TEST(study.failed());
+    for (const auto& rung : study.ladder->rungs)
+        BOOST_TEST(rung.reason.find("the reference run failed: ") != std::string::npos,
+                   rung.reason);
+}
+
+BOOST_AUTO_TEST_CASE(without_norms_no_reference_is_run) {
+    const StudyResult study = study_of(
+        free_beam + "[ladder]\nfinal_time = 1\nelements = [8]\ndt = [0.1]\n" + reference(8, "0.1"));
+    BOOST_TEST(!study.reference);
+    BOOST_TEST(study.left_out.back() == "reference run: no norm asks for it");
+}
+
+namespace {
+
+struct Wrong {
+    std::string block;
+    std::string place; ///< line:column; the block's head is in line 11
+    std::string message;
+};
+
+std::ostream& operator<<(std::ostream& stream, const Wrong& wrong) {
+    return stream << wrong.message;
+}
+
+const std::vector<Wrong> wrong_blocks{
+    {"dt = 1e-3", "11:1", "reference.elements is missing"},
+    {"elements = 96", "11:1", "reference.dt is missing"},
+    {"elements = 96\ndt = 1e-3\nrichardsn = true", "14:1",
+     "unknown key 'reference.richardsn'; did you mean 'richardson'?"},
+    {"elements = 96.0\ndt = 1e-3", "12:12",
+     "reference.elements is a number; it must be an integer"},
+    {"elements = 96\ndt = 1e-3\nrichardson = 1", "14:14",
+     "reference.richardson is an integer; it must be true or false"},
+    {"elements = 0\ndt = 1e-3", "12:12", "reference.elements is 0; a mesh has 1 to 10000000"},
+    {"elements = 48\ndt = 1e-3", "12:12",
+     "reference.elements is 48; it must be a multiple of the 32 of ladder.elements"},
+    {"elements = 16\ndt = 1e-3", "12:12",
+     "reference.elements is 16, coarser than the 32 of ladder.elements"},
+    {"elements = 96\ndt = 0", "13:6", "reference.dt is 0; it must be > 0"},
+    {"elements = 96\ndt = 0.01", "13:6",
+     "reference.dt is 0.01, coarser than the 0.005 of ladder.dt"},
+    {"elements = 96\ndt = 0.0015", "13:6",
+     "reference.dt is 0.0015; it must divide the 0.02 of ladder.dt into a whole number of steps, "
+     "not 13.3333333333"},
+    {"elements = 96\ndt = 1e-300", "13:6", "at most 1e12 are possible"},
+    {"elements = 96\ndt = 5e-3\nrichardson = true", "13:6",
+     "reference.dt is 0.005; with richardson = true its double, the step of one of the runs, must "
+     "be no larger than the 0.005 of ladder.dt"},
+    {"elements = 96\ndt = 1e-3\nrichardson = true", "13:6",
+     "its double, the step of one of the runs, must divide the 0.005 of ladder.dt into a whole "
+     "number of steps, not 2.5"},
+    {"elements = 3200000\ndt = 1e-3", "12:12",
+     "the reference would keep 50 time levels of 3200000 elements, 3.6 GiB; at most 1 GiB"},
+};
+
+} // namespace
+
+BOOST_DATA_TEST_CASE(a_wrong_block_is_told_at_its_place, data::make(wrong_blocks), wrong) {
+    const TemporaryDirectory directory;
+    const std::string file =
+        directory.write("wrong.toml", free_beam + steps + "[reference]\n" + wrong.block + "\n");
+    std::string message = "accepted";
+    try {
+        read_scene(file);
+    } catch (const InputError& error) {
+        message = error.what();
+    }
+    BOOST_TEST(message.starts_with(file + ":" + wrong.place + ":"),
+               message << " must start with " << file << ":" << wrong.place);
+    BOOST_TEST(message.find(wrong.message) != std::string::npos,
+               message << " must say " << wrong.message);
+}
+
+BOOST_AUTO_TEST_CASE(richardson_needs_an_even_number_of_elements) {
+    const std::string ladder =
+        "[ladder]\nfinal_time = 1\nelements = [3]\ndt = [0.1]\nnorms = [\"theta_L2L2\"]\n";
+    for (const int elements : {3, 9})
+        BOOST_CHECK_EXCEPTION(
+            scene_of(free_beam + ladder + reference(elements, "0.05", true)), InputError,
+            [](const InputError& error) {
+                return std::string(error.what()).find("needs an even number, 6 or more") !=
+                       std::string::npos;
+            });
+    BOOST_CHECK_NO_THROW(scene_of(free_beam + ladder + reference(6, "0.05", true)));
+}
+
+BOOST_AUTO_TEST_CASE(the_paper_s_second_experiment_has_the_orders_of_the_scheme) {
+    const auto all = check(
+        run_study(read_scene("figure1-orders", {}, {.short_form = true, .expectations = true})));
+    BOOST_TEST(all.size() == 8u);
+    for (const auto& one : all)
+        BOOST_TEST(one.holds, one.what << " is " << one.found << ", not " << one.expected);
+}
+
+BOOST_AUTO_TEST_SUITE_END()

@@ -1,0 +1,212 @@
+// Stress studies: how cases are sampled and judged.
+
+#include "studies/stress/stress.hpp"
+#include "core/contraction.hpp"
+#include "studies/ladder/ladder.hpp"
+#include "studies/scene/scene.hpp"
+#include "studies/stress/stress_problem.hpp"
+#include "tests/temporary_directory.hpp"
+
+#include <boost/test/data/monomorphic.hpp>
+#include <boost/test/data/test_case.hpp>
+#include <boost/test/unit_test.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+
+using namespace tvbeam;
+
+namespace {
+
+StressBlock read_block(const std::string& text) {
+    const TemporaryDirectory directory;
+    return *read_scene(directory.write("scene.toml", text)).stress;
+}
+
+} // namespace
+
+BOOST_AUTO_TEST_SUITE(stress)
+
+BOOST_AUTO_TEST_CASE(samplings_take_the_cases_that_they_say) {
+    const std::string lists = "alpha = [0.0, 1.0, 2.0]\nelements = [2, 4]\ngap = [1.0, inf]\n"
+                              "sides = [\"both\", \"lower\"]\n";
+    const auto cases = [&](const std::string& sampling) {
+        return read_block("[stress.sweep.a]\n" + lists + sampling).sweeps.at(0).cases;
+    };
+    // inf has no sides: three kinds of stops. One at a time: 1 + 2 + 1 + 2.
+    BOOST_TEST(cases("sampling = \"each\"").size() == 6U);
+    BOOST_TEST(cases("sampling = \"product\"").size() == 18U);
+    const auto sobol = cases("sampling = \"sobol\"\npoints = 64");
+    BOOST_TEST(sobol.size() == 64U);
+    std::set<std::pair<double, std::int64_t>> seen;
+    for (const auto& one : sobol)
+        seen.insert({one.alpha, one.elements});
+    BOOST_TEST(seen.size() == 6U); // every pair of the two lists
+}
+
+BOOST_AUTO_TEST_CASE(work_bounds_the_steps) {
+    const auto cases =
+        read_block("[stress.sweep.a]\nelements = [10, 1000]\nsteps = 50\nwork = 5000")
+            .sweeps.at(0)
+            .cases;
+    BOOST_TEST(cases[0].steps == 50);
+    BOOST_TEST(cases[1].steps == 5);
+}
+
+BOOST_AUTO_TEST_CASE(mistakes_are_pointed_at) {
+    const std::vector<std::pair<std::string, std::string>> mistakes{
+        {"[stress]", "asks for nothing"},
+        {"[stress.sweep.a]\nalpha = [-1.0]", "its values must be >= 0"},
+        {"[stress.sweep.a]\ntime = [\"rk4\"]", "holds 'rk4'"},
+        {"[stress.sweep.a]\npoints = 3", "belongs to sampling"},
+        {"[stress.sweep.a]\nload = [inf]", "finite"}};
+    for (const auto& mistake : mistakes) {
+        const auto says_so = [&](const InputError& error) {
+            return std::string(error.what()).find(mistake.second) != std::string::npos;
+        };
+        BOOST_CHECK_EXCEPTION(read_block(mistake.first), InputError, says_so);
+    }
+}
+
+BOOST_AUTO_TEST_CASE(both_descriptions_of_the_loads_agree) {
+    // μ = ∫_y^1 G dx − m, with G = couple_load constant in x.
+    StressParameters parameters;
+    parameters.dt = 0.1;
+    parameters.steps = 7;
+    parameters.elements = 4;
+    parameters.load = 2.0;
+    const Mesh mesh = Mesh::uniform(4);
+    const ProblemData problem = stress_problem(parameters, mesh);
+    for (const double t : {0.0, 0.13, 0.7}) {
+        const Eigen::ArrayXd g = values(problem, problem.couple_load, mesh.nodes, t);
+        const double m = problem.amplitudes(Eigen::ArrayXd::Constant(1, t))(*problem.end_moment, 0);
+        const Eigen::ArrayXd mu = values(problem, problem.moment_load, mesh.nodes, t);
+        BOOST_TEST((mu - (g * (1.0 - mesh.nodes) - m)).abs().maxCoeff() <= 1e-15);
+    }
+}
+
+BOOST_AUTO_TEST_CASE(outcomes_have_their_reasons) {
+    StressParameters ordinary;
+    ordinary.alpha = 0.5;
+    ordinary.zeta = 0.1;
+    ordinary.dt = 0.01;
+    ordinary.elements = 10;
+    ordinary.steps = 10;
+    ordinary.load = 1.0;
+    ordinary.time = "euler";
+    const StressCase certified = judge(ordinary);
+    BOOST_TEST(name_of(certified.outcome) == "certified", certified.reason);
+    BOOST_TEST(certified.reason.empty());
+    BOOST_TEST(certified.checks->path.has_value());
+
+    StressParameters diverging = ordinary;
+    diverging.algorithm = Algorithm::fixed_point;
+    diverging.alpha = 100.0;
+    BOOST_TEST(name_of(judge(diverging).outcome) == "refused");
+    BOOST_TEST(judge(diverging).reason.find("would not contract") != std::string::npos);
+
+    StressParameters rounded = ordinary;
+    rounded.algorithm = Algorithm::fixed_point;
+    rounded.elements = 100'000;
+    BOOST_TEST(name_of(judge(rounded).outcome) == "refused");
+    BOOST_TEST(judge(rounded).reason.find("h^-4") != std::string::npos);
+
+    StressParameters huge = ordinary;
+    huge.load = 1e308;
+    BOOST_TEST(name_of(judge(huge).outcome) == "stopped");
+    BOOST_TEST(judge(huge).reason.find("not finite") != std::string::npos);
+
+    StressParameters stiff = ordinary;
+    stiff.alpha = 1e200;
+    BOOST_TEST(name_of(judge(stiff).outcome) == "refused");
+
+    StressParameters tiny = ordinary;
+    tiny.load = 1e-320;
+    BOOST_TEST(name_of(judge(tiny).outcome) == "refused");
+    tiny.load = 1e-300; // so viscous a beam bends by 1e-300 Δt/ζ = 1e-316
+    tiny.zeta = 1e12;
+    tiny.dt = 1e-4;
+    BOOST_TEST(name_of(judge(tiny).outcome) == "stopped");
+    BOOST_TEST(judge(tiny).reason.find("underflow") != std::string::npos);
+}
+
+BOOST_AUTO_TEST_CASE(contraction_is_measured_as_it_is_predicted_for_the_running_scheme) {
+    // One solve of the running scheme, whatever its starter does, with c = leading/Δt.
+    for (const auto& time : TimeScheme::names())
+        for (const auto mass : {ThermalMass::consistent, ThermalMass::lumped}) {
+            BOOST_TEST_CONTEXT(time << ", " << name_of(mass)) {
+                const ContractionMap map =
+                    measure_contraction({{1e-5, 0.3, 1.0}, {1e-3, 0.1}, 0.05, 8, time, mass});
+                const double c = TimeScheme::named(time).stages.back().leading / 0.1;
+                BOOST_TEST(map.predicted(1, 2) ==
+                           contraction({.alpha = 1.0, .zeta = 0.05}, Mesh::uniform(8), mass, c));
+                BOOST_TEST(map.least_ratio() >= 1.0 - 1e-4);
+                BOOST_TEST(map.greatest_ratio() <= 1.0 + 1e-4);
+                BOOST_TEST(map.predicted(0, 0) < ContractionMap::least_measurable);
+            }
+        }
+}
+
+BOOST_AUTO_TEST_CASE(a_form_that_stops_says_why_and_meets_no_expectation) {
+    RoundOffBlock block;
+    block.alpha = 100.0;
+    block.dt = 0.1;
+    block.steps = 2;
+    block.time = "euler";
+    block.elements = {4};
+    block.finest_hermite = 4;
+    const RoundOffTable table = measure_round_off(block);
+    BOOST_TEST(!table.rows[0].hermite.value.has_value());
+    BOOST_TEST(table.rows[0].hermite.reason.find("would not contract") != std::string::npos);
+    BOOST_TEST(std::isnan(table.least_hermite_ratio()));
+    BOOST_TEST(std::isnan(table.greatest_hermite_ratio()));
+    BOOST_TEST(std::isfinite(table.greatest_moment_floor()));
+
+    block.finest_hermite = 2; // not run, hence no reason
+    const RoundOffTable without = measure_round_off(block);
+    BOOST_TEST(without.rows[0].hermite.reason.empty());
+}
+
+BOOST_AUTO_TEST_CASE(hermite_form_warns_where_round_off_may_exceed_its_error) {
+    // In the paper's row with s = 160 round-off moves the second figure, by s = 320 it swamps the
+    // error; a few steps of it suffice, because viscosity remembers ζ/Δt of them.
+    const auto remarks = [](const std::string& algorithm, const std::string& elements,
+                            const std::string& dt) {
+        const Scene scene =
+            read_scene("table1-fixed-point",
+                       {"ladder.final_time=0.01", "ladder.elements=[" + elements + "]",
+                        "ladder.dt=[" + dt + "]", "ladder.printed={}",
+                        "ladder.norms=['u_LinfH2semi']", "scheme={algorithm='" + algorithm + "'}"});
+        return run_ladder(scene, *scene.ladder, problem_of(scene, 0.01), nullptr)
+            .norms.at(0)
+            .remarks;
+    };
+    const auto warns = [](const std::vector<std::string>& remarks) {
+        return std::any_of(remarks.begin(), remarks.end(), [](const std::string& remark) {
+            return remark.find("h^-4") != std::string::npos;
+        });
+    };
+    BOOST_TEST(!warns(remarks("fixed-point", "10", "1e-3")));
+    BOOST_TEST(warns(remarks("fixed-point", "640", "1e-4")));
+    BOOST_TEST(!warns(remarks("direct", "640", "1e-4")));
+}
+
+BOOST_AUTO_TEST_CASE(error_of_the_mode_is_the_predicted_one) {
+    StressParameters mode;
+    mode.alpha = 0.5;
+    mode.zeta = 0.1;
+    mode.dt = 0.01;
+    mode.elements = 10;
+    mode.steps = 20;
+    mode.initial = InitialData::smooth;
+    for (const auto& time : TimeScheme::names()) {
+        mode.time = time;
+        const StressCase result = judge(mode);
+        BOOST_TEST(name_of(result.outcome) == "certified", result.reason);
+        BOOST_TEST(*result.checks->error == 1.0, boost::test_tools::tolerance(1e-9));
+    }
+}
+
+BOOST_AUTO_TEST_SUITE_END()

@@ -1,0 +1,191 @@
+// Quartiles, the time to reach an error, and when two times are told apart, on made-up rows.
+
+#include "studies/work_precision/timing.hpp"
+
+#include <boost/test/data/monomorphic.hpp>
+#include <boost/test/data/test_case.hpp>
+#include <boost/test/unit_test.hpp>
+
+#include <cmath>
+#include <limits>
+
+using namespace tvbeam;
+namespace data = boost::unit_test::data;
+
+namespace {
+
+constexpr double failed = std::numeric_limits<double>::quiet_NaN();
+
+/// Quartiles a tenth off the median.
+TimedError row(double error, double seconds) {
+    return {error,
+            {.min = 0.8 * seconds,
+             .q1 = 0.9 * seconds,
+             .median = seconds,
+             .q3 = 1.1 * seconds,
+             .runs = 20}};
+}
+
+double median(const std::vector<TimedError>& rows, double error) {
+    const auto time = time_to_reach(rows, error);
+    return time ? time->median : failed;
+}
+
+bool reached(const std::vector<TimedError>& rows, double error) {
+    return time_to_reach(rows, error).has_value();
+}
+
+Timing timing(double q1, double median, double q3) {
+    return {.min = q1, .q1 = q1, .median = median, .q3 = q3, .runs = 20};
+}
+
+const auto tight = boost::test_tools::tolerance(1e-12);
+
+} // namespace
+
+BOOST_AUTO_TEST_SUITE(timings)
+
+BOOST_AUTO_TEST_CASE(quartiles_lie_a_quarter_of_the_way_along_the_sorted_values) {
+    // (n − 1)/4 = 1 and 3(n − 1)/4 = 3: the second and fourth of five.
+    const Timing five = timing_of({5.0, 1.0, 3.0, 2.0, 4.0});
+    BOOST_TEST(five.min == 1.0);
+    BOOST_TEST(five.q1 == 2.0);
+    BOOST_TEST(five.median == 3.0);
+    BOOST_TEST(five.q3 == 4.0);
+    BOOST_TEST(five.runs == 5);
+    // Of four they are at 3/4, 3/2 and 9/4 from the first.
+    const Timing four = timing_of({4.0, 3.0, 2.0, 1.0});
+    BOOST_TEST(four.q1 == 1.75);
+    BOOST_TEST(four.median == 2.5);
+    BOOST_TEST(four.q3 == 3.25);
+}
+
+BOOST_AUTO_TEST_CASE(one_run_is_its_own_quartiles) {
+    const Timing one = timing_of({3.0});
+    BOOST_TEST(one.min == 3.0);
+    BOOST_TEST(one.q1 == 3.0);
+    BOOST_TEST(one.median == 3.0);
+    BOOST_TEST(one.q3 == 3.0);
+    BOOST_TEST(one.runs == 1);
+}
+
+BOOST_DATA_TEST_CASE(the_time_to_reach_an_error_is_exact_on_a_power_law,
+                     data::make({0.9, 0.3, 1e-2, 5e-4, 2.0e-8}), error) {
+    // An error h^4 in a time h^−2 takes error^(−1/2).
+    std::vector<TimedError> rows;
+    for (const double h : {1.0, 0.5, 0.1, 0.01})
+        rows.push_back(row(h * h * h * h, 1.0 / (h * h)));
+    const auto time = time_to_reach(rows, error);
+    BOOST_REQUIRE(time);
+    const double expected = 1.0 / std::sqrt(error);
+    BOOST_TEST(time->median == expected, tight);
+    BOOST_TEST(time->min == 0.8 * expected, tight);
+    BOOST_TEST(time->q1 == 0.9 * expected, tight);
+    BOOST_TEST(time->q3 == 1.1 * expected, tight);
+}
+
+BOOST_AUTO_TEST_CASE(nothing_is_extrapolated) {
+    const std::vector<TimedError> rows{row(1e-2, 1.0), row(1e-4, 10.0)};
+    BOOST_TEST(!reached(rows, 2e-2));
+    BOOST_TEST(!reached(rows, 5e-5));
+    BOOST_TEST(!reached({}, 1e-3));
+    BOOST_TEST(!reached({row(failed, 1.0), row(failed, 1.0)}, 1e-3));
+}
+
+BOOST_AUTO_TEST_CASE(the_errors_of_the_rows_themselves_are_inside_also_as_they_are_written_down) {
+    const std::vector<TimedError> rows{row(1.24547e-3, 1.0), row(1.666565e-8, 10.0)};
+    for (const double error : {1.24547e-3, 1.2455e-3, 1.25e-3})
+        BOOST_TEST(median(rows, error) == 1.0);
+    for (const double error : {1.666565e-8, 1.6665e-8, 1.66e-8})
+        BOOST_TEST(median(rows, error) == 10.0, tight);
+    BOOST_TEST(median(rows, 1.6666e-8) == 10.0, boost::test_tools::tolerance(1e-4));
+    // More than 1 % off is another error.
+    BOOST_TEST(!reached(rows, 1.6e-8));
+    BOOST_TEST(!reached(rows, 1.3e-3));
+}
+
+BOOST_AUTO_TEST_CASE(one_row_reaches_its_own_error_only) {
+    const std::vector<TimedError> rows{row(1e-4, 2.0)};
+    BOOST_TEST(median(rows, 1e-4) == 2.0);
+    BOOST_TEST(!reached(rows, 1e-3));
+    BOOST_TEST(!reached(rows, 1e-5));
+}
+
+BOOST_AUTO_TEST_CASE(nothing_is_interpolated_across_a_row_without_error) {
+    for (const double missing : {failed, 0.0, std::numeric_limits<double>::infinity()}) {
+        const std::vector<TimedError> rows{row(1e-1, 1.0), row(1e-2, 2.0), row(missing, 4.0),
+                                           row(1e-4, 8.0), row(1e-5, 16.0)};
+        BOOST_TEST(reached(rows, 3e-2));
+        BOOST_TEST(!reached(rows, 1e-3));
+        BOOST_TEST(reached(rows, 3e-5));
+        // The rows beside it have their own errors still.
+        BOOST_TEST(median(rows, 1e-2) == 2.0, tight);
+        BOOST_TEST(median(rows, 0.995e-2) == 2.0);
+        BOOST_TEST(median(rows, 1e-4) == 8.0);
+    }
+    // A coarsest or finest row that failed takes nothing from the others.
+    const std::vector<TimedError> ends{row(failed, 1.0), row(1e-2, 2.0), row(1e-4, 4.0),
+                                       row(failed, 8.0)};
+    BOOST_TEST(median(ends, 1e-3) == 2.0 * std::sqrt(2.0), tight);
+    BOOST_TEST(median(ends, 1e-2) == 2.0);
+    BOOST_TEST(median(ends, 1e-4) == 4.0);
+    BOOST_TEST(!reached(ends, 1e-5));
+}
+
+BOOST_AUTO_TEST_CASE(a_dip_is_not_an_error_reached) {
+    const std::vector<TimedError> rows{row(1e-1, 1.0), row(1e-5, 2.0), row(1e-2, 4.0),
+                                       row(1e-3, 8.0)};
+    BOOST_TEST(!reached(rows, 1e-4)); // the finest row exceeds it
+    // Below the third row's error the line from the third to the fourth counts.
+    BOOST_TEST(median(rows, std::sqrt(1e-5)) == 4.0 * std::sqrt(2.0), tight);
+    // Above it, that from the first to the second.
+    const double weight = std::log(1e-1 / 5e-2) / std::log(1e-1 / 1e-5);
+    BOOST_TEST(median(rows, 5e-2) == std::exp2(weight), tight);
+}
+
+BOOST_AUTO_TEST_CASE(a_row_with_the_error_of_its_neighbour_is_no_division_by_zero) {
+    const std::vector<TimedError> rows{row(1e-1, 1.0), row(1e-2, 2.0), row(1e-2, 4.0),
+                                       row(1e-3, 8.0)};
+    BOOST_TEST(median(rows, 1e-2) == 2.0, tight); // the first of the two
+    BOOST_TEST(median(rows, 0.999e-2) > 4.0);
+    BOOST_TEST(median(rows, 0.999e-2) < 4.01);
+    BOOST_TEST(median({row(1e-2, 2.0), row(1e-2, 4.0)}, 1e-2) == 2.0);
+}
+
+BOOST_AUTO_TEST_CASE(the_fewer_runs_of_two_rows_count) {
+    std::vector<TimedError> rows{row(1e-1, 1.0), row(1e-2, 2.0)};
+    rows[1].timing.runs = 1;
+    BOOST_TEST(time_to_reach(rows, 5e-2)->runs == 1);
+}
+
+BOOST_AUTO_TEST_CASE(a_ratio_above_1_2_with_disjoint_quartiles_is_told_apart) {
+    const Comparison apart = compare(timing(0.9, 1.0, 1.1), timing(1.2, 1.3, 1.4));
+    BOOST_TEST(apart.first_is_faster);
+    BOOST_TEST(apart.told_apart);
+    BOOST_TEST(apart.ratio == 1.3, tight);
+    BOOST_TEST(apart.lowest == 1.2 / 1.1, tight);
+    BOOST_TEST(apart.highest == 1.4 / 0.9, tight);
+    // Below 1.2, however small the spread.
+    BOOST_TEST(!compare(timing(1.0, 1.0, 1.0), timing(1.19, 1.19, 1.19)).told_apart);
+    BOOST_TEST(!compare(timing(1.0, 1.0, 1.0), timing(1.2, 1.2, 1.2)).told_apart);
+    // With quartiles that meet, however large the ratio.
+    BOOST_TEST(!compare(timing(0.5, 1.0, 2.0), timing(2.0, 3.0, 4.0)).told_apart);
+    // Of equal times.
+    const Comparison same = compare(timing(1.0, 1.0, 1.0), timing(1.0, 1.0, 1.0));
+    BOOST_TEST(!same.told_apart);
+    BOOST_TEST(same.ratio == 1.0);
+}
+
+BOOST_AUTO_TEST_CASE(the_order_of_two_schemes_changes_only_which_is_called_faster) {
+    const Timing a = timing(1.0, 2.0, 3.0);
+    const Timing b = timing(7.0, 8.0, 9.0);
+    const Comparison forth = compare(a, b);
+    const Comparison back = compare(b, a);
+    BOOST_TEST(forth.first_is_faster != back.first_is_faster);
+    BOOST_TEST(forth.ratio == back.ratio);
+    BOOST_TEST(forth.lowest == back.lowest);
+    BOOST_TEST(forth.highest == back.highest);
+    BOOST_TEST(forth.told_apart == back.told_apart);
+}
+
+BOOST_AUTO_TEST_SUITE_END()
