@@ -42,7 +42,9 @@ ProbeReader::Position ProbeReader::locate(double x) const {
     const auto* end = first + mesh_.nodes.size();
     const Eigen::Index element = std::clamp<Eigen::Index>(
         std::upper_bound(first, end, x) - first - 1, 0, mesh_.elements() - 1);
-    return {element, (x - mesh_.nodes(element)) / mesh_.lengths(element)};
+    // Of nodes, not of the nominal length: at the right node it is 1 to the last digit.
+    const double left = mesh_.nodes(element);
+    return {element, (x - left) / (mesh_.nodes(element + 1) - left)};
 }
 
 Eigen::VectorXd ProbeReader::read(const Solver& solver, double t) const {

@@ -85,6 +85,10 @@ struct ProblemData {
     Amplitudes amplitudes;               ///< A_0, A_1, …; may be empty when no field has terms
     Eigen::Index amplitude_count = 0;
 
+    /// Times in (0, ∞), increasing, at which the functions pass from one formula to the next; at
+    /// the time itself the earlier one holds. TimeLevels meets them exactly.
+    std::vector<double> phase_ends;
+
     Field theta_initial;     ///< θ̃(x,0): this field at t = 0
     Field curvature_initial; ///< u_xx(x,0): this field at t = 0
 

@@ -11,6 +11,7 @@
 #include <tuple>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 namespace tvbeam {
 
@@ -40,9 +41,13 @@ Jet<orders> jet_of(const Function& g, double x, double t) {
 ///     template <typename Real> Real u(const Real& x, const Real& t) const;
 ///     … sigma(const Real& t) const, the contact stress σ̃(t), or sigma(x, t)     // or none: zero
 ///     std::string name;                                    // or none: messages say "solution"
+///     std::vector<double> phase_ends;                      // or none
 ///
 /// as functions or as members that hold generic callables. In time it may have phases: it then
-/// branches on t alone, and what holds up to a time holds at it, as in `if (t <= 1.0)`.
+/// branches on t alone, and what holds up to a time holds at it, as in `if (t <= 1.0)`. phase_ends
+/// names the times: a time level that is one of them to round-off then is that double, and a result
+/// says what an end within a step costs. A time that is not named is met where its decimal is a
+/// time level's, 0.3 or 1.0 but not sqrt(2.0).
 /// Boost.Math's pow has no derivatives where its base is zero: a product has.
 ///
 /// Throws InputError if the solution is not admissible on [0, final_time] (admissibility.hpp).
@@ -53,6 +58,8 @@ ProblemData autodiff_problem(CppSolution solution, const Beam& beam, double fina
     differentiated.name = "solution";
     if constexpr (requires { std::string(exact->name); })
         differentiated.name = exact->name;
+    if constexpr (requires { std::vector<double>(exact->phase_ends); })
+        differentiated.phase_ends = exact->phase_ends;
     differentiated.theta = [exact](double x, double t) -> TemperatureAt {
         const auto theta = jet_of<2>(
             [&](const auto& at, const auto& when) { return exact->theta(at, when); }, x, t);

@@ -2,6 +2,7 @@
 
 #include "mms/admissible/admissibility.hpp"
 
+#include <algorithm>
 #include <utility>
 
 namespace tvbeam {
@@ -83,6 +84,8 @@ ProblemData differentiated_problem(const DifferentiatedSolution& solution, const
     if (sigma)
         problem.body_force = pointwise([sigma](double x, double t) { return sigma(x, t).x; });
     problem.moment_load = moment_load(solution, beam);
+    problem.phase_ends = solution.phase_ends;
+    std::sort(problem.phase_ends.begin(), problem.phase_ends.end());
     problem.amplitudes = end_values(solution, zeta);
     problem.amplitude_count = sigma ? 2 : 1;
     problem.end_moment = 0;

@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <string>
+#include <vector>
 
 namespace tvbeam {
 
@@ -30,6 +31,7 @@ struct DifferentiatedSolution {
     std::function<TemperatureAt(double x, double t)> theta;
     std::function<DeflectionAt(double x, double t)> u;
     std::function<StressAt(double x, double t)> sigma; ///< empty: zero at all times
+    std::vector<double> phase_ends; ///< times at which it branches; see ProblemData::phase_ends
 };
 
 /// The problem that the solution solves on a beam, as manufactured_problem makes it of a text: the

@@ -49,6 +49,8 @@ ProblemData built(const DerivedSolution& solution, double final_time) {
     problem.theta_initial = exact.theta;
     problem.curvature_initial = exact.u_xx;
     problem.exact = std::move(exact);
+    for (std::size_t i = 0; i + 1 < phases.size(); ++i)
+        problem.phase_ends.push_back(phases[i].end);
     builder.finish(problem);
     return problem;
 }

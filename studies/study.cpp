@@ -1,5 +1,7 @@
 #include "studies/study.hpp"
 
+#include "studies/phase_remarks.hpp"
+
 #include <algorithm>
 
 namespace tvbeam {
@@ -79,6 +81,7 @@ StudyResult run_study(const Scene& scene, ProblemData data, const Execution& exe
     execution.expect(work_of(scene));
     StudyResult result{.scene = scene,
                        .left_out = {},
+                       .remarks = {},
                        .reference = {},
                        .orders = {},
                        .ladder = {},
@@ -89,6 +92,7 @@ StudyResult run_study(const Scene& scene, ProblemData data, const Execution& exe
         result.stress = run_stress(*scene.stress, execution);
     if (!scene.poses_problem())
         return result;
+    result.remarks = phase_remarks(scene, data);
     if (scene.reference && !scene.norms().empty())
         result.reference = measure_against_reference(scene, scene.longest_time(), data, execution);
     result.left_out = left_out(scene, data);

@@ -25,6 +25,7 @@ struct MeasuredRuns {
 struct StudyResult {
     Scene scene;
     std::vector<std::string> left_out;        ///< parts that the scene does not need, in words
+    std::vector<std::string> remarks;         ///< on all studies, in sentences
     std::optional<ReferenceResult> reference; ///< if errors are measured against one
     std::optional<OrdersResult> orders;
     std::optional<LadderResult> ladder;

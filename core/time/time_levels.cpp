@@ -1,6 +1,7 @@
 #include "core/time/time_levels.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 namespace tvbeam {
@@ -11,11 +12,43 @@ namespace {
 /// then shared by many.
 constexpr std::int64_t block_size = 256;
 
+/// Up to here doubles hold every whole number.
+constexpr double most_exact = 0x1p53;
+
 } // namespace
 
 TimeLevels::TimeLevels(const ProblemData& data, TimeScheme scheme, double final_time,
                        std::int64_t steps)
-    : data_(data), scheme_(std::move(scheme)), final_time_(final_time), steps_(steps) {}
+    : data_(data), scheme_(std::move(scheme)), final_time_(final_time), steps_(steps),
+      numerator_(final_time), denominator_(static_cast<double>(steps)) {
+    find_fraction();
+}
+
+/// T = r/10^q with the smallest q. As long as r N and 10^q N are whole numbers that doubles hold
+/// exactly, the division is all that rounds in (r n)/(10^q N).
+void TimeLevels::find_fraction() {
+    const auto steps = static_cast<double>(steps_);
+    for (double scale = 1.0; scale * steps < most_exact; scale *= 10.0) {
+        const double whole = std::round(final_time_ * scale);
+        if (whole * steps >= most_exact)
+            return;
+        if (whole / scale == final_time_) {
+            numerator_ = whole;
+            denominator_ = scale * steps;
+            return;
+        }
+    }
+}
+
+/// The end of a phase that t is to round-off, or t itself. With the unit round-off u = ε/2 each of
+/// T, T/N, γΔt, their products and sums is off by u, relative to at most t, and so is the end: a
+/// dozen together, or two more where T is itself N times a step. A step is never less than 1e-12 T.
+double TimeLevels::at_phase_end(double t) const {
+    const double near = 8.0 * std::numeric_limits<double>::epsilon() * t;
+    const auto& ends = data_.phase_ends;
+    const auto end = std::lower_bound(ends.begin(), ends.end(), t - near);
+    return end != ends.end() && *end <= t + near ? *end : t;
+}
 
 StepSources TimeLevels::at(std::int64_t n, std::int64_t count) {
     if (n < first_ || n >= first_ + count_)
@@ -42,7 +75,7 @@ void TimeLevels::evaluate_from(std::int64_t n) {
         for (std::int64_t i = 0; i < stages_; ++i) {
             const double fraction = scheme.stages[static_cast<std::size_t>(i)].fraction;
             times_(k * stages_ + i) =
-                fraction == 1.0 ? time(n + k) : time(n + k - 1) + fraction * dt();
+                fraction == 1.0 ? time(n + k) : at_phase_end(time(n + k - 1) + fraction * dt());
         }
     if (data_.amplitude_count > 0)
         amplitudes_ = data_.amplitudes(times_);

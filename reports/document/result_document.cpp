@@ -135,6 +135,10 @@ Document result_document(const StudyResult& result) {
             work_precision_section(*result.work_precision, *scene.work_precision));
     if (result.evolution)
         document.sections.push_back(evolution_section(*result.evolution, scene));
+    for (const auto& remark : result.remarks) {
+        document.sections.back().blocks.emplace_back(BlankLine{});
+        document.sections.back().blocks.emplace_back(Finding{remark});
+    }
     if (result.stress)
         for (auto& section : stress_sections(*result.stress))
             document.sections.push_back(std::move(section));

@@ -232,6 +232,7 @@ std::string json_report(const StudyResult& result) {
               {"scene", Json::parse(result.scene.json)},
               {"provenance", json_of(provenance_of(result.scene))},
               {"left_out", result.left_out},
+              {"remarks", result.remarks},
               {"interrupted", result.interrupted()}};
     if (result.reference)
         json["reference"] = json_of(*result.reference, *result.scene.reference);

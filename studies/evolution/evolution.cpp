@@ -21,7 +21,18 @@ std::optional<std::size_t> extreme(const std::vector<double>& values, const Befo
     return best;
 }
 
-double exact_value(const ProblemData& data, const Probe& probe, double t) {
+/// What the model gives at an end: (5), (10).
+std::optional<double> given_value(const Beam& beam, const Probe& probe) {
+    if (probe.x == 0.0 && probe.quantity == Probe::Quantity::temperature)
+        return beam.theta_A;
+    const bool at_other_end = probe.x == 1.0 && probe.quantity == Probe::Quantity::temperature;
+    const bool clamped = probe.x == 0.0 && probe.quantity == Probe::Quantity::deflection;
+    return at_other_end || clamped ? std::optional(0.0) : std::nullopt;
+}
+
+double exact_value(const Beam& beam, const ProblemData& data, const Probe& probe, double t) {
+    if (const auto given = given_value(beam, probe))
+        return *given;
     const ExactSolution& exact = *data.exact;
     if (probe.quantity != Probe::Quantity::stress) {
         const Field& field = probe.quantity == Probe::Quantity::deflection ? exact.u : exact.theta;
@@ -140,7 +151,8 @@ EvolutionResult run_evolution(const Scene& scene, const EvolutionBlock& block,
         for (std::size_t k = 0; k < block.probes.size(); ++k) {
             result.probes[k].values.push_back(values(static_cast<Eigen::Index>(k)));
             if (data.exact && block.probes[k].probe.quantity != Probe::Quantity::energy)
-                result.probes[k].exact.push_back(exact_value(data, block.probes[k].probe, t));
+                result.probes[k].exact.push_back(
+                    exact_value(scene.beam, data, block.probes[k].probe, t));
         }
     };
     const auto start = std::chrono::steady_clock::now();

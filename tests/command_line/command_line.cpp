@@ -57,6 +57,20 @@ BOOST_AUTO_TEST_CASE(json_has_the_keys_of_its_schema_and_reads_back_exactly) {
                boost::test_tools::tolerance(1e-14));
 }
 
+// BDF2 looks across the end at t = 1 in every run; one sentence says so for all.
+BOOST_AUTO_TEST_CASE(what_the_end_of_a_phase_costs_is_said_once) {
+    const TemporaryDirectory directory;
+    const std::string run = "run impact --set scheme.time=bdf2 --set 'ladder.elements=[4,8]'";
+    const std::string words = "At t = 1, where a phase of the solution ends";
+    const std::string text = call(directory, run).output;
+    BOOST_TEST(has(text, words), text);
+    BOOST_TEST(text.find(words) == text.rfind(words));
+    const auto json = nlohmann::json::parse(call(directory, run + " --json -").output);
+    BOOST_REQUIRE(json.at("remarks").size() == 1U);
+    BOOST_TEST(json.at("remarks")[0].get<std::string>().starts_with(words));
+    BOOST_TEST(!has(call(directory, small).output, "where a phase"));
+}
+
 BOOST_AUTO_TEST_CASE(csv_and_json_hold_the_same_doubles) {
     const TemporaryDirectory directory;
     const std::string csv = (directory.path() / "t.csv").string();

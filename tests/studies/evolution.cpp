@@ -18,6 +18,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <random>
 
 using namespace tvbeam;
 namespace data = boost::unit_test::data;
@@ -109,6 +110,31 @@ probes     = ["theta@0", "theta@0.25", "theta@0.125", "theta@1", "u@0", "u@0.4",
         energy += (nodes[j] - nodes[j - 1]) * (left * left + left * right + right * right) / 6.0;
     }
     BOOST_TEST(std::abs(start(7) - energy) < ulps);
+}
+
+// (5) and (10), whatever the mesh: its nodes are j/s, its elements 1/s long, both rounded.
+BOOST_DATA_TEST_CASE(what_is_given_at_an_end_is_read_there_to_the_last_digit,
+                     data::make(all_schemes), scheme) {
+    for (int elements = 1; elements <= 60; ++elements)
+        for (const double grading : {1.0, 1.5}) {
+            Scene scene = read_scene(
+                "heated-end", {"evolution={final_time=0.04,elements=" + std::to_string(elements) +
+                                   ",dt=0.02,probes=['theta@0',"
+                                   "'theta@1','u@0']}",
+                               "mesh={grading=" + message_text(grading) + "}"});
+            scene.ladder.reset();
+            scene.orders.reset();
+            scene.scheme = scheme;
+            const EvolutionResult result = evolution(scene);
+            BOOST_TEST_CONTEXT(elements << " elements, grading " << grading) {
+                const std::array given{scene.beam.theta_A, 0.0, 0.0};
+                for (std::size_t k = 0; k < 3; ++k)
+                    for (std::size_t n = 0; n < result.t.size(); ++n) {
+                        BOOST_TEST(result.probes[k].values[n] == given.at(k));
+                        BOOST_TEST(result.probes[k].exact[n] == given.at(k));
+                    }
+            }
+        }
 }
 
 // The spaces hold this solution, and Euler is exact for a motion that is linear in time.
@@ -232,6 +258,39 @@ BOOST_AUTO_TEST_CASE(a_tip_thrown_from_stop_to_stop_in_one_step_leaves_one_and_m
     BOOST_TEST(int(events[2].kind == Kind::onset && events[2].stop == Stop::lower));
     BOOST_TEST(events[2].t == 3.0);
     BOOST_TEST(contact.beyond_stops() == 0x1p-52);
+}
+
+// Free, on g1 or on g2 in any order, also from the first step on a stop that the tip starts on.
+BOOST_AUTO_TEST_CASE(an_event_lies_in_the_step_in_which_the_regime_changed) {
+    const double dt = 0.05;
+    std::mt19937 generator(17);
+    for (int run = 0; run < 200; ++run) {
+        const int start = std::uniform_int_distribution<int>(-1, 1)(generator);
+        const auto tip = [](int regime) { return regime < 0 ? -1e-3 : regime > 0 ? 2e-3 : 1e-4; };
+        ContactEvents contact({.lower = -1e-3, .upper = 2e-3}, tip(start));
+        std::vector<ContactEvent> expected; // at the end of the step
+        int before = 0;
+        for (int n = 1; n <= 20; ++n) {
+            // It starts on a stop that it is held by, or in between.
+            const int regime =
+                n == 1 ? start : std::uniform_int_distribution<int>(-1, 1)(generator);
+            if (before != 0 && regime != before)
+                expected.push_back({Kind::release, before < 0 ? Stop::lower : Stop::upper, n * dt});
+            if (regime != 0 && regime != before)
+                expected.push_back({Kind::onset, regime < 0 ? Stop::lower : Stop::upper, n * dt});
+            contact.add(n * dt, tip(regime), -regime * (1.0 + 0.1 * n));
+            before = regime;
+        }
+        const auto& events = contact.events();
+        BOOST_REQUIRE(events.size() == expected.size());
+        for (std::size_t i = 0; i < events.size(); ++i) {
+            BOOST_TEST((events[i].kind == expected[i].kind && events[i].stop == expected[i].stop));
+            BOOST_TEST(events[i].t <= expected[i].t);
+            BOOST_TEST(events[i].t >= expected[i].t - dt * (1.0 + 1e-12));
+        }
+        if (start != 0)
+            BOOST_TEST(events[0].t == 0.0);
+    }
 }
 
 BOOST_AUTO_TEST_CASE(a_penalised_stop_yields_and_is_not_passed) {

@@ -1,0 +1,182 @@
+#include "studies/phase_remarks.hpp"
+
+#include "core/space/quadrature.hpp"
+#include "core/time/time_levels.hpp"
+#include "mms/text/error_text.hpp"
+#include "studies/scene/toml_reader.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <map>
+#include <set>
+
+namespace tvbeam {
+
+using Eigen::ArrayXd;
+
+namespace {
+
+constexpr double tolerance = 1e-9; ///< of a jump, relative to what jumps
+constexpr std::size_t most_listed = 5;
+
+using Decreasing = std::set<double, std::greater<>>;
+
+/// How far what is differenced in the two equations jumps.
+struct RateJump {
+    double heat = 0.0;    ///< greatest over x
+    double bending = 0.0; ///< greatest over x
+    bool tip = false;     ///< in the velocity of the tip, too: ∫ (1 − x) u_xxt dx
+};
+
+RateJump rate_jump(const ProblemData& data, double end) {
+    const GaussRule rule = element_rule().repeated(8);
+    const ArrayXd& x = rule.points;
+    const double after = std::nextafter(end, std::numeric_limits<double>::infinity());
+    const auto jump = [&](const auto& of) -> ArrayXd {
+        const ArrayXd left = of(end);
+        const ArrayXd right = of(after);
+        const double size = left.abs().max(right.abs()).maxCoeff();
+        const ArrayXd difference = right - left;
+        return difference.abs().maxCoeff() > tolerance * size ? difference
+                                                              : ArrayXd::Zero(x.size());
+    };
+    const ArrayXd heat = jump([&](double t) { return values(data, data.heat_source, x, t); });
+    const ArrayXd bending = jump([&](double t) -> ArrayXd {
+        const ArrayXd load = values(data, data.moment_load, x, t);
+        if (!data.exact || !data.exact->stress)
+            return -load;
+        const double stress = data.amplitudes(ArrayXd::Constant(1, t))(*data.exact->stress, 0);
+        return stress * (1.0 - x) - load;
+    });
+    const double most = bending.abs().maxCoeff();
+    const double tip = (rule.weights * (1.0 - x) * bending).sum();
+    return {heat.abs().maxCoeff(), most, std::abs(tip) > tolerance * most};
+}
+
+/// The runs of one study by one scheme.
+struct Runs {
+    const TimeScheme& time;
+    double final_time;
+    std::vector<Rung> rungs;
+};
+
+std::vector<Runs> runs_of(const Scene& scene) {
+    std::vector<Runs> all;
+    if (scene.ladder)
+        all.push_back({scene.scheme.time, scene.ladder->final_time, scene.ladder->rungs});
+    if (scene.orders)
+        all.push_back({scene.scheme.time, scene.orders->final_time, scene.orders->grid});
+    if (scene.evolution)
+        all.push_back({scene.scheme.time, scene.evolution->final_time, {scene.evolution->rung}});
+    if (scene.work_precision)
+        for (const auto& timed : scene.work_precision->schemes)
+            all.push_back({timed.scheme.time, scene.work_precision->final_time, timed.rungs});
+    return all;
+}
+
+/// The steps of the runs in which the end of a phase costs something.
+struct Costly {
+    Decreasing inside; ///< it lies within a step
+    Decreasing behind; ///< it is a level, which a later step reads across
+};
+
+Costly costly_steps(const Scene& scene, const ProblemData& data, double end) {
+    Costly costly;
+    for (const auto& [time, final_time, rungs] : runs_of(scene))
+        for (const Rung& rung : rungs) {
+            const TimeLevels levels(data, time, final_time, rung.steps);
+            if (!(end < levels.time(rung.steps)))
+                continue;
+            if (!levels.meet(end))
+                costly.inside.insert(rung.dt);
+            else if (time.history > 0)
+                costly.behind.insert(rung.dt);
+        }
+    return costly;
+}
+
+std::string list_of(const std::vector<std::string>& parts) {
+    std::string list;
+    for (std::size_t i = 0; i < parts.size(); ++i)
+        list += (i == 0 ? "" : i + 1 < parts.size() ? ", " : " and ") + parts[i];
+    return list;
+}
+
+std::string steps_text(const Decreasing& steps) {
+    std::string text = "dt = ";
+    std::size_t listed = 0;
+    for (const double dt : steps) {
+        if (listed == most_listed)
+            return text + " and less";
+        text += (listed++ == 0 ? "" : ", ") + message_text(dt);
+    }
+    return text;
+}
+
+/// The orders in dt that are left, by norm; of a square the square's. Empty where nothing is read
+/// that the jump touches.
+std::string orders_text(const Scene& scene, const RateJump& jump) {
+    const bool coupled = scene.beam.alpha != 0.0;
+    const bool heat = jump.heat > 0.0 || coupled;
+    const bool bending = jump.bending > 0.0 || coupled;
+    std::map<double, std::vector<std::string>, std::greater<>> norms;
+    for (const Norm& norm : scene.norms()) {
+        const QuantitySet set = norm.quantities();
+        const auto has = [&](Quantity q) { return set[static_cast<std::size_t>(q)]; };
+        const bool of_heat = heat && (has(Quantity::theta) || has(Quantity::theta_x));
+        const bool of_stress = has(Quantity::stress) && (jump.tip || coupled);
+        const bool of_bending =
+            bending && (has(Quantity::u) || has(Quantity::u_x) || has(Quantity::u_xx));
+        if (!of_heat && !of_bending && !of_stress)
+            continue;
+        auto& names = norms[(of_stress && jump.tip ? 0.5 : 1.0) * (norm.squared ? 2.0 : 1.0)];
+        if (std::find(names.begin(), names.end(), norm.name) == names.end())
+            names.push_back(norm.name);
+    }
+    std::vector<std::string> parts;
+    for (const auto& [order, names] : norms)
+        parts.push_back((parts.empty() ? "the order " : "") + message_text(order) + " in " +
+                        list_of(names));
+    return parts.empty() && scene.evolution ? "the order 1" : list_of(parts);
+}
+
+std::string remark(const Scene& scene, const RateJump& jump, const std::string& orders,
+                   const Costly& costly, double end) {
+    std::vector<std::string> jumps;
+    if (jump.heat > 0.0)
+        jumps.push_back((scene.beam.alpha != 0.0 ? "theta_t - alpha u_xxt by " : "theta_t by ") +
+                        number_text(jump.heat));
+    if (jump.bending > 0.0)
+        jumps.push_back("zeta u_xxt by " + number_text(jump.bending));
+    std::string text = "At t = " + message_text(end) +
+                       ", where a phase of the solution ends, rates jump: " + list_of(jumps) + ".";
+    if (!costly.inside.empty())
+        text += " In a run of which no time level is there (" + steps_text(costly.inside) +
+                ") every time scheme has " + orders +
+                ", and an error that changes with the place in the step.";
+    if (!costly.behind.empty())
+        text += " Where it is a level (" + steps_text(costly.behind) +
+                "), BDF2 still looks back across it and has " + orders + ".";
+    return text;
+}
+
+} // namespace
+
+std::vector<std::string> phase_remarks(const Scene& scene, const ProblemData& data) {
+    std::vector<std::string> remarks;
+    for (const double end : data.phase_ends) {
+        const Costly costly = costly_steps(scene, data, end);
+        if (costly.inside.empty() && costly.behind.empty())
+            continue;
+        const RateJump jump = rate_jump(data, end);
+        if (jump.heat == 0.0 && jump.bending == 0.0)
+            continue;
+        if (const std::string orders = orders_text(scene, jump); !orders.empty())
+            remarks.push_back(remark(scene, jump, orders, costly, end));
+    }
+    return remarks;
+}
+
+} // namespace tvbeam

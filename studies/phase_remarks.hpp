@@ -1,0 +1,28 @@
+#pragma once
+
+#include "core/problem.hpp"
+#include "studies/scene/scene.hpp"
+
+#include <string>
+#include <vector>
+
+namespace tvbeam {
+
+/// What the ends of phases (ProblemData::phase_ends) cost the orders in dt of a scene's runs, in a
+/// paragraph for each end that costs something.
+///
+/// At an end the equations see a jump of
+///
+///     [f] = [θ̃_t − α u_xxt],     [σ̃(1,t) (1 − y) − μ] = [ζ u_xxt].
+///
+/// A step of Δt with the end inside it, at a part r of it, takes one side of the jump for both: its
+/// error is of the order rΔt times the jump, and stays in what follows. That is the order 1 for
+/// every scheme, with a factor that changes with r from run to run. Where the velocity of the tip
+/// jumps, the stress of that step is wrong by a part of the jump: the order is 1/2 in the L² norm
+/// in time. A scheme that reads the steps before it makes an error like it when the end is a level,
+/// too. With α = 0 each equation keeps its own.
+///
+/// data: with the exact solution of the scene; one without has no phases.
+std::vector<std::string> phase_remarks(const Scene& scene, const ProblemData& data);
+
+} // namespace tvbeam
