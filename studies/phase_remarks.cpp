@@ -136,6 +136,7 @@ std::string orders_text(const Scene& scene, const RateJump& jump) {
             names.push_back(norm.name);
     }
     std::vector<std::string> parts;
+    parts.reserve(norms.size());
     for (const auto& [order, names] : norms)
         parts.push_back((parts.empty() ? "the order " : "") + message_text(order) + " in " +
                         list_of(names));

@@ -35,7 +35,8 @@ BOOST_AUTO_TEST_CASE(a_level_that_is_a_decimal_is_the_double_of_that_decimal) {
         for (int n = 1; n <= N; ++n) {
             if ((k * n) % N != 0)
                 continue;
-            const double decimal = (k * n / N) / unit;
+            const int units = k * n / N;
+            const double decimal = units / unit;
             ++coincidences;
             missed_by_products += final_time * n / N != decimal;
             if (levels.time(n) != decimal)
