@@ -10,11 +10,10 @@ namespace tvbeam {
 
 namespace {
 
-using Quantity = Probe::Quantity;
-
 bool reads_energy(const std::vector<Probe>& probes) {
-    return std::any_of(probes.begin(), probes.end(),
-                       [](const Probe& probe) { return probe.quantity == Quantity::energy; });
+    return std::any_of(probes.begin(), probes.end(), [](const Probe& probe) {
+        return probe.quantity == Probe::Quantity::energy;
+    });
 }
 
 } // namespace
@@ -22,10 +21,11 @@ bool reads_energy(const std::vector<Probe>& probes) {
 Needs needs_of(const std::vector<Probe>& probes) {
     Needs needs{false, false, false};
     for (const Probe& probe : probes) {
-        const bool energy = probe.quantity == Quantity::energy;
-        needs.temperature |= energy || probe.quantity == Quantity::temperature;
-        needs.deflection |= probe.quantity != Quantity::temperature;
-        needs.curvature |= energy || (probe.quantity == Quantity::deflection && probe.x < 1.0);
+        const bool energy = probe.quantity == Probe::Quantity::energy;
+        needs.temperature |= energy || probe.quantity == Probe::Quantity::temperature;
+        needs.deflection |= probe.quantity != Probe::Quantity::temperature;
+        needs.curvature |=
+            energy || (probe.quantity == Probe::Quantity::deflection && probe.x < 1.0);
     }
     return needs;
 }
@@ -74,17 +74,17 @@ Eigen::VectorXd ProbeReader::read(const Solver& solver, double t) const {
     for (Eigen::Index k = 0; k < values.size(); ++k) {
         const Probe& probe = probes_[static_cast<std::size_t>(k)];
         switch (probe.quantity) {
-        case Quantity::temperature:
+        case Probe::Quantity::temperature:
             values(k) = temperature_at(probe.x);
             break;
-        case Quantity::deflection:
+        case Probe::Quantity::deflection:
             values(k) = probe.x < 1.0 ? deflection_at(probe.x) : solver.tip_displacement();
             break;
-        case Quantity::stress:
+        case Probe::Quantity::stress:
             values(k) =
                 t > 0.0 ? solver.contact_stress() : std::numeric_limits<double>::quiet_NaN();
             break;
-        case Quantity::energy:
+        case Probe::Quantity::energy:
             values(k) = energy();
             break;
         }

@@ -4,6 +4,7 @@
 #include "mms/expression/algebra.hpp"
 #include "mms/expression/piecewise_tape.hpp"
 #include "mms/expression/symbols.hpp"
+#include "mms/sample_points.hpp"
 #include "mms/text/error_text.hpp"
 
 #include <algorithm>
@@ -17,7 +18,6 @@ using GiNaC::ex;
 
 namespace {
 
-constexpr Index grid_points = 33;
 constexpr Index time_points = 257; ///< of what depends on time only
 constexpr double tolerance = 1e-12;
 
@@ -60,8 +60,8 @@ public:
             return std::vector<ex>{u, simplified(phase.contact_stress),
                                    simplified(phase.end_moment)};
         });
-        const ArrayXd x = ArrayXd::LinSpaced(grid_points, 0.0, 1.0);
-        for (const double t : ArrayXd::LinSpaced(grid_points, 0.0, final_time)) {
+        const ArrayXd x = sample_points(0.0, 1.0);
+        for (const double t : sample_points(0.0, final_time)) {
             const ArrayXd sizes = inside.at(x, t).abs().rowwise().maxCoeff();
             inside_ = t == 0.0 ? sizes : ArrayXd(inside_.max(sizes));
         }
@@ -131,7 +131,7 @@ private:
     }
 
     void add_start() {
-        const ArrayXd x = ArrayXd::LinSpaced(grid_points, 0.0, 1.0);
+        const ArrayXd x = sample_points(0.0, 1.0);
         const PiecewiseTape start(derived_, [](const DerivedPhase& phase) {
             return std::vector<ex>{phase.theta, phase.u};
         });

@@ -2,25 +2,13 @@
 
 #include "mms/expression/algebra.hpp"
 #include "mms/expression/symbols.hpp"
+#include "mms/text/error_text.hpp"
 
 #include <string>
 
 namespace tvbeam {
 
 using GiNaC::ex;
-
-namespace {
-
-template <typename Operation>
-ex located(const SourceText& source, const std::string& what, const Operation& operation) {
-    try {
-        return operation();
-    } catch (const AlgebraError& error) {
-        throw InputError(source.begin(), what + ": " + error.what());
-    }
-}
-
-} // namespace
 
 DerivedPhase derive(const PhaseExpressions& phase, const SolutionPhase& source, const ex& alpha,
                     const ex& zeta) {

@@ -3,6 +3,7 @@
 #include "mms/expression/algebra.hpp"
 #include "mms/expression/piecewise_tape.hpp"
 #include "mms/expression/symbols.hpp"
+#include "mms/sample_points.hpp"
 #include "mms/text/error_text.hpp"
 
 #include <algorithm>
@@ -15,8 +16,7 @@ using GiNaC::ex;
 
 namespace {
 
-constexpr Eigen::Index grid_points = 33;
-constexpr double tolerance = 1e-9; ///< of a jump, relative to what jumps
+constexpr double jump_tolerance = 1e-9; ///< relative to what jumps
 
 bool in_all(const DerivedSolution& derived, const auto& holds) {
     return std::all_of(derived.derived.begin(), derived.derived.end(), holds);
@@ -38,7 +38,7 @@ std::vector<Switch> switches(const DerivedSolution& derived, double final_time) 
         return std::vector<ex>{phase.theta_terms[0], derivative(phase.u_xx, model_symbols().t),
                                phase.contact_stress};
     });
-    const ArrayXd x = ArrayXd::LinSpaced(grid_points, 0.0, 1.0);
+    const ArrayXd x = sample_points(0.0, 1.0);
     std::vector<Switch> result;
     for (const PhaseExpressions& phase : derived.phases) {
         if (!(phase.end_value < final_time))
@@ -48,7 +48,7 @@ std::vector<Switch> switches(const DerivedSolution& derived, double final_time) 
         const ArrayXd sizes = before.abs().max(after.abs()).rowwise().maxCoeff();
         const ArrayXd jumps = (after - before).abs().rowwise().maxCoeff();
         const auto jump = [&](Eigen::Index row) {
-            return jumps(row) > tolerance * sizes(row) ? jumps(row) : 0.0;
+            return jumps(row) > jump_tolerance * sizes(row) ? jumps(row) : 0.0;
         };
         result.push_back({phase.end_value, jump(0), jump(1), jump(2)});
     }

@@ -1,15 +1,16 @@
 #include "mms/given_problem.hpp"
 
+#include "core/space/quadrature.hpp"
 #include "mms/admissible/admissibility_check.hpp"
 #include "mms/expression/algebra.hpp"
 #include "mms/expression/expression_parser.hpp"
 #include "mms/expression/symbols.hpp"
 #include "mms/expression/tape_compiler.hpp"
 #include "mms/problem_builder.hpp"
+#include "mms/sample_points.hpp"
 #include "mms/separation.hpp"
 #include "mms/text/error_text.hpp"
 
-#include <array>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -21,8 +22,6 @@ using Eigen::Index;
 using GiNaC::ex;
 
 namespace {
-
-constexpr Index grid_points = 33;
 
 ArrayXd values(const ex& formula, const ArrayXd& x, double t) {
     return compile_tape({formula}).evaluate(x, ArrayXd::Constant(1, t)).row(0);
@@ -43,9 +42,9 @@ ex given(const std::optional<SourceText>& source, const Beam& beam, bool at_star
 
 void require_finite(const ex& formula, const SourceText& source, double final_time,
                     const std::string& what) {
-    const ArrayXd x = ArrayXd::LinSpaced(grid_points, 0.0, 1.0);
+    const ArrayXd x = sample_points(0.0, 1.0);
     const Tape tape = located(source, what, [&] { return compile_tape({formula}); });
-    for (const double t : ArrayXd::LinSpaced(grid_points, 0.0, final_time)) {
+    for (const double t : sample_points(0.0, final_time)) {
         const ArrayXd sampled = tape.evaluate(x, ArrayXd::Constant(1, t)).row(0);
         for (Index k = 0; k < x.size(); ++k)
             if (!std::isfinite(sampled(k)))
@@ -57,7 +56,7 @@ void require_finite(const ex& formula, const SourceText& source, double final_ti
 /// u(0) = u'(0) = 0 (5), g1 ≤ u(1) ≤ g2 (6).
 void require_admissible_start(const ex& u, const ex& u_x, const SourceText& source,
                               const Beam& beam) {
-    const ArrayXd points = ArrayXd::LinSpaced(grid_points, 0.0, 1.0);
+    const ArrayXd points = sample_points(0.0, 1.0);
     const ArrayXd deflection = values(u, points, 0.0);
     const ArrayXd slope = values(u_x, points, 0.0);
     const double tolerance = 1e-12 * deflection.abs().maxCoeff();
@@ -93,30 +92,15 @@ ex moment_of_polynomial(const ex& q) {
     return moment;
 }
 
-/// Nodes and weights of the Gauss–Legendre rule with ten points on [-1, 1], the positive half.
-/// Abramowitz and Stegun (1964), Table 25.4.
-constexpr std::array<std::array<double, 2>, 5> gauss = {{
-    {0.148874338981631211, 0.295524224714752870},
-    {0.433395394129247191, 0.269266719309996355},
-    {0.679409568299024406, 0.219086362515982044},
-    {0.865063366688984511, 0.149451349150580593},
-    {0.973906528517171720, 0.066671344308688138},
-}};
-
-/// y ↦ ∫_y^1 (x − y) q(x) dx by the rule of ten points on each of 16 parts of [y, 1].
+/// y ↦ ∫_y^1 (x − y) q(x) dx by the Gauss rule of ten points on each of 16 parts of [y, 1].
 ArrayXd integrated_moment(const Tape& q, const ArrayXd& y, double t) {
-    constexpr int parts = 16;
+    static const GaussRule rule = GaussRule::of(10).repeated(16);
     ArrayXd moment = ArrayXd::Zero(y.size());
-    const ArrayXd half = (1.0 - y) / (2.0 * parts);
-    for (int part = 0; part < parts; ++part) {
-        const ArrayXd middle = y + half * (2.0 * part + 1.0);
-        for (const auto& [node, weight] : gauss) {
-            for (const double sign : {-1.0, 1.0}) {
-                const ArrayXd x = middle + sign * node * half;
-                const ArrayXd load = q.evaluate(x, ArrayXd::Constant(1, t)).row(0);
-                moment += weight * half * (x - y) * load;
-            }
-        }
+    const ArrayXd length = 1.0 - y;
+    for (Index k = 0; k < rule.points.size(); ++k) {
+        const ArrayXd arm = rule.points(k) * length;
+        const ArrayXd load = q.evaluate(y + arm, ArrayXd::Constant(1, t)).row(0);
+        moment += rule.weights(k) * length * arm * load;
     }
     return moment;
 }

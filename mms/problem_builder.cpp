@@ -1,6 +1,7 @@
 #include "mms/problem_builder.hpp"
 
 #include "mms/expression/tape_compiler.hpp"
+#include "mms/sample_points.hpp"
 #include "mms/separation.hpp"
 
 #include <algorithm>
@@ -12,9 +13,6 @@ namespace tvbeam {
 using GiNaC::ex;
 
 namespace {
-
-/// Sampled to find products that overflow by themselves.
-constexpr Eigen::Index sample_count = 33;
 
 /// Finds the phase of a time.
 class PhaseTimes {
@@ -91,12 +89,12 @@ bool ProblemBuilder::is_finite(const ex& amplitude, const TimePhase& phase) cons
     const double end = std::min(phase.end, final_time_);
     if (phase.begin >= end)
         return true;
-    const Eigen::ArrayXd times = Eigen::ArrayXd::LinSpaced(sample_count, phase.begin, end);
+    const Eigen::ArrayXd times = sample_points(phase.begin, end);
     return compile_tape({amplitude}).evaluate(Eigen::ArrayXd::Zero(1), times).isFinite().all();
 }
 
 Field ProblemBuilder::field(const std::vector<ex>& formulas) {
-    const Eigen::ArrayXd points = Eigen::ArrayXd::LinSpaced(sample_count, 0.0, 1.0);
+    const Eigen::ArrayXd points = sample_points(0.0, 1.0);
     std::vector<ex> rests(phases_.size(), 0);
     std::vector<Eigen::Index> order;
     std::map<Eigen::Index, std::vector<ex>> amplitudes;

@@ -201,7 +201,7 @@ private:
         });
         if (is_identically_zero(at_time))
             return;
-        const ArrayXd x = ArrayXd::LinSpaced(grid_points, 0.0, 1.0);
+        const ArrayXd x = sample_points(0.0, 1.0);
         const Tape tape = located(source, what, [&] { return compile_tape({at_time, jump}); });
         const ArrayXd values = tape.evaluate(x, ArrayXd::Constant(1, phase.end_value)).row(0);
         Index largest = 0;

@@ -5,6 +5,7 @@
 #include "mms/expression/algebra.hpp"
 #include "mms/expression/piecewise_tape.hpp"
 #include "mms/expression/symbols.hpp"
+#include "mms/sample_points.hpp"
 #include "mms/text/error_text.hpp"
 
 #include <algorithm>
@@ -20,7 +21,6 @@ using GiNaC::ex;
 namespace {
 
 constexpr Index time_samples = 17;
-constexpr Index grid_points = 33;
 
 /// Below so much of the terms that a residual is the sum of, it is rounding: zero.
 constexpr double rounding = 1e-14;
@@ -124,7 +124,7 @@ std::vector<Residual> space_residuals(const Solution& solution, const Beam& beam
                                       ThermalMass mass, const std::vector<std::int64_t>& elements) {
     const DerivedSolution derived = derive_on(solution, beam);
     const PiecewiseTape tape = rows(derived, solution, true);
-    const ArrayXd grid = ArrayXd::LinSpaced(grid_points, 0.0, 1.0);
+    const ArrayXd grid = sample_points(0.0, 1.0);
     std::vector<Residual> result(elements.size());
     std::vector<Sizes> terms(elements.size());
     for (const double t : ArrayXd::LinSpaced(time_samples, 0.0, final_time)) {
@@ -151,7 +151,7 @@ std::vector<Residual> time_residuals(const Solution& solution, const Beam& beam,
     const DerivedSolution derived = derive_on(solution, beam);
     const PiecewiseTape tape = rows(derived, solution, false);
     const TimeScheme& method = TimeScheme::named(scheme);
-    const ArrayXd x = ArrayXd::LinSpaced(grid_points, 0.0, 1.0);
+    const ArrayXd x = sample_points(0.0, 1.0);
     std::vector<Residual> result;
     std::vector<Sizes> terms;
     for (const std::int64_t count : steps) {

@@ -12,7 +12,7 @@ using Eigen::Index;
 
 double largest_on_grid(const SpaceTimeFunction& g, const ArrayXd& times, double final_time,
                        const Place& place, const std::string& what) {
-    const ArrayXd x = ArrayXd::LinSpaced(grid_points, 0.0, 1.0);
+    const ArrayXd x = sample_points(0.0, 1.0);
     double result = 0.0;
     for (const double t : times) {
         const ArrayXd values = g(x, t);

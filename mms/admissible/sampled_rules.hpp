@@ -1,6 +1,7 @@
 #pragma once
 
 #include "core/problem.hpp"
+#include "mms/sample_points.hpp"
 #include "mms/text/input_error.hpp"
 
 #include <Eigen/Core>
@@ -14,7 +15,6 @@ namespace tvbeam {
 
 /// Of an equality, to the largest value on the grid.
 inline constexpr double relative_tolerance = 1e-12;
-inline constexpr Eigen::Index grid_points = 33;  ///< in space, and in time for the grid
 inline constexpr Eigen::Index time_points = 257; ///< for what depends on time only
 
 /// The largest |g(x, t)| on the grid: grid_points in [0, 1], the times given. Throws InputError

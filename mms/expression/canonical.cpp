@@ -15,13 +15,13 @@ using GiNaC::is_a;
 using GiNaC::numeric;
 using Kind = CanonicalNode::Kind;
 
-namespace {
-
 std::string number_text(const numeric& value) {
     std::ostringstream stream;
     stream << value;
     return stream.str();
 }
+
+namespace {
 
 /// The key of a product without its coefficient, of any other node but a number the key itself.
 std::string joined_keys(const CanonicalNode& node, char sign) {

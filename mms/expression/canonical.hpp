@@ -37,6 +37,9 @@ struct CanonicalNode {
 
 Canonical canonical(const GiNaC::ex& expression);
 
+/// An exact number as GiNaC writes it: 1/3.
+std::string number_text(const GiNaC::numeric& value);
+
 /// The same node with another coefficient; for products and numbers only.
 Canonical with_coefficient(const CanonicalNode& node, const GiNaC::numeric& coefficient);
 

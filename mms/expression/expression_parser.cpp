@@ -1,6 +1,7 @@
 #include "mms/expression/expression_parser.hpp"
 
 #include "mms/expression/algebra.hpp"
+#include "mms/text/characters.hpp"
 #include "mms/text/nearest_name.hpp"
 
 #include <algorithm>
@@ -22,11 +23,8 @@ constexpr int deepest_nesting = 100;
 constexpr std::size_t most_digits = 100;
 constexpr int largest_decimal_exponent = 400;
 
-bool is_digit(char c) {
-    return c >= '0' && c <= '9';
-}
 bool starts_name(char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
+    return is_letter(c) || c == '_';
 }
 bool continues_name(char c) {
     return starts_name(c) || is_digit(c);

@@ -1,11 +1,10 @@
 #include "mms/expression/printing.hpp"
 
 #include "mms/expression/canonical.hpp"
+#include "mms/text/characters.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <map>
-#include <sstream>
 #include <utility>
 #include <vector>
 
@@ -15,12 +14,6 @@ using GiNaC::numeric;
 using Kind = CanonicalNode::Kind;
 
 namespace {
-
-std::string number_text(const numeric& value) {
-    std::ostringstream stream;
-    stream << value;
-    return stream.str();
-}
 
 /// How tightly a piece of printed text holds together.
 enum class Binding { Sum, Product, Power, Atom };
@@ -196,13 +189,6 @@ class TextWriter final : public Writer {
                                                      : denominator.text);
     }
 };
-
-bool is_letter(char c) {
-    return std::isalpha(static_cast<unsigned char>(c)) != 0;
-}
-bool is_digit(char c) {
-    return std::isdigit(static_cast<unsigned char>(c)) != 0;
-}
 
 class LatexWriter final : public Writer {
     [[nodiscard]] std::string symbol(const std::string& name) const override {
