@@ -19,7 +19,7 @@ Table::Column column(const LadderResult& ladder, const std::string& heading,
     return result;
 }
 
-std::string ratio_text(double ratio) {
+std::string ratio_cell(double ratio) {
     return ratio >= 0.01 && ratio < 100.0 ? fixed(ratio, 4) : scientific(ratio, 1);
 }
 
@@ -41,7 +41,7 @@ Table::Group norm_group(const LadderResult& ladder, const LadderBlock& block, st
                 ladder, "printed", [&](std::size_t i) { return scientific(figures[i], 3); }));
             group.columns.push_back(column(ladder, "ratio", [&](std::size_t i) {
                 const auto value = error(i);
-                return value && figures[i] != 0.0 ? ratio_text(*value / figures[i]) : std::string();
+                return value && figures[i] != 0.0 ? ratio_cell(*value / figures[i]) : std::string();
             }));
         }
     }

@@ -46,7 +46,7 @@ std::string line_of(const std::vector<const Table::Group*>& groups, std::size_t 
     return line + "\n";
 }
 
-std::string text_of(const Table& part) {
+std::string part_text(const Table& part) {
     std::vector<const Table::Group*> side_by_side{&part.key};
     for (const auto& group : part.groups)
         side_by_side.push_back(&group);
@@ -82,7 +82,7 @@ std::vector<Table> parts_of(const Table& table, std::size_t width) {
 std::string text_table(const Table& table, std::size_t width) {
     std::string text;
     for (const auto& part : parts_of(table, width))
-        text += (text.empty() ? "" : "\n") + text_of(part);
+        text += (text.empty() ? "" : "\n") + part_text(part);
     return text;
 }
 

@@ -181,12 +181,12 @@ std::string html_of(const BlankLine& /*unused*/) {
     return {};
 }
 
-std::string heading(const std::string& title) {
+std::string html_heading(const std::string& title) {
     return "<h2>" + html_text(title) + "</h2>\n";
 }
 
 std::string html_of(const Section& section) {
-    std::string html = "<section>\n" + heading(section.title);
+    std::string html = "<section>\n" + html_heading(section.title);
     bool in_list = false;
     for (const auto& block : section.blocks) {
         const std::string one = std::visit([](const auto& shown) { return html_of(shown); }, block);
@@ -234,7 +234,7 @@ std::string list_of(const std::vector<std::string>& items) {
 std::string verdict_of(const HtmlContents& contents) {
     std::string html =
         contents.failed ? "<section class=\"verdict failed\">\n" : "<section class=\"verdict\">\n";
-    html += heading("What it shows");
+    html += html_heading("What it shows");
     html += contents.interrupted
                 ? "<p><strong>The study was interrupted; this is what had finished.</strong></p>\n"
             : contents.failed
@@ -255,13 +255,13 @@ std::string figures_of(const HtmlContents& contents) {
         html = "<div class=\"figures\">\n" + html + "</div>\n";
     if (!contents.no_figures.empty())
         html += "<p>" + html_text(contents.no_figures) + ".</p>\n";
-    return html.empty() ? html : "<section>\n" + heading("Figures") + html + "</section>\n";
+    return html.empty() ? html : "<section>\n" + html_heading("Figures") + html + "</section>\n";
 }
 
 std::string problem_of(const HtmlContents& contents) {
     if (contents.formulas.empty())
         return {};
-    std::string html = "<section>\n" + heading("The problem") +
+    std::string html = "<section>\n" + html_heading("The problem") +
                        "<p class=\"formula\"><i>θ</i><sub>t</sub> − <i>θ</i><sub>xx</sub> = "
                        "<i>α</i> <i>u</i><sub>xxt</sub> + <i>f</i><br>\n"
                        "<i>σ</i> = −<i>u</i><sub>xxx</sub> − <i>ζ</i> <i>u</i><sub>xxxt</sub> − "
@@ -308,13 +308,13 @@ std::string html_report(const HtmlContents& contents) {
     for (const auto& section : document.sections)
         html += html_of(section);
     if (!document.norms.empty())
-        html += "<section>\n" + heading("Norms of the errors") + rows_of(document.norms) +
+        html += "<section>\n" + html_heading("Norms of the errors") + rows_of(document.norms) +
                 "</section>\n";
     html += problem_of(contents);
     if (!document.left_out.empty())
-        html += "<section>\n" + heading("Left out, as the scene does not need it") +
+        html += "<section>\n" + html_heading("Left out, as the scene does not need it") +
                 list_of(document.left_out) + "</section>\n";
-    html += "<section>\n" + heading("Where it comes from") + rows_of(document.provenance) +
+    html += "<section>\n" + html_heading("Where it comes from") + rows_of(document.provenance) +
             "<p>The scene:</p>\n<pre>" + html_text(contents.scene_text) + "</pre>\n</section>\n";
     return html + "</main>\n</body>\n</html>\n";
 }

@@ -51,12 +51,12 @@ std::string markdown_of(const BlankLine& /*unused*/) {
     return {};
 }
 
-std::string heading(const std::string& title) {
+std::string markdown_heading(const std::string& title) {
     return "## " + markdown_text(title) + "\n\n";
 }
 
 std::string markdown_of(const Section& section) {
-    std::string text = heading(section.title);
+    std::string text = markdown_heading(section.title);
     bool in_list = false;
     for (const auto& block : section.blocks) {
         const std::string one =
@@ -100,16 +100,16 @@ std::string markdown_report(const Document& document) {
         text += markdown_text(sentence) + "\n\n";
     const auto findings = findings_of(document);
     if (!findings.empty())
-        text += heading("What it shows");
+        text += markdown_heading("What it shows");
     for (const auto& finding : findings)
         text += (finding.indent > 2 ? "  - " : "- ") + markdown_text(finding.text) + "\n";
     text += findings.empty() ? "" : "\n";
     for (const auto& section : document.sections)
         text += markdown_of(section);
     if (!document.norms.empty())
-        text += heading("Norms of the errors") + rows(document.norms);
+        text += markdown_heading("Norms of the errors") + rows(document.norms);
     if (!document.left_out.empty()) {
-        text += heading("Left out, as the scene does not need it");
+        text += markdown_heading("Left out, as the scene does not need it");
         for (const auto& part : document.left_out)
             text += "- " + markdown_text(part) + "\n";
         text += "\n";

@@ -24,8 +24,8 @@ bool all_equal(const std::vector<double>& values) {
 }
 
 /// The widths of a ladder, and which of them is refined.
-struct Widths {
-    explicit Widths(const LadderResult& ladder) {
+struct LadderWidths {
+    explicit LadderWidths(const LadderResult& ladder) {
         for (const auto& rung : ladder.rungs) {
             h.push_back(1.0 / static_cast<double>(rung.rung.elements));
             dt.push_back(rung.rung.dt);
@@ -247,7 +247,7 @@ private:
 
     const LadderResult& ladder_;
     const LadderBlock& block_;
-    Widths widths_;
+    LadderWidths widths_;
     std::vector<double> errors_;
     std::vector<double> extent_; ///< what the axis of errors shows
     std::vector<std::optional<FittedLine>> lines_;

@@ -16,10 +16,6 @@ constexpr double floor_significance = 0.01;
 /// Relative errors that agree to this are equal to rounding: no floor is read out of them.
 constexpr double rounding = 1e-12;
 
-bool is_positive(double value) {
-    return std::isfinite(value) && value > 0;
-}
-
 struct Ladder {
     Eigen::VectorXd log_width;
     Eigen::VectorXd log_error;

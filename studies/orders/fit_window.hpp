@@ -3,12 +3,16 @@
 
 #include "studies/orders/two_term_regression.hpp"
 
+#include <cstddef>
 #include <optional>
 #include <vector>
 
 #include <Eigen/Core>
 
 namespace tvbeam {
+
+/// Distinct widths that an order is fitted to, and no fewer.
+inline constexpr std::size_t fewest_levels = 3;
 
 struct FitWindow {
     std::vector<Eigen::Index> members; ///< ascending

@@ -12,12 +12,18 @@
 /// add up error terms (two_term_model.hpp) want the norm itself.
 #pragma once
 
+#include <cmath>
 #include <limits>
 #include <optional>
 #include <span>
 #include <vector>
 
 namespace tvbeam {
+
+/// Whether a width or an error has a logarithm.
+inline bool is_positive(double value) {
+    return std::isfinite(value) && value > 0;
+}
 
 struct Refinement {
     /// mesh width; NaN where the records have none

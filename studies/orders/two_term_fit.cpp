@@ -17,14 +17,9 @@ namespace tvbeam {
 namespace {
 
 constexpr std::size_t fewest_records = two_term_parameters + 2;
-constexpr std::size_t fewest_levels = 3;
 constexpr double second_term_significance = 0.01;
 /// cos φ below which ρ counts as ±1: 1 − |ρ| < 5e-7.
 constexpr double at_the_bound = 1e-3;
-
-bool is_positive(double value) {
-    return std::isfinite(value) && value > 0;
-}
 
 std::string with_number(const char* format, double number) {
     char text[160];
