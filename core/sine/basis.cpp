@@ -1,5 +1,7 @@
 #include "core/sine/basis.hpp"
 
+#include "core/gsl_errors.hpp"
+
 #include <gsl/gsl_fft_real.h>
 
 #include <memory>

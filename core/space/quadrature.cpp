@@ -1,5 +1,7 @@
 #include "core/space/quadrature.hpp"
 
+#include "core/gsl_errors.hpp"
+
 #include <gsl/gsl_integration.h>
 
 #include <memory>

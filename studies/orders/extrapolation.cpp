@@ -1,8 +1,8 @@
 #include "studies/orders/extrapolation.hpp"
 
+#include "core/gsl_errors.hpp"
 #include "studies/orders/least_squares.hpp"
 
-#include <gsl/gsl_errno.h>
 #include <gsl/gsl_roots.h>
 
 #include <algorithm>
@@ -16,7 +16,7 @@ namespace tvbeam {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr double factor_observed = 1.25;
 constexpr double factor_assumed = 3.0;
 /// An order beyond this is not one of a method; the search stops there.
@@ -55,7 +55,7 @@ Extrapolation extrapolate(const GridValue& coarse, const GridValue& fine, double
     Extrapolation result{.order = order};
     if (!(order > 0)) {
         result.limit = std::numeric_limits<double>::quiet_NaN();
-        result.gci = infinity;
+        result.gci = infinite;
         return result;
     }
     const double gain = std::expm1(order * std::log(coarse.h / fine.h));
@@ -169,7 +169,7 @@ std::optional<LimitFit> fit_limit(std::span<const GridValue> grids) {
         if (!(sound[i].h < sound[i - 1].h && sound[i - 1].h < sound[i - 2].h))
             continue;
         const auto order = observed_order(sound[i - 2], sound[i - 1], sound[i]);
-        const double distance = order ? std::abs(*order - result.order) : infinity;
+        const double distance = order ? std::abs(*order - result.order) : infinite;
         result.order_scatter = std::max(result.order_scatter, distance);
     }
     result.uncertainty = factor_observed * std::abs(sound.back().value - result.limit) +

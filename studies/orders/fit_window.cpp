@@ -1,5 +1,7 @@
 #include "studies/orders/fit_window.hpp"
 
+#include "core/gsl_errors.hpp"
+
 #include <gsl/gsl_cdf.h>
 
 #include <algorithm>
@@ -23,7 +25,6 @@ constexpr double least_scatter = 1e-6;
 /// A single record is out of line only where it stands off by several times this, however well the
 /// others agree: a few per cent are a higher-order term, which bends a whole edge of the grid.
 constexpr double least_blunder = 0.01;
-constexpr std::size_t fewest_levels = 3;
 constexpr int most_concentrations = 20;
 /// Another half is preferred to the finest where it scatters less than a fifth as much.
 constexpr double clearly_better = 0.04;

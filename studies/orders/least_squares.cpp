@@ -1,5 +1,7 @@
 #include "studies/orders/least_squares.hpp"
 
+#include "core/gsl_errors.hpp"
+
 #include <gsl/gsl_cdf.h>
 
 #include <Eigen/Cholesky>

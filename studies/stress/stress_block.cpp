@@ -1,5 +1,6 @@
 #include "studies/stress/stress_block.hpp"
 
+#include "core/gsl_errors.hpp"
 #include "studies/scene/study_keys.hpp"
 #include "studies/scene/toml_reader.hpp"
 

@@ -176,4 +176,8 @@ BOOST_AUTO_TEST_CASE(a_family_of_meshes_is_graded_or_keeps_its_nodes) {
                       std::invalid_argument);
 }
 
+BOOST_AUTO_TEST_CASE(a_rule_that_there_is_not_is_an_exception) {
+    BOOST_CHECK_THROW(GaussRule::of(0), std::domain_error);
+}
+
 BOOST_AUTO_TEST_SUITE_END()
