@@ -121,6 +121,8 @@ void HermiteForm::assemble(ThermalMass mass) {
 
 /// What depends on the coefficient c of a solve.
 void HermiteForm::factor(double c) {
+    ++factorizations_;
+    leading_ = c;
     dt_ = 1.0 / c;
     heat_ = TridiagonalFactor(mass_ + stiffness_matrix(mesh_) * dt_);
     Eigen::VectorXd tip = Eigen::VectorXd::Zero(2 * mesh_.elements());
@@ -184,7 +186,7 @@ Eigen::VectorXd HermiteForm::beam_load(double t,
 
 std::string HermiteForm::solve(double c, double t,
                                const Eigen::Ref<const Eigen::VectorXd>& amplitudes) {
-    if (c != 1.0 / dt_)
+    if (c != leading_)
         factor(c);
     const Eigen::Index s = mesh_.elements();
     const Eigen::Index inner = s - 1;

@@ -43,6 +43,9 @@ public:
     /// The largest change of a nodal temperature in each iteration of the last solve.
     [[nodiscard]] const std::vector<double>& temperature_changes() const { return changes_; }
 
+    /// How often the matrices that depend on c were factored: once for each c that comes up anew.
+    [[nodiscard]] std::int64_t factorizations() const { return factorizations_; }
+
     /// An iteration that has not converged by then is given up.
     static constexpr int iteration_limit = 1000;
 
@@ -62,7 +65,9 @@ private:
     const ProblemData& data_;
     Mesh mesh_;
     double tolerance_;
-    double dt_ = 0.0; // 1/c, of which the factors are now
+    double leading_ = 0.0; // c, of which the factors are now
+    double dt_ = 0.0;      // 1/c
+    std::int64_t factorizations_ = 0;
 
     Tridiagonal mass_;                     // M
     TridiagonalFactor heat_;               // M + ΔtK

@@ -145,4 +145,18 @@ BOOST_AUTO_TEST_CASE(fixed_point_that_does_not_converge_is_given_up_with_a_reaso
     BOOST_TEST(result.errors.empty());
 }
 
+// The matrices depend on c = c_i/Δt alone: c_i is 1 of Euler, 3/2 of BDF2, whose first step is one
+// of SDIRK2, and 1/γ of both stages of SDIRK2. Steps for which 1/(1/c) is c, and others.
+BOOST_DATA_TEST_CASE(matrices_are_factored_once_for_each_coefficient,
+                     data::make(TimeScheme::names()) * data::make({0.25, 0.1, 1.0 / 49.0, 0.03}),
+                     time, dt) {
+    const ProblemData problem = manufactured_problem(
+        read_solution(find_file(Shipped::solution, "free-decay")), paper_beam, 1.0);
+    const Scheme scheme{
+        .algorithm = Algorithm::fixed_point, .tolerance = 1e-10, .time = TimeScheme::named(time)};
+    HermiteForm form(paper_beam, problem, Mesh::uniform(8), scheme, dt);
+    march(form, problem, scheme.time, dt, 10, [](double) {});
+    BOOST_TEST(form.factorizations() == (time == "bdf2" ? 2 : 1));
+}
+
 BOOST_AUTO_TEST_SUITE_END()
