@@ -337,9 +337,10 @@ void SineForm::step_weights(std::int64_t step) {
 /// Marches the modes from `state` with the loads of the block: for the tips, or for the state after
 /// it and the squares of the errors.
 void SineForm::march_modes(std::int64_t steps, const ModeArrays& state, bool tips, bool result) {
-    sum_ = {};
     if (!heat_)
         return;
+    if (result)
+        sum_ = {};
     SineBlock block;
     block.groups = state.groups();
     block.stride = state.stride();

@@ -19,7 +19,7 @@ namespace tvbeam {
 
 /// The moment form (MomentForm) in the sine basis: on a uniform mesh every matrix of the heat
 /// equation is diagonal there, so that a step is a handful of operations a mode, with no recurrence
-/// over the mesh, and the modes march through a block of steps on their own (sine_kernel.hpp).
+/// over the mesh, and the modes march through a block of steps on their own (kernel.hpp).
 ///
 /// Contact couples them. A block is marched with λ = 0 first; where its tip passes a stop, the
 /// contact stresses follow one after the other from the free tips and the responses

@@ -1,5 +1,6 @@
-// Nothing but plain arithmetic is included here: every function is compiled for several processors.
 #include "core/sine/kernel.hpp"
+
+#include <algorithm>
 
 namespace tvbeam {
 
@@ -235,15 +236,13 @@ private:
     static constexpr unsigned flush_operands = 1U << 6U;
     unsigned before_;
 };
-#define TVBEAM_EVERY_PROCESSOR [[gnu::target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")]]
 #else
 struct FlushToZero {
     FlushToZero() {} // such modes cost time elsewhere, and are right
 };
-#define TVBEAM_EVERY_PROCESSOR
 #endif
 
-TVBEAM_EVERY_PROCESSOR void march_on_this_processor(const SineBlock& block) {
+[[gnu::always_inline]] inline void march_with_these_units(const SineBlock& block) {
     switch (2 * block.increments + (block.coupled ? 1 : 0)) {
     case 0:
         return march_all<0, false>(block);
@@ -260,11 +259,42 @@ TVBEAM_EVERY_PROCESSOR void march_on_this_processor(const SineBlock& block) {
     }
 }
 
+// What is inlined is compiled for the units that the function is for.
+#ifdef __x86_64__
+[[gnu::target("arch=x86-64-v4")]] void march_v4(const SineBlock& block) {
+    march_with_these_units(block);
+}
+[[gnu::target("arch=x86-64-v3")]] void march_v3(const SineBlock& block) {
+    march_with_these_units(block);
+}
+#endif
+void march_anywhere(const SineBlock& block) {
+    march_with_these_units(block);
+}
+
 } // namespace
+
+std::span<const SineKernel> sine_kernels() {
+    static const SineKernel kernels[] = {
+#ifdef __x86_64__
+        {"x86-64-v4", __builtin_cpu_supports("x86-64-v4") != 0, &march_v4},
+        {"x86-64-v3", __builtin_cpu_supports("x86-64-v3") != 0, &march_v3},
+#endif
+        {"any", true, &march_anywhere},
+    };
+    return kernels;
+}
+
+const SineKernel& chosen_sine_kernel() {
+    static const SineKernel& chosen =
+        *std::find_if(sine_kernels().begin(), sine_kernels().end(),
+                      [](const SineKernel& kernel) { return kernel.runs_here; });
+    return chosen;
+}
 
 void march(const SineBlock& block) {
     const FlushToZero flush;
-    march_on_this_processor(block);
+    chosen_sine_kernel().march(block);
 }
 
 } // namespace tvbeam

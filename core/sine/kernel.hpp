@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 
 namespace tvbeam {
 
@@ -66,7 +67,21 @@ struct SineBlock {
 /// The most increments that march() knows.
 inline constexpr std::int64_t most_increments = 2;
 
-/// Runs the block with the widest vector units that the processor has.
+/// The same arithmetic for another vector unit. Where a unit fuses a product and a sum, the last
+/// bits of the results differ.
+struct SineKernel {
+    const char* name; ///< of the processors that it is for, as compilers call them
+    bool runs_here;   ///< whether this processor is one of them
+    void (*march)(const SineBlock& block);
+};
+
+/// All of them, the widest first; the last is for every processor.
+std::span<const SineKernel> sine_kernels();
+
+/// The first that runs here.
+const SineKernel& chosen_sine_kernel();
+
+/// Runs the block with it.
 void march(const SineBlock& block);
 
 } // namespace tvbeam

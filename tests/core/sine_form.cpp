@@ -170,8 +170,31 @@ BOOST_DATA_TEST_CASE(contact_is_that_of_the_nodal_form_through_onsets_and_releas
     BOOST_TEST(nodal.counters.contact_steps > 100);
     BOOST_TEST(nodal.counters.contact_steps < 470);
     BOOST_TEST(sine.counters.contact_steps == nodal.counters.contact_steps);
+    BOOST_TEST(sine.counters.sine_steps == sine.counters.steps);
+    BOOST_TEST(nodal.counters.sine_steps == 0);
     for (std::size_t k = 0; k < norms.size(); ++k)
         BOOST_TEST(sine.errors[k] == nodal.errors[k], boost::test_tools::tolerance(1e-11));
+}
+
+// With contact, without, and in each case with and without coupling: what falls back to nodal
+// values gives the same results and would not be noticed.
+BOOST_DATA_TEST_CASE(every_scheme_and_mass_runs_in_the_sine_basis,
+                     data::make(TimeScheme::names()) *
+                         data::make({ThermalMass::consistent, ThermalMass::lumped}) *
+                         data::make({0.0, 0.8}) * data::make({false, true}),
+                     time, mass, alpha, stops) {
+    Beam beam{.alpha = alpha, .zeta = 0.02};
+    if (stops)
+        beam.stops = {-0.02, 0.1};
+    ProblemData problem = swinging_problem();
+    problem.exact = ExactSolution{};
+    const Scheme scheme{.thermal_mass = mass, .time = TimeScheme::named(time)};
+    const RunResult result =
+        run({beam, Mesh::uniform(40), scheme, 2.0, 150, norms_of(sine_norms)}, problem);
+    BOOST_TEST((result.status == RunStatus::ok), result.reason);
+    BOOST_TEST(result.counters.steps == 150);
+    BOOST_TEST(result.counters.sine_steps == 150);
+    BOOST_TEST((result.counters.contact_steps > 0) == stops);
 }
 
 BOOST_DATA_TEST_CASE(what_is_not_finite_is_reported_as_in_nodal_values,
@@ -185,6 +208,24 @@ BOOST_DATA_TEST_CASE(what_is_not_finite_is_reported_as_in_nodal_values,
             problem);
     BOOST_TEST((result.status == RunStatus::failed));
     BOOST_TEST(result.reason == "the temperature is not finite in step 71 of 100, t = 1.42");
+}
+
+BOOST_DATA_TEST_CASE(a_temperature_that_is_not_finite_ends_the_block_in_which_contact_begins,
+                     data::make(TimeScheme::names()) *
+                         data::make({1.0, std::numeric_limits<double>::infinity()}),
+                     time, heat) {
+    // Without coupling nothing but the temperature itself tells. The shear load moves the tip past
+    // a stop within the first block, so that the responses are looked for there.
+    const ProblemData problem =
+        forced_problem({{[](double) { return -3.0; }, {}},
+                        {[heat](double) { return heat; },
+                         [](const Eigen::ArrayXd& x) -> Eigen::ArrayXd { return x * (1.0 - x); }}});
+    const Beam beam{.alpha = 0.0, .zeta = 0.02, .stops = {-0.02, 0.1}};
+    const Scheme scheme{.time = TimeScheme::named(time)};
+    SineForm form(beam, problem, Mesh::uniform(10), scheme, 0.5, 20, {}, {true, true, false});
+    BOOST_TEST(form.march([](std::int64_t) { return true; }) == std::isfinite(heat));
+    if (std::isfinite(heat))
+        BOOST_TEST(form.counters().contact_steps > 0);
 }
 
 BOOST_AUTO_TEST_SUITE_END()
