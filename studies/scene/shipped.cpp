@@ -4,22 +4,37 @@
 #include "mms/text/nearest_name.hpp"
 
 #include <algorithm>
+#include <cstdlib>
 
 namespace tvbeam {
 
 namespace {
 
+/// Where the two kinds may be, the first that is there counts.
+std::vector<std::filesystem::path> data_directories() {
+    if (const char* named = std::getenv("TVBEAM_DATA"); named != nullptr && *named != '\0')
+        return {named};
+    std::error_code error;
+    const auto program = std::filesystem::read_symlink("/proc/self/exe", error);
+    std::vector<std::filesystem::path> directories;
+    if (!error)
+        directories.push_back(program.parent_path().parent_path() / "share/tvbeam");
+    // A program of the build reads its sources; an installed one, or a user's, never does.
+    if (!error && program.string().starts_with(TVBEAM_BINARY_DIR "/"))
+        directories.emplace_back(TVBEAM_SOURCE_DIR);
+    for (const char* installed : {TVBEAM_INSTALLED_DATA, TVBEAM_PACKAGED_DATA})
+        directories.emplace_back(installed);
+    return directories;
+}
+
 std::filesystem::path directory(Shipped kind) {
     const std::filesystem::path inside =
         kind == Shipped::scene ? "studies/scenes" : "mms/solutions";
     std::error_code error;
-    const auto binary = std::filesystem::read_symlink("/proc/self/exe", error);
-    if (!error) {
-        auto installed = binary.parent_path().parent_path() / "share/tvbeam" / inside;
-        if (std::filesystem::is_directory(installed, error))
-            return installed;
-    }
-    return std::filesystem::path(TVBEAM_SOURCE_DIR) / inside;
+    for (const auto& candidate : data_directories())
+        if (std::filesystem::is_directory(candidate / inside, error))
+            return candidate / inside;
+    return {};
 }
 
 } // namespace
@@ -50,6 +65,10 @@ std::filesystem::path find_file(Shipped kind, const std::string& name,
             return file.path;
         names.push_back(file.name);
     }
+    if (names.empty())
+        throw InputError(place, "there is no shipped " + word + " '" + name +
+                                    "': what tvbeam ships is not found; TVBEAM_DATA names the "
+                                    "directory that it was installed to, …/share/tvbeam");
     throw InputError(
         place, "there is no shipped " + word + " '" + name + "'" + did_you_mean(name, names) +
                    "; `tvbeam list` shows them, and a file is named with its ending: " + name +

@@ -8,8 +8,10 @@
 
 namespace tvbeam {
 
-/// What comes with the toolkit: scenes and solutions, found beside an installed binary
-/// (../share/tvbeam) or else in the source tree that it was built from.
+/// What comes with the toolkit: scenes and solutions. They are looked for in the directory that the
+/// environment variable TVBEAM_DATA names, and nowhere else then; or beside the running program
+/// (../share/tvbeam), in the sources if it is one of their own build, and where tvbeam is
+/// installed.
 enum class Shipped { scene, solution };
 
 struct ShippedFile {
