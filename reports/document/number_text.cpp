@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <charconv>
 #include <cmath>
+#include <limits>
 
 namespace tvbeam {
 
@@ -32,6 +34,12 @@ std::string scientific(std::optional<double> value, int decimals) {
     return without_filling(fmt::format("{:.{}e}", *value, decimals));
 }
 
+double number_in(const std::string& text) {
+    double value = std::numeric_limits<double>::quiet_NaN();
+    std::from_chars(text.data(), text.data() + text.size(), value);
+    return value;
+}
+
 std::string shortest(double value) {
     const std::string plain = without_filling(fmt::format("{}", value));
     const std::string exponent = without_filling(fmt::format("{:e}", value));
@@ -44,13 +52,13 @@ std::string shortest(double value) {
             mantissa.pop_back();
         trimmed = mantissa + exponent.substr(e);
     }
-    return trimmed.size() < plain.size() && std::stod(trimmed) == value ? trimmed : plain;
+    return trimmed.size() < plain.size() && number_in(trimmed) == value ? trimmed : plain;
 }
 
 std::string with_prefix(double value) {
     // Rounded before the prefix is chosen: 999.7e-6 is 1.00m. The parts allow for 1e-3 not being a
     // thousandth exactly.
-    const double rounded = std::stod(fmt::format("{:.2e}", value));
+    const double rounded = number_in(fmt::format("{:.2e}", value));
     for (const auto& [unit, prefix] : {std::pair{1.0, ""}, {1e-3, "m"}, {1e-6, "µ"}, {1e-9, "n"}}) {
         const double part = rounded / unit;
         if (part >= 1.0 - 1e-9)

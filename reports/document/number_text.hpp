@@ -9,6 +9,10 @@ namespace tvbeam {
 /// missing value.
 std::string scientific(std::optional<double> value, int decimals);
 
+/// The number that a text begins with, whatever the locale; NaN where there is none or it is beyond
+/// the doubles.
+double number_in(const std::string& text);
+
 /// The shortest of plain and scientific notation that reads back as the same double.
 std::string shortest(double value);
 

@@ -82,7 +82,7 @@ std::vector<double> levels_between(double least, double greatest) {
     std::vector<double> levels;
     for (int power = static_cast<int>(std::floor(std::log10(least))); power < 300; ++power)
         for (const double mantissa : mantissas) {
-            const double level = std::stod(fmt::format("{}e{}", mantissa, power));
+            const double level = number_in(fmt::format("{}e{}", mantissa, power));
             if (level >= greatest)
                 return levels;
             if (level > least)

@@ -9,12 +9,11 @@
 #include "reports/formats/html_report.hpp"
 #include "reports/formats/latex_report.hpp"
 #include "reports/formats/markdown_report.hpp"
+#include "tests/comma_locale.hpp"
 
 #include <boost/test/unit_test.hpp>
 
 #include <algorithm>
-#include <clocale>
-#include <locale>
 #include <sstream>
 
 using namespace tvbeam;
@@ -41,31 +40,6 @@ Document document() {
         {{"theta_L2L2", "temperature"}},
         {{"version", "1"}}};
 }
-
-/// Decimal commas and points between thousands, for C++ and, where one is installed, for C.
-class CommaLocale {
-public:
-    CommaLocale() {
-        struct Comma : std::numpunct<char> {
-            char do_decimal_point() const override { return ','; }
-            char do_thousands_sep() const override { return '.'; }
-            std::string do_grouping() const override { return "\3"; }
-        };
-        before_ = std::locale::global(std::locale(std::locale::classic(), new Comma));
-        std::setlocale(LC_ALL, "de_DE.UTF-8");
-    }
-    ~CommaLocale() {
-        std::locale::global(before_);
-        std::setlocale(LC_ALL, "C");
-    }
-    CommaLocale(const CommaLocale&) = delete;
-    CommaLocale& operator=(const CommaLocale&) = delete;
-    CommaLocale(CommaLocale&&) = delete;
-    CommaLocale& operator=(CommaLocale&&) = delete;
-
-private:
-    std::locale before_;
-};
 
 } // namespace
 
@@ -203,7 +177,8 @@ BOOST_AUTO_TEST_CASE(a_decimal_comma_changes_nothing) {
                                 .scene_text = ""};
     const auto all = [&] {
         return text_table(table()) + markdown_report(document()) + latex_report(document()) +
-               html_report(contents) + shortest(12345.678) + scientific(0.25, 3) + fixed(1234.5, 2);
+               html_report(contents) + shortest(12345.678) + shortest(1.25e6) +
+               with_prefix(1.25e-3) + scientific(0.25, 3) + fixed(1234.5, 2);
     };
     const std::string before = all();
     const CommaLocale locale;
