@@ -113,7 +113,10 @@ int run_command(const RunOptions& options) {
         out.emplace(options.out, scene.report);
         kept.emplace(options.out, scene, options.resume);
         if (options.resume && !options.quiet)
-            say("goes on with " + std::to_string(kept->found()) + " finished runs");
+            say("goes on with " + std::to_string(kept->found()) + " finished runs" +
+                (kept->was_torn()
+                     ? "; one that was being written when it was cut short is run again"
+                     : ""));
     }
     Destination json(options.json);
     Destination csv(options.csv);

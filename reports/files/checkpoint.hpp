@@ -1,25 +1,30 @@
 #pragma once
 
+#include "reports/files/line_file.hpp"
 #include "studies/runs/execution.hpp"
+#include "studies/runs/rung.hpp"
 #include "studies/scene/scene.hpp"
+#include "studies/stress/stress_case.hpp"
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
-#include <chrono>
 #include <filesystem>
+#include <map>
 #include <mutex>
+#include <string>
 
 namespace tvbeam {
 
-/// The results of a long study's single runs as they finish, in the file unfinished.json of a
-/// directory, for an attempt that goes on where this one is cut short. Doubles come back as they
-/// were, to the last bit. The file is replaced as a whole, at most twice a second.
+/// The results of a long study's single runs as they finish, in the file unfinished.jsonl of a
+/// directory, for an attempt that goes on where this one is cut short. A line of JSON each, after a
+/// first one that says what they are of (run_identity). Doubles come back as they were, to the last
+/// bit.
 class Checkpoint final : public FinishedRuns {
 public:
     /// resume: with the results of an earlier attempt, if there is one. Throws InputError where
-    /// there is one and it is not wanted; where the file cannot be read, or is of another scene or
-    /// another build of the program, whose results would not be the same. Throws OutputError where
-    /// nothing can be written.
+    /// there is one and it is not wanted; where the file cannot be read, is of another scene, build
+    /// or kind of processor, whose results would not be the same, or holds what no run of the scene
+    /// gives. Throws OutputError where nothing can be written.
     Checkpoint(const std::filesystem::path& directory, const Scene& scene, bool resume);
 
     std::optional<RungResult> find(const std::string& study, std::size_t index) override;
@@ -28,25 +33,31 @@ public:
     void add_case(std::size_t index, const StressCase& result) override;
 
     /// Whether something is kept now.
-    [[nodiscard]] bool holds_runs() const { return content_.contains("runs"); }
+    [[nodiscard]] bool holds_runs() const { return holds_runs_; }
 
-    [[nodiscard]] std::size_t found() const { return found_; } ///< results of the earlier attempt
+    /// Results of the earlier attempt.
+    [[nodiscard]] std::size_t found() const { return cases_.size() + runs_.size(); }
+
+    /// Whether the last line of the earlier attempt was cut short, and is left out.
+    [[nodiscard]] bool was_torn() const { return torn_; }
 
     void write();  ///< what is not yet on the disk; throws OutputError
     void remove(); ///< the file: the study has come to its end
 
 private:
-    using Json = nlohmann::ordered_json;
-    void read(const Json& identity);
-    std::optional<Json> find_entry(const std::string& study, std::size_t index);
-    void add_entry(const std::string& study, std::size_t index, Json entry);
+    void read(const Scene& scene);
+    void read_entry(const Scene& scene, const nlohmann::ordered_json& entry);
+    void add_entry(const std::string& study, std::size_t index,
+                   const nlohmann::ordered_json& result);
 
-    std::filesystem::path file_;
+    LineFile file_;
     std::mutex mutex_;
-    Json content_;
-    bool changed_ = false;
-    std::size_t found_ = 0;
-    std::chrono::steady_clock::time_point written_;
+    std::string identity_; // the first line
+    bool begun_ = false;   // it is in the file
+    bool holds_runs_ = false;
+    bool torn_ = false;
+    std::map<std::pair<std::string, std::size_t>, RungResult> runs_; // of the earlier attempt
+    std::map<std::size_t, StressCase> cases_;                        // likewise
 };
 
 } // namespace tvbeam

@@ -7,6 +7,11 @@
 #include <boost/test/unit_test.hpp>
 #include <nlohmann/json.hpp>
 
+#include <initializer_list>
+#include <sstream>
+#include <utility>
+#include <vector>
+
 using namespace tvbeam;
 namespace data = boost::unit_test::data;
 
@@ -29,6 +34,17 @@ std::string ladder(const TemporaryDirectory& directory, const std::string& eleme
 const std::string many = "10, 20, 40, 20480";
 const std::string few = "4, 8";
 
+const std::string unfinished = "out/unfinished.jsonl";
+
+/// Its lines, each of them whole.
+std::vector<nlohmann::ordered_json> kept_lines(const TemporaryDirectory& directory) {
+    std::istringstream text(directory.read(unfinished));
+    std::vector<nlohmann::ordered_json> lines;
+    for (std::string line; std::getline(text, line);)
+        lines.push_back(nlohmann::ordered_json::parse(line));
+    return lines;
+}
+
 } // namespace
 
 BOOST_AUTO_TEST_SUITE(long_work)
@@ -49,47 +65,92 @@ BOOST_DATA_TEST_CASE(a_run_that_is_asked_to_end_keeps_what_it_finished, data::ma
     BOOST_TEST(rungs.at(2).at("status") == "ok");
     BOOST_TEST(rungs.at(3).at("status") == "interrupted");
     BOOST_TEST(rungs.at(3).at("errors").at("theta_L2L2_sq").is_null());
-    const auto kept = nlohmann::json::parse(directory.read("out/unfinished.json"));
-    BOOST_TEST(kept.at("runs").at("ladder").size() == 3U);
-    BOOST_TEST(kept.at("runs").at("ladder").at("2").at("errors").at(0) ==
-               rungs.at(2).at("errors").at("theta_L2L2_sq"));
+    const auto kept = kept_lines(directory);
+    BOOST_REQUIRE(kept.size() == 4U); // what they are of, and three runs
+    for (const auto& line : kept)
+        if (line.value("index", 0) == 2)
+            BOOST_TEST(line.at("result").at("errors").at(0) ==
+                       rungs.at(2).at("errors").at("theta_L2L2_sq"));
 }
 
 BOOST_AUTO_TEST_CASE(an_attempt_that_was_cut_short_is_neither_lost_nor_mixed_with_another) {
     const TemporaryDirectory directory;
     const std::string out = " --out " + (directory.path() / "out").string();
     call(directory, ladder(directory, many) + out, "timeout -s INT 1 ");
-    const std::string kept = directory.read("out/unfinished.json");
+    const std::string kept = directory.read(unfinished);
     const auto refused = [&](const std::string& arguments, const std::string& message) {
+        const std::string before = directory.read(unfinished);
         const Called called = call(directory, arguments);
         BOOST_TEST(called.exit == 2);
-        BOOST_TEST(has(called.errors, message), called.errors);
+        BOOST_TEST(has(called.errors, message), called.errors << " lacks " << message);
         BOOST_TEST(called.output.empty());
-        BOOST_TEST(directory.read("out/unfinished.json") == kept);
+        BOOST_TEST(directory.read(unfinished) == before);
     };
     refused(ladder(directory, many) + out, "go on with it by --resume, or remove the file");
-    refused(ladder(directory, few) + out + " --resume", "of another scene");
-    auto empty_entry = nlohmann::ordered_json::parse(kept);
-    empty_entry["runs"]["ladder"]["1"] = nlohmann::ordered_json::object();
-    for (const std::string& wrong : {std::string("{ \"schema\": "), empty_entry.dump()}) {
-        directory.write("out/unfinished.json", wrong);
-        const Called called = call(directory, ladder(directory, many) + out + " --resume");
-        BOOST_TEST(called.exit == 2);
-        BOOST_TEST(has(called.errors, "is not what tvbeam wrote"), called.errors);
+    refused(ladder(directory, few) + out + " --resume", "of another scene (ladder/elements)");
+    // Of other bits: a word of the first line is another.
+    const auto lines = kept_lines(directory);
+    for (const auto& [key, difference] :
+         {std::pair{"/of/build/flags", "another build of tvbeam (flags)"},
+          {"/of/build/commit", "another build of tvbeam (commit)"},
+          {"/of/build/binaries/tvbeam", "another build of tvbeam (binaries/tvbeam)"},
+          {"/of/processor/kernel", "another kind of processor (kernel)"}}) {
+        auto first = lines.at(0);
+        const nlohmann::ordered_json::json_pointer pointer(key);
+        BOOST_REQUIRE(first.contains(pointer));
+        BOOST_TEST(first[pointer] != "unknown");
+        first[pointer] = "another";
+        directory.write(unfinished, first.dump() + kept.substr(kept.find('\n')));
+        refused(ladder(directory, many) + out + " --resume", difference);
+    }
+    // Not what was written: one by one in the second line, and a line that ends within.
+    auto entry = lines.at(1);
+    for (const auto& [key, value] :
+         std::initializer_list<std::pair<std::string, nlohmann::json>>{{"/study", "another"},
+                                                                       {"/index", 4},
+                                                                       {"/result/elements", 11},
+                                                                       {"/result", nullptr}}) {
+        auto wrong = entry;
+        wrong[nlohmann::ordered_json::json_pointer(key)] = value;
+        directory.write(unfinished, lines.at(0).dump() + "\n" + wrong.dump() + "\n");
+        refused(ladder(directory, many) + out + " --resume", "is not what tvbeam wrote: line 2");
+    }
+    for (const std::string& wrong : {std::string("{\"study\": "), std::string(200000, '['),
+                                     std::string("{\"schema\":\"tvbeam-unfinished/1\"}")}) {
+        directory.write(unfinished, wrong + "\n");
+        refused(ladder(directory, many) + out + " --resume", "is not what tvbeam wrote: line 1");
     }
     // What no result depends on may change.
-    directory.write("out/unfinished.json", kept);
+    directory.write(unfinished, kept);
     const Called renamed =
         call(directory, ladder(directory, many) + out + " --resume --set title=\"other\"",
              "timeout -s INT 1 ");
-    BOOST_TEST(has(renamed.errors, "goes on with 3 finished runs"), renamed.errors);
+    BOOST_TEST(has(renamed.errors, "goes on with 3 finished runs\n"), renamed.errors);
+}
+
+BOOST_AUTO_TEST_CASE(a_line_that_was_being_written_is_dropped_with_a_sentence) {
+    const TemporaryDirectory directory;
+    const std::string out = " --out " + (directory.path() / "out").string();
+    const std::string run = ladder(directory, many) + out;
+    call(directory, run, "timeout -s INT 1 ");
+    const std::string kept = directory.read(unfinished);
+    directory.write(unfinished, kept.substr(0, kept.size() - 10));
+    const Called resumed = call(directory, run + " --resume", "timeout -s INT 1 ");
+    BOOST_TEST(has(resumed.errors, "goes on with 2 finished runs; one that was being written"),
+               resumed.errors);
+    BOOST_TEST(kept_lines(directory).size() == 4U);
+    // Nothing but a part of the first line.
+    directory.write(unfinished, kept.substr(0, 10));
+    const Called anew = call(directory, run + " --resume", "timeout -s INT 1 ");
+    BOOST_TEST(has(anew.errors, "goes on with 0 finished runs; one"), anew.errors);
+    BOOST_TEST(kept_lines(directory).size() == 4U);
 }
 
 BOOST_AUTO_TEST_CASE(a_run_that_ends_leaves_nothing_unfinished) {
     const TemporaryDirectory directory;
     const std::string out = " --out " + (directory.path() / "out").string();
     BOOST_TEST(call(directory, ladder(directory, few) + out + " --resume").exit == 0);
-    BOOST_TEST(!std::filesystem::exists(directory.path() / "out" / "unfinished.json"));
+    BOOST_TEST(!std::filesystem::exists(directory.path() / "out" / "unfinished.jsonl"));
     const Called without = call(directory, ladder(directory, few) + " --resume");
     BOOST_TEST(without.exit == 2);
     BOOST_TEST(has(without.errors, "--out"), without.errors);
@@ -117,7 +178,7 @@ BOOST_AUTO_TEST_CASE(results_in_files_do_not_depend_on_standard_output) {
     BOOST_TEST(called.exit == 3);
     BOOST_TEST(has(called.errors, "cannot write to standard output"), called.errors);
     BOOST_TEST(std::filesystem::exists(directory.path() / "out" / "report.html"));
-    BOOST_TEST(!std::filesystem::exists(directory.path() / "out" / "unfinished.json"));
+    BOOST_TEST(!std::filesystem::exists(directory.path() / "out" / "unfinished.jsonl"));
 }
 
 BOOST_AUTO_TEST_CASE(a_check_that_is_interrupted_reports_the_scenes_before) {

@@ -172,7 +172,7 @@ BOOST_AUTO_TEST_CASE(a_full_disk_is_one_error_and_earlier_results_stay) {
     BOOST_TEST(directory.read("r/ladder.csv") == "earlier");
     BOOST_TEST(directory.read("r/table.md") == "earlier");
     BOOST_TEST(written(directory) ==
-               (std::set<std::string>{"ladder.csv", "table.md", "unfinished.json"}));
+               (std::set<std::string>{"ladder.csv", "table.md", "unfinished.jsonl"}));
 }
 
 BOOST_AUTO_TEST_CASE(without_gnuplot_scripts_and_data_are_written_and_a_sentence_says_so) {

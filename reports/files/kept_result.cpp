@@ -1,0 +1,186 @@
+#include "reports/files/kept_result.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <stdexcept>
+
+namespace tvbeam {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+void require(bool holds, const std::string& what) {
+    if (!holds)
+        throw std::invalid_argument(what);
+}
+
+const Json& member(const Json& json, const char* name) {
+    require(json.is_object() && json.contains(name), std::string(name) + " is missing");
+    return json[name];
+}
+
+/// JSON has no literal for what is not finite.
+Json number(double value) {
+    if (std::isfinite(value))
+        return value;
+    return std::isnan(value) ? "nan" : value > 0.0 ? "inf" : "-inf";
+}
+
+double number(const Json& json, const std::string& what) {
+    if (json.is_number())
+        return json.get<double>();
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    for (const auto& [text, value] : {std::pair{"nan", std::numeric_limits<double>::quiet_NaN()},
+                                      {"inf", infinity},
+                                      {"-inf", -infinity}})
+        if (json == text)
+            return value;
+    throw std::invalid_argument(what + " is not a number");
+}
+
+Json optional_number(const std::optional<double>& value) {
+    return value ? number(*value) : Json();
+}
+
+std::optional<double> optional_number(const Json& json, const char* name) {
+    const Json& value = member(json, name);
+    return value.is_null() ? std::nullopt : std::optional(number(value, name));
+}
+
+std::string text(const Json& json, const char* name) {
+    require(member(json, name).is_string(), std::string(name) + " is not a text");
+    return json[name];
+}
+
+double seconds(const Json& json) {
+    const double value = number(member(json, "seconds"), "seconds");
+    require(std::isfinite(value) && value >= 0.0, "seconds are not a time");
+    return value;
+}
+
+std::int64_t count(const Json& json, const std::string& what) {
+    require(json.is_number_integer() && json >= 0 &&
+                json <= std::numeric_limits<std::int64_t>::max(),
+            what + " is not a number of things");
+    return json;
+}
+
+constexpr std::int64_t Counters::*counters[] = {&Counters::steps,
+                                                &Counters::sine_steps,
+                                                &Counters::heat_solves,
+                                                &Counters::beam_solves,
+                                                &Counters::coupling_updates,
+                                                &Counters::load_updates,
+                                                &Counters::source_evaluations,
+                                                &Counters::tip_evaluations,
+                                                &Counters::contact_steps,
+                                                &Counters::fixed_point_iterations,
+                                                &Counters::norm_evaluations,
+                                                &Counters::doubles_allocated};
+static_assert(sizeof(Counters) == std::size(counters) * sizeof(std::int64_t));
+
+constexpr double StressChecks::*checks[] = {
+    &StressChecks::energy,      &StressChecks::heat_residual, &StressChecks::beam_residual,
+    &StressChecks::penetration, &StressChecks::wrong_sign,    &StressChecks::complementarity,
+    &StressChecks::path_limit};
+
+} // namespace
+
+nlohmann::ordered_json kept(const RungResult& result) {
+    Json errors = Json::array();
+    for (const double error : result.errors)
+        errors.push_back(number(error));
+    Json counts = Json::array();
+    for (const auto counter : counters)
+        counts.push_back(result.counters.*counter);
+    return {{"elements", result.rung.elements}, {"steps", result.rung.steps},
+            {"dt", number(result.rung.dt)},     {"failed", result.status != RunStatus::ok},
+            {"reason", result.reason},          {"seconds", result.seconds},
+            {"counters", std::move(counts)},    {"errors", std::move(errors)}};
+}
+
+RungResult kept_run(const nlohmann::ordered_json& json, const Rung& rung, std::size_t norms) {
+    RungResult result;
+    result.rung = {count(member(json, "elements"), "elements"),
+                   count(member(json, "steps"), "steps"), number(member(json, "dt"), "dt")};
+    require(result.rung.elements == rung.elements && result.rung.steps == rung.steps &&
+                result.rung.dt == rung.dt,
+            "elements, steps and dt are not those of the scene");
+    require(member(json, "failed").is_boolean(), "failed is neither true nor false");
+    const bool failed = json["failed"];
+    result.status = failed ? RunStatus::failed : RunStatus::ok;
+    result.reason = text(json, "reason");
+    require(failed != result.reason.empty(), "reason does not belong to failed");
+    result.seconds = seconds(json);
+    const Json& counts = member(json, "counters");
+    require(counts.is_array() && counts.size() == std::size(counters),
+            "counters are not as many as there are");
+    for (std::size_t k = 0; k < std::size(counters); ++k)
+        result.counters.*counters[k] = count(counts[k], "a counter");
+    require(result.counters.steps <= rung.steps &&
+                result.counters.sine_steps <= result.counters.steps,
+            "counters are of more steps than the run has");
+    const Json& errors = member(json, "errors");
+    require(errors.is_array() && errors.size() == (failed ? 0 : norms),
+            "errors are not one a norm of a run that did not fail");
+    for (const auto& error : errors) {
+        result.errors.push_back(number(error, "an error"));
+        require(std::isfinite(result.errors.back()) && result.errors.back() >= 0.0,
+                "an error is not a norm");
+    }
+    return result;
+}
+
+nlohmann::ordered_json kept(const StressCase& result) {
+    Json json{{"outcome", name_of(result.outcome)},
+              {"reason", result.reason},
+              {"seconds", result.seconds}};
+    if (!result.checks)
+        return json;
+    Json values = Json::array();
+    for (const auto check : checks)
+        values.push_back(number((*result.checks).*check));
+    json["checks"] = std::move(values);
+    json["path"] = optional_number(result.checks->path);
+    json["path_skipped"] = result.checks->path_skipped;
+    json["error"] = optional_number(result.checks->error);
+    json["error_skipped"] = result.checks->error_skipped;
+    return json;
+}
+
+StressCase kept_case(const nlohmann::ordered_json& json) {
+    StressCase result;
+    const std::string outcome = text(json, "outcome");
+    bool known = false;
+    for (const auto one : {Outcome::certified, Outcome::refused, Outcome::stopped, Outcome::failed})
+        if (name_of(one) == outcome) {
+            result.outcome = one;
+            known = true;
+        }
+    require(known, "outcome is none");
+    result.reason = text(json, "reason");
+    require((result.outcome == Outcome::certified) == result.reason.empty(),
+            "reason does not belong to the outcome");
+    result.seconds = seconds(json);
+    const bool checked = result.outcome == Outcome::certified || result.outcome == Outcome::failed;
+    require(json.contains("checks") == checked, "checks do not belong to the outcome");
+    if (!checked)
+        return result;
+    const Json& values = json["checks"];
+    require(values.is_array() && values.size() == std::size(checks),
+            "checks are not as many as there are");
+    StressChecks& made = result.checks.emplace();
+    for (std::size_t k = 0; k < std::size(checks); ++k)
+        made.*checks[k] = number(values[k], "a check");
+    made.path = optional_number(json, "path");
+    made.path_skipped = text(json, "path_skipped");
+    made.error = optional_number(json, "error");
+    made.error_skipped = text(json, "error_skipped");
+    return result;
+}
+
+} // namespace tvbeam

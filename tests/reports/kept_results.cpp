@@ -1,0 +1,141 @@
+// Results that an earlier attempt has left: those that it wrote come back bit for bit, others are
+// refused with what is wrong with them.
+
+#include "reports/files/kept_result.hpp"
+
+#include <boost/test/unit_test.hpp>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <limits>
+#include <utility>
+#include <vector>
+
+using namespace tvbeam;
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+const Rung rung{.elements = 10, .steps = 30, .dt = 1.0 / 30.0};
+
+RungResult run() {
+    RungResult result{.rung = rung, .seconds = 0.1};
+    result.counters.steps = 30;
+    result.counters.sine_steps = 30;
+    result.errors = {1.0 / 3.0, std::numeric_limits<double>::denorm_min()};
+    return result;
+}
+
+StressCase judged() {
+    StressCase result;
+    result.checks.emplace();
+    result.checks->energy = 1.0 / 3.0;
+    result.checks->heat_residual = std::numeric_limits<double>::infinity();
+    result.checks->path = 0.1;
+    return result;
+}
+
+struct Wrong {
+    std::string key;
+    Json value;
+    std::string reason;
+};
+
+/// Each by itself, put into what is right.
+template <typename Read>
+void refused(const Json& right, const std::vector<Wrong>& all, const Read& read) {
+    for (const auto& [key, value, reason] : all) {
+        Json wrong = right;
+        wrong[Json::json_pointer(key)] = value;
+        BOOST_CHECK_EXCEPTION(read(wrong), std::invalid_argument,
+                              [&](const std::invalid_argument& error) {
+                                  BOOST_TEST(error.what() == reason);
+                                  return true;
+                              });
+    }
+}
+
+} // namespace
+
+BOOST_AUTO_TEST_SUITE(kept_results)
+
+BOOST_AUTO_TEST_CASE(a_run_comes_back_bit_for_bit) {
+    const RungResult before = run();
+    const RungResult after = kept_run(Json::parse(kept(before).dump()), rung, 2);
+    BOOST_TEST(after.errors == before.errors, boost::test_tools::per_element());
+    BOOST_TEST(after.seconds == before.seconds);
+    BOOST_TEST(after.rung.dt == before.rung.dt);
+    BOOST_TEST(after.counters.sine_steps == 30);
+    RungResult failed = run();
+    failed.status = RunStatus::failed;
+    failed.reason = "not finite";
+    failed.errors.clear();
+    const RungResult again = kept_run(Json::parse(kept(failed).dump()), rung, 2);
+    BOOST_TEST((again.status == RunStatus::failed));
+    BOOST_TEST(again.reason == "not finite");
+}
+
+BOOST_AUTO_TEST_CASE(a_run_that_the_scene_does_not_give_is_refused) {
+    const std::string other_run = "elements, steps and dt are not those of the scene";
+    const std::string no_counter = "a counter is not a number of things";
+    const std::string too_many = "counters are of more steps than the run has";
+    const std::string not_one_a_norm = "errors are not one a norm of a run that did not fail";
+    refused(kept(run()),
+            {{"/elements", 11, other_run},
+             {"/steps", 31, other_run},
+             {"/dt", 0.1, other_run},
+             {"/dt", "one", "dt is not a number"},
+             {"/elements", 1e300, "elements is not a number of things"},
+             {"/failed", 1, "failed is neither true nor false"},
+             {"/failed", true, "reason does not belong to failed"},
+             {"/reason", "it failed", "reason does not belong to failed"},
+             {"/reason", 5, "reason is not a text"},
+             {"/seconds", -1.0, "seconds are not a time"},
+             {"/seconds", "inf", "seconds are not a time"},
+             {"/counters", Json::array(), "counters are not as many as there are"},
+             {"/counters/3", 1e300, no_counter},
+             {"/counters/3", -1, no_counter},
+             {"/counters/3", std::numeric_limits<std::uint64_t>::max(), no_counter},
+             {"/counters/0", 31, too_many},
+             {"/counters/1", 31, too_many},
+             {"/errors", Json::array(), not_one_a_norm},
+             {"/errors", {1.0, 2.0, 3.0}, not_one_a_norm},
+             {"/errors", 1.0, not_one_a_norm},
+             {"/errors/0", "nan", "an error is not a norm"},
+             {"/errors/0", -1.0, "an error is not a norm"},
+             {"/errors/0", nullptr, "an error is not a number"}},
+            [](const Json& json) { return kept_run(json, rung, 2); });
+    BOOST_CHECK_THROW(kept_run(Json::array(), rung, 2), std::invalid_argument);
+    BOOST_CHECK_THROW(kept_run(Json(), rung, 2), std::invalid_argument);
+}
+
+BOOST_AUTO_TEST_CASE(a_case_comes_back_bit_for_bit) {
+    const StressCase after = kept_case(Json::parse(kept(judged()).dump()));
+    BOOST_TEST(after.checks->energy == 1.0 / 3.0);
+    BOOST_TEST(std::isinf(after.checks->heat_residual));
+    BOOST_TEST((after.checks->path == 0.1));
+    BOOST_TEST(!after.checks->error.has_value());
+    StressCase stopped;
+    stopped.outcome = Outcome::stopped;
+    stopped.reason = "not finite";
+    BOOST_TEST((kept_case(Json::parse(kept(stopped).dump())).outcome == Outcome::stopped));
+}
+
+BOOST_AUTO_TEST_CASE(a_case_that_is_none_is_refused) {
+    refused(kept(judged()),
+            {{"/outcome", "wonderful", "outcome is none"},
+             {"/outcome", 7, "outcome is not a text"},
+             {"/outcome", "failed", "reason does not belong to the outcome"},
+             {"/reason", "because", "reason does not belong to the outcome"},
+             {"/checks", {1.0, 2.0}, "checks are not as many as there are"},
+             {"/checks/2", "large", "a check is not a number"},
+             {"/path", "short", "path is not a number"},
+             {"/error_skipped", 1, "error_skipped is not a text"}},
+            kept_case);
+    Json without = kept(judged());
+    without.erase("checks");
+    BOOST_CHECK_THROW(kept_case(without), std::invalid_argument);
+}
+
+BOOST_AUTO_TEST_SUITE_END()
