@@ -47,6 +47,12 @@ double work_of(const Scheme& scheme, const std::vector<Rung>& rungs) {
     return work;
 }
 
+/// To which a study runs that is measured against the reference.
+double measured_time(const Scene& scene) {
+    return std::max(scene.ladder && !scene.ladder->norms.empty() ? scene.ladder->final_time : 0.0,
+                    scene.orders ? scene.orders->final_time : 0.0);
+}
+
 /// Of a reference run, and of the two coarser ones that it may be extrapolated from.
 double work_of(const ReferenceBlock& reference, double final_time) {
     return static_cast<double>(reference.elements) * final_time / reference.dt *
@@ -57,7 +63,7 @@ double work_of(const ReferenceBlock& reference, double final_time) {
 double work_of(const Scene& scene) {
     double work = 0.0;
     if (scene.reference && !scene.norms().empty())
-        work += work_of(*scene.reference, scene.longest_time());
+        work += work_of(*scene.reference, measured_time(scene));
     if (scene.ladder)
         work += work_of(scene.scheme, scene.ladder->rungs);
     if (scene.orders)
@@ -93,13 +99,16 @@ StudyResult run_study(const Scene& scene, ProblemData data, const Execution& exe
     if (!scene.poses_problem())
         return result;
     result.remarks = phase_remarks(scene, data);
+    // What errors are measured against; an evolution looks at times that a reference does not know.
+    ProblemData measured = data;
     if (scene.reference && !scene.norms().empty())
-        result.reference = measure_against_reference(scene, scene.longest_time(), data, execution);
-    result.left_out = left_out(scene, data);
+        result.reference =
+            measure_against_reference(scene, measured_time(scene), measured, execution);
+    result.left_out = left_out(scene, measured);
     if (scene.orders)
-        result.orders = run_orders(scene, *scene.orders, data, execution);
+        result.orders = run_orders(scene, *scene.orders, measured, execution);
     if (scene.ladder)
-        result.ladder = run_ladder(scene, *scene.ladder, data,
+        result.ladder = run_ladder(scene, *scene.ladder, measured,
                                    result.orders ? &*result.orders : nullptr, execution);
     if (scene.evolution)
         result.evolution = run_evolution(scene, *scene.evolution, data, execution);

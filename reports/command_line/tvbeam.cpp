@@ -90,6 +90,21 @@ bool same_place(const std::string& first, const std::string& second) {
                                   std::filesystem::weakly_canonical(second, error);
 }
 
+/// Opens what results will go to, before anything runs: a place that cannot be written is bad
+/// input.
+template <typename Open>
+auto opened(const Open& open) {
+    try {
+        return open();
+    } catch (const OutputError& error) {
+        throw InputError({}, error.what());
+    }
+}
+
+Destination destination(const std::string& name) {
+    return opened([&] { return Destination(name); });
+}
+
 StudyResult run_shown(const Scene& scene, bool quiet, int jobs, std::optional<Checkpoint>& kept) {
     ProgressLine progress(!quiet);
     return run_study(scene,
@@ -110,16 +125,18 @@ int run_command(const RunOptions& options) {
     std::optional<ReportDirectory> out;
     std::optional<Checkpoint> kept;
     if (!options.out.empty()) {
-        out.emplace(options.out, scene.report);
-        kept.emplace(options.out, scene, options.resume);
+        opened([&] {
+            out.emplace(options.out, scene.report);
+            kept.emplace(options.out, scene, options.resume);
+        });
         if (options.resume && !options.quiet)
             say("goes on with " + std::to_string(kept->found()) + " finished runs" +
                 (kept->was_torn()
                      ? "; one that was being written when it was cut short is run again"
                      : ""));
     }
-    Destination json(options.json);
-    Destination csv(options.csv);
+    Destination json = destination(options.json);
+    Destination csv = destination(options.csv);
     const StudyResult result = run_shown(scene, options.quiet, options.jobs, kept);
     // Files first: what standard output goes to may be gone.
     if (out) {
@@ -196,8 +213,8 @@ int check_command(const CheckOptions& options) {
                 {scene.file},
                 "has no [expect] block, so there is nothing to check; add one, or record a "
                 "baseline with --record");
-    Destination junit(options.junit);
-    Destination record(options.record);
+    Destination junit = destination(options.junit);
+    Destination record = destination(options.record);
 
     std::vector<StudyResult> results;
     std::vector<CheckedScene> checked;

@@ -98,8 +98,11 @@ double number(const std::string& field, const Place& place, const std::string& n
     double value = 0.0;
     const auto [end, error] = std::from_chars(field.data() + (plus ? 1 : 0), last, value);
     if (error == std::errc::result_out_of_range && end == last) {
-        // from_chars does not say at which end of the range.
-        if (std::abs(std::strtod(field.c_str(), nullptr)) < 1)
+        // from_chars does not say at which end of the range; long double reaches far beyond both.
+        long double wide = 0.0L;
+        const auto beyond = std::from_chars(field.data() + (plus ? 1 : 0), last, wide).ec;
+        if (beyond == std::errc() ? std::abs(wide) < 1.0L
+                                  : field.find_first_of("eE") + 1 == field.find('-', 1))
             return 0.0;
         throw InputError(place, "'" + field + "' in column " + name + " is too large for a double");
     }

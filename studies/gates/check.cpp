@@ -149,11 +149,11 @@ private:
                 some = true;
             }
         if (!some)
-            checked_.push_back(held(expectation, "ladder." + expectation.norm + ": prediction",
-                                    std::nullopt,
-                                    norm.predictions.empty()
-                                        ? "no two-term model: [orders] is missing or its fit failed"
-                                        : "no rung is finer than the grid of [orders]"));
+            checked_.push_back(held(
+                expectation, "ladder." + expectation.norm + ": prediction", std::nullopt,
+                norm.predictions.empty() ? "no two-term model: [orders] is missing, has another "
+                                           "final_time, or its fit failed"
+                                         : "no rung is finer than the grid of [orders]"));
     }
 
     void add_fit(const Expectation& expectation) {

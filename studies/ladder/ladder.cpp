@@ -60,7 +60,10 @@ LadderResult run_ladder(const Scene& scene, const LadderBlock& ladder, const Pro
     const auto remarked = telling(scene, result.rungs);
     for (std::size_t k = 0; k < ladder.norms.size(); ++k) {
         const Norm& norm = ladder.norms[k];
-        const TwoTermModel* model = orders != nullptr ? orders->model_of(norm) : nullptr;
+        // The constants of a model are those of its final time.
+        const bool same_time = scene.orders && scene.orders->final_time == ladder.final_time;
+        const TwoTermModel* model =
+            orders != nullptr && same_time ? orders->model_of(norm) : nullptr;
         result.norms.push_back(analysed(norm, result.rungs, k, model, reference_widths(scene)));
         result.norms.back().remarks =
             order_remarks(norm, root_records_of(remarked, k, norm), model);

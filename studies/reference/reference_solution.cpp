@@ -68,10 +68,9 @@ class ReferenceSolution {
 public:
     ReferenceSolution(const Scene& scene, double final_time, const Execution& execution)
         : execution_(execution), block_(*scene.reference), needs_(reference_needs(scene)),
-          steps_(std::llround(final_time / block_.dt)),
-          dt_(final_time / static_cast<double>(steps_)),
           levels_(kept_levels(block_, scene.ladder ? &*scene.ladder : nullptr,
-                              scene.orders ? &*scene.orders : nullptr)) {
+                              scene.orders ? &*scene.orders : nullptr)),
+          steps_(levels_.back()), dt_(final_time / static_cast<double>(steps_)) {
         const auto count = static_cast<Index>(levels_.size());
         if (needs_.temperature)
             theta_.setZero(block_.elements + 1, count);
@@ -117,24 +116,28 @@ public:
     }
 
 private:
-    /// The place of a time among the levels; none where it is not kept.
+    /// The place of a time among the levels; none where the solution is not known.
     [[nodiscard]] std::optional<Index> slot(double t) const {
         const double steps = t / dt_;
         const auto level = static_cast<std::int64_t>(std::llround(steps));
         const auto at = std::lower_bound(levels_.begin(), levels_.end(), level);
-        // The time of a rung is the level's to the rounding of its dt in the scene.
-        if (at == levels_.end() || *at != level ||
-            std::abs(steps - static_cast<double>(level)) > 0.1)
+        // The time of a rung is the level's to the rounding of the steps in the scene, which divide
+        // each other and the final time to 1e-9.
+        if (at == levels_.end() || *at != level || std::abs(t - time_of(level)) > 1e-8 * t)
             return std::nullopt;
         return at - levels_.begin();
+    }
+
+    [[nodiscard]] double time_of(std::int64_t level) const {
+        return dt_ * static_cast<double>(level);
     }
 
     [[nodiscard]] Index level_at(double t) const {
         if (const auto at = slot(t))
             return *at;
         std::ostringstream text;
-        text << "the reference solution is not kept at t = " << t;
-        throw std::logic_error(text.str());
+        text << "the reference solution is not known at t = " << t;
+        throw std::domain_error(text.str());
     }
 
     /// Adds weight times the solution of a run, coarser by the given factors, to all kept levels.
@@ -194,9 +197,9 @@ private:
     const Execution execution_;
     ReferenceBlock block_;
     Needs needs_;
+    std::vector<std::int64_t> levels_; // the last one ends at final_time
     std::int64_t steps_;
-    double dt_; // to rounding that of the block
-    std::vector<std::int64_t> levels_;
+    double dt_;                 // to rounding that of the block
     Eigen::MatrixXd theta_;     // one column a level
     Eigen::MatrixXd curvature_; // one column a level: nodal values, or the two ends of each element
     VectorXd stress_;

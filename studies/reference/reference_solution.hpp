@@ -35,10 +35,11 @@ struct ReferenceResult {
     double seconds = 0.0; ///< wall clock of its runs
 };
 
-/// Runs the reference of a scene up to final_time and sets it in place of data.exact: Θ̃, U and
-/// their derivatives by evaluation, the contact stress as one more amplitude. At a time that is not
-/// a level of some rung it throws std::logic_error. After a reference that failed, every run that
-/// is measured against it fails with the same reason.
+/// Runs the reference of a scene up to final_time, the longest of the studies that are measured
+/// against it, and sets it in place of data.exact: Θ̃, U and their derivatives by evaluation, the
+/// contact stress as one more amplitude. It is known at the levels of their rungs; elsewhere it
+/// throws std::domain_error, by which a run fails. After a reference that failed, every run that is
+/// measured against it fails with the same reason.
 ReferenceResult measure_against_reference(const Scene& scene, double final_time, ProblemData& data,
                                           const Execution& execution = {});
 

@@ -184,8 +184,9 @@ std::string busy_remark(double processor_seconds, double wall_clock_seconds) {
            "ratios are not to be trusted: time it again on an idle machine.";
 }
 
-std::int64_t node_steps(const Rung& rung) {
-    return rung.elements * rung.steps;
+std::uint64_t node_steps(const Rung& rung) {
+    static_assert(static_cast<double>(most_elements) * most_steps < 1.8e19);
+    return static_cast<std::uint64_t>(rung.elements) * static_cast<std::uint64_t>(rung.steps);
 }
 
 WorkPrecisionResult run_work_precision(const Scene& scene, const WorkPrecisionBlock& block,

@@ -54,8 +54,8 @@ struct WorkPrecisionResult {
 /// which no quartile shows. Empty otherwise.
 std::string busy_remark(double processor_seconds, double wall_clock_seconds);
 
-/// Elements times steps: the size of a run, whatever the algorithm makes of it.
-std::int64_t node_steps(const Rung& rung);
+/// Elements times steps: the size of a run, whatever the algorithm makes of it. At most 1e19.
+std::uint64_t node_steps(const Rung& rung);
 
 /// Runs every rung of every scheme once for its errors, and then for its time: an untimed run, and
 /// block.runs timed ones, or one where a run takes longer than one_run_above seconds. The runs of

@@ -71,6 +71,17 @@ BOOST_AUTO_TEST_CASE(the_grid_predicts_finer_rungs_and_explains_the_order_of_the
     BOOST_TEST(s < 3000.0);
 }
 
+BOOST_AUTO_TEST_CASE(a_ladder_is_judged_by_orders_of_its_own_final_time_only) {
+    const auto predictions = [](const std::string& final_time) {
+        const StudyResult result = run_study(
+            read_scene("table1", {"ladder.elements=[10, 20, 40]", "ladder.dt=\"0.01/s\"",
+                                  "ladder.printed={}", "ladder.final_time=" + final_time}));
+        return result.ladder->norms[0].predictions.size();
+    };
+    BOOST_TEST(predictions("2") == 3u); // that of [orders]
+    BOOST_TEST(predictions("1") == 0u);
+}
+
 BOOST_AUTO_TEST_CASE(verdicts_stand_in_every_rung) {
     const StudyResult result = run_study(read_scene(
         "table1", {"ladder.elements=[10, 20, 40]", "ladder.dt=\"0.01/s\"", "ladder.printed={}"}));

@@ -84,6 +84,8 @@ BOOST_AUTO_TEST_CASE(numbers_are_taken_as_other_programs_write_them) {
     BOOST_TEST(records[0].h == 0.5);
     BOOST_TEST(records[0].error == 1e-2);
     BOOST_TEST(records[1].error == 0.0);
+    BOOST_TEST(message_of("h,error\n0.5,1e9999\n").find("'1e9999' in column error is too large") !=
+               std::string::npos);
     BOOST_TEST(message_of("h,error\n0.5,1e400\n")
                    .starts_with("e.csv:2: '1e400' in column error is too large"));
     BOOST_TEST(message_of("h,error\n0.5,+-1\n")

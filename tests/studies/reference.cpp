@@ -261,15 +261,52 @@ norms = ["theta_L2L2_sq"]
     BOOST_TEST((norm.verdicts[2].verdict == Verdict::asymptotic), norm.verdicts[2].reason);
 }
 
-BOOST_AUTO_TEST_CASE(a_time_that_no_rung_has_is_a_logic_error) {
+BOOST_AUTO_TEST_CASE(a_reference_is_not_known_at_a_time_that_no_rung_has) {
     const Scene scene = scene_of(free_beam + steps + reference(32, "2.5e-3"));
     ProblemData problem = problem_of(scene, 1.0);
     measure_against_reference(scene, 1.0, problem);
     const ArrayXd x = ArrayXd::Constant(1, 0.5);
     BOOST_CHECK_NO_THROW(problem.exact->theta.rest(x, 0.015)); // of the rung with dt = 0.005
-    BOOST_CHECK_THROW(problem.exact->theta.rest(x, 0.0175), std::logic_error); // 7 steps of 2.5e-3
-    BOOST_CHECK_THROW(problem.exact->u.rest(x, 0.016), std::logic_error);
-    BOOST_CHECK_THROW(problem.exact->u.rest(x, 1.02), std::logic_error);
+    BOOST_CHECK_THROW(problem.exact->theta.rest(x, 0.0175), std::domain_error); // 7 steps of 2.5e-3
+    BOOST_CHECK_THROW(problem.exact->u.rest(x, 0.016), std::domain_error);
+    BOOST_CHECK_THROW(problem.exact->u.rest(x, 1.02), std::domain_error);
+    // A fiftieth of a step off is another time.
+    BOOST_CHECK_THROW(problem.exact->theta.rest(x, 0.01505), std::domain_error);
+}
+
+BOOST_AUTO_TEST_CASE(
+    an_evolution_beside_a_reference_changes_no_error_and_has_its_own_exact_values) {
+    // It ends between two steps of the reference.
+    const std::string evolution =
+        "[evolution]\nfinal_time = 1.4625\nelements = 8\ndt = 0.0125\nprobes = ['u@1']\n";
+    for (const auto& beam : {free_beam, pressed_beam})
+        for (const bool richardson : {false, true}) {
+            const std::string measured = beam + steps + reference(32, "0.0025", richardson);
+            const StudyResult alone = study_of(measured);
+            const StudyResult beside = study_of(measured + evolution);
+            BOOST_TEST(!beside.failed());
+            for (std::size_t i = 0; i < 3; ++i)
+                BOOST_TEST(beside.ladder->rungs[i].errors == alone.ladder->rungs[i].errors,
+                           boost::test_tools::per_element());
+            const ProbeHistory& tip = beside.evolution->probes[0];
+            BOOST_TEST(tip.exact == study_of(beam + evolution).evolution->probes[0].exact,
+                       boost::test_tools::per_element());
+            BOOST_TEST(*tip.greatest_error() > 0.0);
+        }
+}
+
+BOOST_AUTO_TEST_CASE(a_fixed_point_is_measured_against_its_reference) {
+    const std::string fixed_point = "[scheme]\nalgorithm = 'fixed-point'\ntolerance = 1e-11\n";
+    const std::string curvature =
+        "[ladder]\nfinal_time = 1\nelements = [8, 16]\ndt = [0.02, 0.01]\n"
+        "norms = ['u_LinfH2semi']\n";
+    for (const auto& block : {reference(32, "0.0025"), reference(32, "0.0025", true)}) {
+        const LadderResult iterated = *study_of(free_beam + fixed_point + curvature + block).ladder;
+        const LadderResult direct = *study_of(free_beam + curvature + block).ladder;
+        for (std::size_t i = 0; i < 2; ++i)
+            BOOST_TEST(iterated.rungs[i].errors.at(0) == direct.rungs[i].errors.at(0),
+                       boost::test_tools::tolerance(1e-6));
+    }
 }
 
 BOOST_AUTO_TEST_CASE(a_reference_that_fails_fails_every_run_with_its_reason) {
