@@ -42,17 +42,6 @@ std::string located(const std::string& reason, std::int64_t step, std::int64_t s
 
 } // namespace
 
-std::string name_of(RunStatus status) {
-    switch (status) {
-    case RunStatus::ok:
-        return "ok";
-    case RunStatus::failed:
-        return "failed";
-    default:
-        return "interrupted";
-    }
-}
-
 std::unique_ptr<Solver> make_solver(const Beam& beam, const ProblemData& data, const Mesh& mesh,
                                     const Scheme& scheme, double dt, const Needs& needs) {
     if (scheme.algorithm == Algorithm::fixed_point) {

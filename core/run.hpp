@@ -21,8 +21,6 @@ enum class RunStatus {
     interrupted ///< RunRequest::advance said so
 };
 
-std::string name_of(RunStatus status); ///< "ok", "failed", "interrupted"
-
 /// One march of one scheme over one mesh, from 0 to final_time in `steps` equal steps.
 struct RunRequest {
     Beam beam;

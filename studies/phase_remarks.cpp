@@ -3,6 +3,8 @@
 #include "core/space/quadrature.hpp"
 #include "core/time/time_levels.hpp"
 #include "mms/text/error_text.hpp"
+#include "studies/evolution/evolution_block.hpp"
+#include "studies/runs/beam_runs.hpp"
 #include "studies/scene/toml_reader.hpp"
 
 #include <algorithm>
@@ -55,27 +57,6 @@ RateJump rate_jump(const ProblemData& data, double end) {
     return {heat.abs().maxCoeff(), most, std::abs(tip) > tolerance * most};
 }
 
-/// The runs of one study by one scheme.
-struct Runs {
-    const TimeScheme& time;
-    double final_time;
-    std::vector<Rung> rungs;
-};
-
-std::vector<Runs> runs_of(const Scene& scene) {
-    std::vector<Runs> all;
-    if (scene.ladder)
-        all.push_back({scene.scheme.time, scene.ladder->final_time, scene.ladder->rungs});
-    if (scene.orders)
-        all.push_back({scene.scheme.time, scene.orders->final_time, scene.orders->grid});
-    if (scene.evolution)
-        all.push_back({scene.scheme.time, scene.evolution->final_time, {scene.evolution->rung}});
-    if (scene.work_precision)
-        for (const auto& timed : scene.work_precision->schemes)
-            all.push_back({timed.scheme.time, scene.work_precision->final_time, timed.rungs});
-    return all;
-}
-
 /// The steps of the runs in which the end of a phase costs something.
 struct Costly {
     Decreasing inside; ///< it lies within a step
@@ -84,9 +65,10 @@ struct Costly {
 
 Costly costly_steps(const Scene& scene, const ProblemData& data, double end) {
     Costly costly;
-    for (const auto& [time, final_time, rungs] : runs_of(scene))
-        for (const Rung& rung : rungs) {
-            const TimeLevels levels(data, time, final_time, rung.steps);
+    for (const auto& series : scene.series())
+        for (const Rung& rung : series.rungs) {
+            const TimeScheme& time = scheme_of(series.method).time;
+            const TimeLevels levels(data, time, series.final_time, rung.steps);
             if (!(end < levels.time(rung.steps)))
                 continue;
             if (!levels.meet(end))
@@ -122,7 +104,7 @@ std::string orders_text(const Scene& scene, const RateJump& jump) {
     const bool heat = jump.heat > 0.0 || coupled;
     const bool bending = jump.bending > 0.0 || coupled;
     std::map<double, std::vector<std::string>, std::greater<>> norms;
-    for (const Norm& norm : scene.norms()) {
+    for (const Norm& norm : norms_of(scene.measures())) {
         const QuantitySet set = norm.quantities();
         const auto has = [&](Quantity q) { return set[static_cast<std::size_t>(q)]; };
         const bool of_heat = heat && (has(Quantity::theta) || has(Quantity::theta_x));
@@ -140,7 +122,7 @@ std::string orders_text(const Scene& scene, const RateJump& jump) {
     for (const auto& [order, names] : norms)
         parts.push_back((parts.empty() ? "the order " : "") + message_text(order) + " in " +
                         list_of(names));
-    return parts.empty() && scene.evolution ? "the order 1" : list_of(parts);
+    return parts.empty() && scene.get<EvolutionBlock>() != nullptr ? "the order 1" : list_of(parts);
 }
 
 std::string remark(const Scene& scene, const RateJump& jump, const std::string& orders,

@@ -1,57 +1,47 @@
 #include "studies/study.hpp"
 
 #include "studies/phase_remarks.hpp"
+#include "studies/runs/beam_runs.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace tvbeam {
 
-bool StudyResult::failed() const {
-    const auto all = runs();
-    return interrupted() || (stress && stress->failed()) ||
-           (evolution && evolution->run.status != RunStatus::ok) ||
-           std::any_of(all.begin(), all.end(),
-                       [](const MeasuredRuns& study) { return any_failed(*study.runs); });
-}
-
-bool StudyResult::interrupted() const {
-    const auto all = runs();
-    return (stress && stress->interrupted) || (work_precision && work_precision->interrupted) ||
-           (evolution && evolution->run.status == RunStatus::interrupted) ||
-           std::any_of(all.begin(), all.end(), [](const MeasuredRuns& study) {
-               return std::any_of(
-                   study.runs->begin(), study.runs->end(),
-                   [](const RungResult& run) { return run.status == RunStatus::interrupted; });
-           });
-}
-
-std::vector<MeasuredRuns> StudyResult::runs() const {
-    std::vector<MeasuredRuns> all;
-    if (ladder)
-        all.push_back({"ladder", &ladder->rungs, &scene.ladder->norms});
-    if (orders)
-        all.push_back({"orders", &orders->runs, &scene.orders->norms});
-    if (work_precision)
-        for (std::size_t k = 0; k < work_precision->schemes.size(); ++k)
-            all.push_back({"work_precision." + scene.work_precision->schemes[k].name,
-                           &work_precision->schemes[k].runs, &scene.work_precision->norms});
+Ending StudyResult::ending() const {
+    Ending all;
+    for (const auto& [kind, record] : records.entries()) {
+        const Ending one = kind->ending(record);
+        if (one.failed && !all.failed)
+            all.reason = one.reason;
+        all.interrupted = all.interrupted || one.interrupted;
+        all.failed = all.failed || one.failed || one.interrupted;
+    }
     return all;
 }
 
+std::vector<MeasuredRuns> StudyResult::runs() const {
+    const Method own = method_of(scene.scheme);
+    std::vector<MeasuredRuns> all;
+    for (const auto& [kind, record] : records.entries()) {
+        const auto results = kind->runs(record);
+        if (results.empty())
+            continue;
+        const auto series = kind->series(*scene.blocks.find(*kind), own);
+        for (std::size_t i = 0; i < results.size(); ++i)
+            all.push_back({series[i], results[i]});
+    }
+    return all;
+}
+
+std::map<std::string, double> StudyResult::figures(const std::string& study) const {
+    for (const auto& [kind, record] : records.entries())
+        if (kind->name() == study)
+            return kind->figures(record);
+    return {};
+}
+
 namespace {
-
-double work_of(const Scheme& scheme, const std::vector<Rung>& rungs) {
-    double work = 0.0;
-    for (const auto& rung : rungs)
-        work += work_of(scheme, rung);
-    return work;
-}
-
-/// To which a study runs that is measured against the reference.
-double measured_time(const Scene& scene) {
-    return std::max(scene.ladder && !scene.ladder->norms.empty() ? scene.ladder->final_time : 0.0,
-                    scene.orders ? scene.orders->final_time : 0.0);
-}
 
 /// Of a reference run, and of the two coarser ones that it may be extrapolated from.
 double work_of(const ReferenceBlock& reference, double final_time) {
@@ -59,61 +49,49 @@ double work_of(const ReferenceBlock& reference, double final_time) {
            (reference.richardson ? 2.0 : 1.0);
 }
 
-/// Of all studies of a scene; a contraction map and a round-off table aside.
 double work_of(const Scene& scene) {
-    double work = 0.0;
-    if (scene.reference && !scene.norms().empty())
-        work += work_of(*scene.reference, measured_time(scene));
-    if (scene.ladder)
-        work += work_of(scene.scheme, scene.ladder->rungs);
-    if (scene.orders)
-        work += work_of(scene.scheme, scene.orders->grid);
-    if (scene.evolution)
-        work += work_of(scene.scheme, scene.evolution->rung);
-    if (scene.work_precision)
-        for (const auto& timed : scene.work_precision->schemes) // with norms, to warm up, timed
-            work += (scene.work_precision->runs + 2) * work_of(timed.scheme, timed.rungs);
-    if (scene.stress)
-        for (const auto& sweep : scene.stress->sweeps)
-            for (const auto& parameters : sweep.cases)
-                work += work_of(parameters);
+    const Method own = method_of(scene.scheme);
+    double work =
+        scene.reference ? work_of(*scene.reference, longest_time(scene.measured_series())) : 0.0;
+    for (const auto& [kind, block] : scene.blocks.entries())
+        work += kind->work(block, own);
     return work;
+}
+
+/// What is timed last; of the others the cheapest first: when time is short most of them are whole.
+std::vector<const ByKind::Entry*> in_running_order(const Scene& scene, const Method& own) {
+    std::vector<const ByKind::Entry*> order;
+    for (const auto& entry : scene.blocks.entries())
+        order.push_back(&entry);
+    const auto key = [&](const ByKind::Entry* entry) {
+        return std::pair(entry->kind->timed(), entry->kind->work(entry->value, own));
+    };
+    std::stable_sort(order.begin(), order.end(),
+                     [&](const auto* a, const auto* b) { return key(a) < key(b); });
+    return order;
 }
 
 } // namespace
 
-StudyResult run_study(const Scene& scene, ProblemData data, const Execution& execution) {
+StudyResult run_study(const Scene& scene, const ProblemData& data, const Execution& execution) {
     require_runnable(scene, data);
     execution.expect(work_of(scene));
-    StudyResult result{.scene = scene,
-                       .left_out = {},
-                       .remarks = {},
-                       .reference = {},
-                       .orders = {},
-                       .ladder = {},
-                       .work_precision = {},
-                       .evolution = {},
-                       .stress = {}};
-    if (scene.stress)
-        result.stress = run_stress(*scene.stress, execution);
-    if (!scene.poses_problem())
-        return result;
-    result.remarks = phase_remarks(scene, data);
-    // What errors are measured against; an evolution looks at times that a reference does not know.
+    StudyResult result{.scene = scene};
+    const Method own = method_of(scene.scheme);
+    // What errors are measured against; others look at times that a reference does not know.
     ProblemData measured = data;
-    if (scene.reference && !scene.norms().empty())
-        result.reference =
-            measure_against_reference(scene, measured_time(scene), measured, execution);
-    result.left_out = left_out(scene, measured);
-    if (scene.orders)
-        result.orders = run_orders(scene, *scene.orders, measured, execution);
-    if (scene.ladder)
-        result.ladder = run_ladder(scene, *scene.ladder, measured,
-                                   result.orders ? &*result.orders : nullptr, execution);
-    if (scene.evolution)
-        result.evolution = run_evolution(scene, *scene.evolution, data, execution);
-    if (scene.work_precision)
-        result.work_precision = run_work_precision(scene, *scene.work_precision, data, execution);
+    if (scene.reference && !scene.measures().empty())
+        result.reference = measure_against_reference(scene, measured, execution);
+    const StudiedSolver solver = beam_runs(scene, data, measured);
+    if (scene.poses_problem()) {
+        result.left_out = left_out({scene, measured, solver, own, execution});
+        result.remarks = phase_remarks(scene, data);
+    }
+    const StudyContext context{scene, data, solver, own, execution};
+    for (const auto* entry : in_running_order(scene, own))
+        result.records.set(*entry->kind, entry->kind->run(entry->value, context));
+    for (auto& [kind, record] : result.records.entries())
+        kind->conclude(*scene.blocks.find(*kind), record, result, context);
     return result;
 }
 

@@ -1,43 +1,49 @@
 #pragma once
 
-#include "studies/evolution/evolution.hpp"
-#include "studies/ladder/grid.hpp"
-#include "studies/ladder/ladder.hpp"
 #include "studies/reference/reference_solution.hpp"
 #include "studies/scene/scene.hpp"
-#include "studies/stress/stress.hpp"
-#include "studies/work_precision/work_precision.hpp"
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace tvbeam {
 
-/// The runs of one study that share their norms.
+/// A series of runs and their results.
 struct MeasuredRuns {
-    std::string study; ///< e.g. "ladder", "work_precision.bdf2, direct"
-    const std::vector<RungResult>* runs;
-    const std::vector<Norm>* norms;
+    Series series;
+    const std::vector<RungResult>* results;
 };
 
 /// Everything that running a scene gave: one record for each study whose block the scene has.
 struct StudyResult {
     Scene scene;
-    std::vector<std::string> left_out;        ///< parts that the scene does not need, in words
-    std::vector<std::string> remarks;         ///< on all studies, in sentences
-    std::optional<ReferenceResult> reference; ///< if errors are measured against one
-    std::optional<OrdersResult> orders;
-    std::optional<LadderResult> ladder;
-    std::optional<WorkPrecisionResult> work_precision;
-    std::optional<EvolutionResult> evolution;
-    std::optional<StressResult> stress;
+    std::vector<std::string> left_out = {};        ///< parts that the scene does not need, in words
+    std::vector<std::string> remarks = {};         ///< on all studies, in sentences
+    std::optional<ReferenceResult> reference = {}; ///< if errors are measured against one
+    ByKind records = {};
+
+    /// The record of a study, e.g. get<LadderResult>(); null where there is none.
+    template <typename Record>
+    [[nodiscard]] const Record* get() const {
+        return records.get<Record>();
+    }
+    template <typename Record>
+    [[nodiscard]] Record* get() {
+        return records.get<Record>();
+    }
 
     /// The runs of every study whose errors were measured.
     [[nodiscard]] std::vector<MeasuredRuns> runs() const;
 
-    [[nodiscard]] bool failed() const;      ///< some run failed, or was interrupted
-    [[nodiscard]] bool interrupted() const; ///< some run was
+    /// The metrics of a study; none where the scene does not have it.
+    [[nodiscard]] std::map<std::string, double> figures(const std::string& study) const;
+
+    /// How the studies ended, all together.
+    [[nodiscard]] Ending ending() const;
+    [[nodiscard]] bool failed() const { return ending().failed; } ///< or was interrupted
+    [[nodiscard]] bool interrupted() const { return ending().interrupted; }
 };
 
 /// Runs the studies of a scene, their runs in up to `execution.jobs` threads; those that are
@@ -48,6 +54,6 @@ StudyResult run_study(const Scene& scene, const Execution& execution = {});
 /// The same for a problem of the caller's, as autodiff_problem (mms/autodiff_problem.hpp) makes it,
 /// in place of the scene's own. The scene is read without one (Reading::own_problem), or put
 /// together in code; throws InputError where it then cannot be run (require_runnable).
-StudyResult run_study(const Scene& scene, ProblemData data, const Execution& execution = {});
+StudyResult run_study(const Scene& scene, const ProblemData& data, const Execution& execution = {});
 
 } // namespace tvbeam

@@ -20,16 +20,20 @@ constexpr QuantitySet stress{false, false, false, false, false, true};
 
 const std::vector<Norm>& roots() {
     static const std::vector<Norm> all{
-        {"theta_L2L2", {{L2, temperature}}},
-        {"theta_LinfL2", {{Linf, temperature}}},
-        {"theta_L2H1", {{L2, temperature_H1}}},
-        {"u_LinfL2", {{Linf, deflection}}},
-        {"u_LinfH1", {{Linf, deflection_H1}}},
-        {"u_LinfH2", {{Linf, deflection_H2}}},
-        {"u_LinfH2semi", {{Linf, curvature}}},
-        {"u_L2H2", {{L2, deflection_H2}}},
-        {"sigma_L2", {{L2, stress}}},
-        {"corollary", {{Linf, deflection_H2}, {L2, temperature}, {L2, deflection_H2}}, true},
+        {"theta_L2L2", "temperature in L²(0,T; L²)", {{L2, temperature}}},
+        {"theta_LinfL2", "temperature in L∞(0,T; L²)", {{Linf, temperature}}},
+        {"theta_L2H1", "temperature in L²(0,T; H¹)", {{L2, temperature_H1}}},
+        {"u_LinfL2", "deflection in L∞(0,T; L²)", {{Linf, deflection}}},
+        {"u_LinfH1", "deflection in L∞(0,T; H¹)", {{Linf, deflection_H1}}},
+        {"u_LinfH2", "deflection in L∞(0,T; H²)", {{Linf, deflection_H2}}},
+        {"u_LinfH2semi", "deflection in L∞(0,T; H² seminorm)", {{Linf, curvature}}},
+        {"u_L2H2", "deflection in L²(0,T; H²)", {{L2, deflection_H2}}},
+        {"sigma_L2", "contact stress in L²(0,T)", {{L2, stress}}},
+        {"corollary",
+         "left side of Corollary 2.2",
+         {{Linf, deflection_H2}, {L2, temperature}, {L2, deflection_H2}},
+         true,
+         "Corollary 2.2"},
     };
     return all;
 }
@@ -44,11 +48,6 @@ QuantitySet Norm::quantities() const {
     return set;
 }
 
-std::string Norm::root() const {
-    return name.ends_with(square_suffix) ? name.substr(0, name.size() - square_suffix.size())
-                                         : name;
-}
-
 std::optional<Norm> Norm::named(std::string_view name) {
     const bool squared = name.ends_with(square_suffix);
     const std::string_view root =
@@ -60,6 +59,7 @@ std::optional<Norm> Norm::named(std::string_view name) {
         return std::nullopt;
     Norm norm = *found;
     norm.name = name;
+    norm.words += squared ? ", squared" : "";
     norm.squared = squared || found->squared;
     return norm;
 }

@@ -31,11 +31,10 @@ struct TimeNorm {
 /// `corollary` is the left side of Corollary 2.2 with the full H² norm, a square already.
 struct Norm {
     std::string name;
+    std::string words;           ///< e.g. "temperature in L²(0,T; L²), squared"
     std::vector<TimeNorm> parts; ///< squares, added
     bool squared = false;        ///< the sum itself rather than its root
-
-    /// The name without `_sq`.
-    [[nodiscard]] std::string root() const;
+    std::string theorem = {};    ///< by which it is at most C (h² + Δt²); empty: none
 
     /// The quantities that any part needs.
     [[nodiscard]] QuantitySet quantities() const;

@@ -1,8 +1,8 @@
 #include "reports/command_line/analysis_report.hpp"
 
-#include "reports/document/number_text.hpp"
 #include "reports/document/orders_section.hpp"
 #include "reports/document/text_table.hpp"
+#include "studies/text/number_text.hpp"
 
 #include <fmt/format.h>
 

@@ -5,8 +5,8 @@
 #include "mms/coverage.hpp"
 #include "mms/expected_orders.hpp"
 #include "mms/text/input_error.hpp"
-#include "reports/document/number_text.hpp"
 #include "reports/document/text_table.hpp"
+#include "studies/text/number_text.hpp"
 
 #include <fmt/format.h>
 

@@ -9,6 +9,8 @@
 #include "reports/command_line/new_solution.hpp"
 #include "reports/command_line/progress_line.hpp"
 #include "reports/command_line/solution_report.hpp"
+#include "reports/document/result_document.hpp"
+#include "reports/document/text_document.hpp"
 #include "reports/document/text_table.hpp"
 #include "reports/files/baseline.hpp"
 #include "reports/files/checkpoint.hpp"
@@ -17,7 +19,7 @@
 #include "reports/formats/csv_report.hpp"
 #include "reports/formats/formula_report.hpp"
 #include "reports/formats/json_report.hpp"
-#include "reports/formats/terminal_report.hpp"
+#include "reports/formats/report_format.hpp"
 #include "studies/data/csv_records.hpp"
 #include "studies/scene/shipped.hpp"
 #include "studies/scene/solution_setting.hpp"
@@ -33,6 +35,8 @@
 #include <cstdlib>
 #include <exception>
 #include <filesystem>
+#include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -121,7 +125,8 @@ std::string trouble_of(const StudyResult& result, bool kept) {
 
 int run_command(const RunOptions& options) {
     const EndRequests end_requests;
-    const Scene scene = read_scene(options.scene, options.overrides);
+    const Scene scene =
+        read_scene(options.scene, options.overrides, {.report_files = report_format_names()});
     std::optional<ReportDirectory> out;
     std::optional<Checkpoint> kept;
     if (!options.out.empty()) {
@@ -155,7 +160,7 @@ int run_command(const RunOptions& options) {
     else if (csv.standard_output())
         csv.write(csv_report(result));
     else if (!options.quiet)
-        write_standard_output(terminal_report(result));
+        write_standard_output(text_document(result_document(result)));
     if (const std::string trouble = trouble_of(result, kept && kept->holds_runs());
         !trouble.empty()) {
         say(trouble);
@@ -182,21 +187,6 @@ bool coloured() {
     return isatty(STDOUT_FILENO) == 1 && (no_color == nullptr || *no_color == '\0');
 }
 
-/// The first run of a result that failed, in words; empty when none did.
-std::string first_failure(const StudyResult& result) {
-    for (const auto& study : result.runs())
-        for (const auto& run : *study.runs)
-            if (run.status != RunStatus::ok)
-                return run.reason;
-    if (result.evolution && result.evolution->run.status != RunStatus::ok)
-        return result.evolution->run.reason;
-    if (result.stress)
-        for (const auto& one : result.stress->cases)
-            if (one.outcome == Outcome::failed)
-                return one.reason;
-    return {};
-}
-
 int check_command(const CheckOptions& options) {
     const EndRequests end_requests;
     // All scenes are read before any is run, so that a mistake in the last is not found after the
@@ -204,7 +194,9 @@ int check_command(const CheckOptions& options) {
     std::vector<Scene> scenes;
     for (const auto& name : options.scenes)
         scenes.push_back(read_scene(name, options.overrides,
-                                    {.short_form = options.short_form, .expectations = true}));
+                                    {.short_form = options.short_form,
+                                     .expectations = true,
+                                     .report_files = report_format_names()}));
     const auto baseline =
         options.baseline.empty() ? std::nullopt : std::optional<Baseline>(options.baseline);
     for (const auto& scene : scenes)
@@ -229,7 +221,7 @@ int check_command(const CheckOptions& options) {
             break;
         }
         checked.push_back(
-            {scene.name, elapsed.count(), first_failure(results.back()), check(results.back())});
+            {scene.name, elapsed.count(), results.back().ending().reason, check(results.back())});
         if (baseline) {
             const auto more = baseline->check(results.back(), options.tolerance);
             checked.back().expectations.insert(checked.back().expectations.end(), more.begin(),
@@ -331,6 +323,146 @@ std::vector<std::string> names_of_commands(const CLI::App& app) {
     return commands;
 }
 
+/// A command of the program, and what it does when it is called.
+struct Command {
+    CLI::App* app;
+    std::function<int()> call;
+};
+
+void add_overrides(CLI::App& command, std::vector<std::string>& overrides,
+                   const std::string& description) {
+    command.add_option("--set", overrides, description)
+        ->type_name("KEY=VALUE")
+        ->expected(1)
+        ->take_all();
+}
+
+void add_file(CLI::App& command, const std::string& option, std::string& file,
+              const std::string& description) {
+    command.add_option(option, file, description)->check(named)->type_name("FILE|-");
+}
+
+/// Throws InputError where two options name one place.
+void require_apart(const std::string& first, const std::string& file, const std::string& second,
+                   const std::string& other) {
+    if (same_place(file, other))
+        throw InputError({first + " " + file + " " + second + " " + other},
+                         "two reports do not fit in one place; give one of them another");
+}
+
+Command add_run(CLI::App& app) {
+    auto* run =
+        app.add_subcommand("run", "Run the studies of a scene and print its table.\n"
+                                  "Example: tvbeam run table1 --set beam.alpha=0 --csv table1.csv");
+    const auto options = std::make_shared<RunOptions>();
+    run->add_option("scene", options->scene, "a shipped scene, or a file")->required();
+    add_overrides(*run, options->overrides,
+                  "override a key: --set beam.alpha=1e3 (again and again)");
+    add_file(*run, "--json", options->json,
+             "write the result as JSON; -: to standard output, in place of the table");
+    add_file(*run, "--csv", options->csv,
+             "write the first of these that the scene has as CSV: ladder, grid of [orders], timed "
+             "rows, evolution, stress cases; -: to standard output, in place of the table. --out "
+             "writes them all");
+    run->add_option("--out", options->out,
+                    "write to a directory what the scene's [report] block asks for; without one, "
+                    "JSON, CSV, Markdown, LaTeX, plots and a page of HTML")
+        ->check(named)
+        ->check(no_stream)
+        ->type_name("DIR");
+    run->add_flag("--resume", options->resume,
+                  "go on with an attempt that was cut short, whose finished runs are in the "
+                  "directory of --out")
+        ->needs("--out");
+    run->add_flag("--quiet", options->quiet, "no table, and no progress line");
+    add_jobs(*run, options->jobs);
+    return {run, [options] {
+                require_apart("--json", options->json, "--csv", options->csv);
+                return run_command(*options);
+            }};
+}
+
+Command add_check(CLI::App& app) {
+    auto* check = app.add_subcommand(
+        "check", "Run scenes and hold them against what their [expect] blocks say; exit 1 "
+                 "and a line for each violation.\n"
+                 "Example: tvbeam check table1 table1-orders --short --junit results.xml");
+    const auto options = std::make_shared<CheckOptions>();
+    check->add_option("scenes", options->scenes, "shipped scenes, or files")->required();
+    add_overrides(*check, options->overrides, "override a key in every scene (again and again)");
+    check->add_flag("--short", options->short_form,
+                    "with the scenes' [short] blocks: the form for CI");
+    add_file(*check, "--junit", options->junit, "write JUnit XML");
+    add_file(*check, "--record", options->record, "write a baseline of every error found");
+    check
+        ->add_option("--baseline", options->baseline,
+                     "hold every error against a recorded baseline")
+        ->type_name("FILE");
+    check->add_option("--tolerance", options->tolerance, "relative, both sides, for --baseline")
+        ->check(CLI::PositiveNumber)
+        ->capture_default_str();
+    check->add_flag("--quiet", options->quiet, "only the scenes that fail, and no progress line");
+    add_jobs(*check, options->jobs);
+    return {check, [options] {
+                require_apart("--junit", options->junit, "--record", options->record);
+                return check_command(*options);
+            }};
+}
+
+Command add_analyse(CLI::App& app) {
+    auto* analyse = app.add_subcommand(
+        "analyse", "Observed orders, verdicts and fits for any solver's errors: a CSV file "
+                   "with columns h (or elements), dt, error, seconds; of h and dt one "
+                   "may be absent.\n"
+                   "Example: tvbeam analyse errors.csv --error l2_error");
+    const auto csv = std::make_shared<std::string>();
+    const auto error = std::make_shared<std::string>();
+    analyse->add_option("file", *csv, "the CSV file")->required();
+    analyse->add_option("--error", *error, "the column of the error; default: error")
+        ->type_name("NAME");
+    return {analyse, [csv, error] { return analyse_command(*csv, *error); }};
+}
+
+Command add_derive(CLI::App& app) {
+    auto* derive = app.add_subcommand(
+        "derive", "Print the f, G, m, theta0 and u0 that a solution demands, what of the "
+                  "model it tests, and the orders to expect of it.\n"
+                  "Example: tvbeam derive copetti-fernandez-2011 --latex");
+    const auto name = std::make_shared<std::string>();
+    const auto latex = std::make_shared<bool>(false);
+    derive->add_option("name", *name, "a shipped scene or solution, or a file")->required();
+    derive->add_flag("--latex", *latex, "the formulas alone, as LaTeX");
+    return {derive, [name, latex] { return derive_command(*name, *latex); }};
+}
+
+Command add_new(CLI::App& app) {
+    auto* make = app.add_subcommand(
+        "new", "Write a solution to start from, NAME.toml, and a scene that runs it, "
+               "NAME-scene.toml, into the current directory.\nExample: tvbeam new my-solution");
+    const auto name = std::make_shared<std::string>();
+    make->add_option("name", *name, "letters, digits, - and _")->required()->type_name("NAME");
+    return {make, [name] { return new_command(*name); }};
+}
+
+Command add_list(CLI::App& app) {
+    auto* list =
+        app.add_subcommand("list", "List the shipped scenes and solutions.\nExample: tvbeam list");
+    const auto names = std::make_shared<bool>(false);
+    list->add_flag("--names", *names, "the names alone, one a line");
+    return {list, [names] { return *names ? names_command() : list_command(); }};
+}
+
+Command add_completion(CLI::App& app) {
+    auto* completion = app.add_subcommand(
+        "completion", "Print a script by which bash (and zsh, after bashcompinit) completes "
+                      "commands, options and names.\n"
+                      "Example: source <(tvbeam completion)");
+    return {completion, [&app] {
+                write_standard_output(completion_script(app));
+                return done;
+            }};
+}
+
 int command_line(int argc, char** argv) {
     CLI::App app(
         "Verification and convergence studies for a thermoviscoelastic beam between two stops.\n"
@@ -338,103 +470,9 @@ int command_line(int argc, char** argv) {
     app.name("tvbeam");
     app.set_version_flag("--version", "tvbeam " TVBEAM_VERSION);
     app.require_subcommand(1);
-
-    RunOptions options;
-    auto* run =
-        app.add_subcommand("run", "Run the studies of a scene and print its table.\n"
-                                  "Example: tvbeam run table1 --set beam.alpha=0 --csv table1.csv");
-    run->add_option("scene", options.scene, "a shipped scene, or a file")->required();
-    run->add_option("--set", options.overrides,
-                    "override a key: --set beam.alpha=1e3 (again and again)")
-        ->type_name("KEY=VALUE")
-        ->expected(1)
-        ->take_all();
-    run->add_option("--json", options.json,
-                    "write the result as JSON; -: to standard output, in place of the table")
-        ->check(named)
-        ->type_name("FILE|-");
-    run->add_option(
-           "--csv", options.csv,
-           "write the first of these that the scene has as CSV: ladder, grid of [orders], timed "
-           "rows, evolution, stress cases; -: to standard output, in place of the table. --out "
-           "writes them all")
-        ->check(named)
-        ->type_name("FILE|-");
-    run->add_option("--out", options.out,
-                    "write to a directory what the scene's [report] block asks for; without one, "
-                    "JSON, CSV, Markdown, LaTeX, plots and a page of HTML")
-        ->check(named)
-        ->check(no_stream)
-        ->type_name("DIR");
-    run->add_flag("--resume", options.resume,
-                  "go on with an attempt that was cut short, whose finished runs are in the "
-                  "directory of --out")
-        ->needs("--out");
-    run->add_flag("--quiet", options.quiet, "no table, and no progress line");
-    add_jobs(*run, options.jobs);
-
-    CheckOptions checks;
-    auto* check = app.add_subcommand(
-        "check", "Run scenes and hold them against what their [expect] blocks say; exit 1 "
-                 "and a line for each violation.\n"
-                 "Example: tvbeam check table1 table1-orders --short --junit results.xml");
-    check->add_option("scenes", checks.scenes, "shipped scenes, or files")->required();
-    check->add_option("--set", checks.overrides, "override a key in every scene (again and again)")
-        ->type_name("KEY=VALUE")
-        ->expected(1)
-        ->take_all();
-    check->add_flag("--short", checks.short_form,
-                    "with the scenes' [short] blocks: the form for CI");
-    check->add_option("--junit", checks.junit, "write JUnit XML")
-        ->check(named)
-        ->type_name("FILE|-");
-    check->add_option("--record", checks.record, "write a baseline of every error found")
-        ->check(named)
-        ->type_name("FILE|-");
-    check->add_option("--baseline", checks.baseline, "hold every error against a recorded baseline")
-        ->type_name("FILE");
-    check->add_option("--tolerance", checks.tolerance, "relative, both sides, for --baseline")
-        ->check(CLI::PositiveNumber)
-        ->capture_default_str();
-    check->add_flag("--quiet", checks.quiet, "only the scenes that fail, and no progress line");
-    add_jobs(*check, checks.jobs);
-
-    std::string csv;
-    std::string error_column;
-    auto* analyse = app.add_subcommand(
-        "analyse", "Observed orders, verdicts and fits for any solver's errors: a CSV file "
-                   "with columns h (or elements), dt, error, seconds; of h and dt one "
-                   "may be absent.\n"
-                   "Example: tvbeam analyse errors.csv --error l2_error");
-    analyse->add_option("file", csv, "the CSV file")->required();
-    analyse->add_option("--error", error_column, "the column of the error; default: error")
-        ->type_name("NAME");
-
-    std::string name;
-    bool latex = false;
-    auto* derive = app.add_subcommand(
-        "derive", "Print the f, G, m, theta0 and u0 that a solution demands, what of the "
-                  "model it tests, and the orders to expect of it.\n"
-                  "Example: tvbeam derive copetti-fernandez-2011 --latex");
-    derive->add_option("name", name, "a shipped scene or solution, or a file")->required();
-    derive->add_flag("--latex", latex, "the formulas alone, as LaTeX");
-
-    std::string new_name;
-    auto* make = app.add_subcommand(
-        "new", "Write a solution to start from, NAME.toml, and a scene that runs it, "
-               "NAME-scene.toml, into the current directory.\nExample: tvbeam new my-solution");
-    make->add_option("name", new_name, "letters, digits, - and _")->required()->type_name("NAME");
-
-    auto* list =
-        app.add_subcommand("list", "List the shipped scenes and solutions.\nExample: tvbeam list");
-    bool names = false;
-    list->add_flag("--names", names, "the names alone, one a line");
-
-    auto* completion = app.add_subcommand(
-        "completion", "Print a script by which bash (and zsh, after bashcompinit) completes "
-                      "commands, options and names.\n"
-                      "Example: source <(tvbeam completion)");
-
+    const std::vector<Command> commands{add_run(app),       add_check(app), add_analyse(app),
+                                        add_derive(app),    add_new(app),   add_list(app),
+                                        add_completion(app)};
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
@@ -445,29 +483,9 @@ int command_line(int argc, char** argv) {
                                  "; tvbeam --help lists them");
         return app.exit(error) == 0 ? done : bad_input;
     }
-    if (*run) {
-        if (same_place(options.json, options.csv))
-            throw InputError({"--json " + options.json + " --csv " + options.csv},
-                             "two reports do not fit in one place; give one of them another");
-        return run_command(options);
-    }
-    if (*check) {
-        if (same_place(checks.junit, checks.record))
-            throw InputError({"--junit " + checks.junit + " --record " + checks.record},
-                             "two reports do not fit in one place; give one of them another");
-        return check_command(checks);
-    }
-    if (*analyse)
-        return analyse_command(csv, error_column);
-    if (*derive)
-        return derive_command(name, latex);
-    if (*make)
-        return new_command(new_name);
-    if (*completion) {
-        write_standard_output(completion_script(app));
-        return done;
-    }
-    return names ? names_command() : list_command();
+    const auto called = std::find_if(commands.begin(), commands.end(),
+                                     [](const Command& one) { return one.app->parsed(); });
+    return called->call();
 }
 
 } // namespace

@@ -43,6 +43,7 @@ using Block = std::variant<Paragraph, Item, Finding, Table, Preformatted, BlankL
 struct Section {
     std::string title; ///< terminals omit it
     std::vector<Block> blocks;
+    std::vector<std::string> head = {}; ///< sentences for the head of the document
 };
 
 /// A result in words and tables, whatever it is written as.

@@ -1,6 +1,6 @@
 #include "reports/document/evolution_section.hpp"
 
-#include "reports/document/number_text.hpp"
+#include "studies/text/number_text.hpp"
 
 #include <fmt/format.h>
 
@@ -66,7 +66,7 @@ Table event_table(const std::vector<ContactEvent>& events) {
 
 /// What never happened is said of a whole run only.
 void add_contact(Section& section, const EvolutionResult& result, const Stops& stops) {
-    const bool whole = result.run.status == RunStatus::ok;
+    const bool whole = result.run.status == RungStatus::ok;
     if (!whole && result.events.empty())
         return;
     section.blocks.emplace_back(BlankLine{});
@@ -100,16 +100,16 @@ Table period_table(const EvolutionResult& result) {
 } // namespace
 
 Section evolution_section(const EvolutionResult& result, const Scene& scene) {
-    const EvolutionBlock& block = *scene.evolution;
+    const EvolutionBlock& block = *scene.get<EvolutionBlock>();
     Section section{"Evolution", {}};
     section.blocks.emplace_back(Paragraph{fmt::format(
         "Evolution up to T = {} with s = {}, dt = {}, {} samples", shortest(block.final_time),
         block.rung.elements, shortest(block.rung.dt), result.t.size())});
     section.blocks.emplace_back(BlankLine{});
-    if (result.run.status != RunStatus::ok)
+    if (result.run.status != RungStatus::ok)
         section.blocks.emplace_back(
-            Finding{std::string(result.run.status == RunStatus::failed ? "The run failed"
-                                                                       : "The run did not end") +
+            Finding{std::string(result.run.status == RungStatus::failed ? "The run failed"
+                                                                        : "The run did not end") +
                     "; this is what it reached: " + result.run.reason});
     section.blocks.emplace_back(probe_table(result));
     if (has_exact(result))

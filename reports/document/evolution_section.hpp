@@ -2,6 +2,7 @@
 
 #include "reports/document/document.hpp"
 #include "studies/evolution/evolution.hpp"
+#include "studies/scene/scene.hpp"
 
 #include <string>
 

@@ -1,7 +1,6 @@
 #include "reports/document/ladder_section.hpp"
 
-#include "reports/document/number_text.hpp"
-#include "reports/document/scheme_text.hpp"
+#include "studies/text/number_text.hpp"
 
 #include <fmt/format.h>
 
@@ -59,7 +58,7 @@ std::string seconds_text(double seconds) {
     return fixed(seconds, seconds < 99.95 ? 1 : 0);
 }
 
-Table ladder_table(const LadderResult& ladder, const LadderBlock& block, const Scheme& scheme) {
+Table ladder_table(const LadderResult& ladder, const LadderBlock& block, const Method& method) {
     Table::Group key{"", {}};
     key.columns.push_back(column(
         ladder, "s", [&](std::size_t i) { return std::to_string(ladder.rungs[i].rung.elements); }));
@@ -69,23 +68,25 @@ Table ladder_table(const LadderResult& ladder, const LadderBlock& block, const S
     for (std::size_t k = 0; k < ladder.norms.size(); ++k)
         groups.push_back(norm_group(ladder, block, k));
     Table::Group cost{"", {}};
-    if (scheme.algorithm == Algorithm::fixed_point)
+    if (!method.iterations.empty())
         cost.columns.push_back(column(ladder, "iter.", [&](std::size_t i) {
-            return std::to_string(ladder.rungs[i].counters.fixed_point_iterations);
+            return std::to_string(ladder.rungs[i].count(method.iterations));
         }));
     cost.columns.push_back(column(
         ladder, "sec", [&](std::size_t i) { return seconds_text(ladder.rungs[i].seconds); }));
     groups.push_back(cost);
     return {fmt::format("Errors up to T = {} on s elements with the step dt; {}; sec: seconds of "
                         "a run, error norms included.",
-                        shortest(block.final_time), scheme_text(scheme)),
+                        shortest(block.final_time), method.words),
             key, groups};
 }
 
 } // namespace
 
-Section ladder_section(const LadderResult& ladder, const LadderBlock& block, const Scheme& scheme) {
-    Section section{"Errors and observed orders", {ladder_table(ladder, block, scheme)}};
+Section ladder_section(const LadderResult& ladder, const LadderBlock& block, const Method& method) {
+    Section section{"Errors and observed orders",
+                    {ladder_table(ladder, block, method)},
+                    {"errors up to T = " + shortest(block.final_time)}};
     auto& blocks = section.blocks;
     const auto add = [&blocks](Block&& block) {
         blocks.emplace_back(BlankLine{});
@@ -95,7 +96,7 @@ Section ladder_section(const LadderResult& ladder, const LadderBlock& block, con
         add(Paragraph{"printed: " + block.printed->source +
                       "; ratio: error / printed; ord.: observed order"});
     for (const auto& rung : ladder.rungs)
-        if (rung.status != RunStatus::ok)
+        if (rung.status != RungStatus::ok)
             add(Finding{fmt::format("s = {}, dt = {} {}: {}", rung.rung.elements,
                                     shortest(rung.rung.dt), name_of(rung.status), rung.reason)});
     if (!ladder.reference_remark.empty())

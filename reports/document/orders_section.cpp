@@ -1,6 +1,6 @@
 #include "reports/document/orders_section.hpp"
 
-#include "reports/document/number_text.hpp"
+#include "studies/text/number_text.hpp"
 
 #include <fmt/format.h>
 
@@ -111,7 +111,7 @@ Section orders_section(const OrdersResult& orders) {
         }
     }
     for (const auto& run : orders.runs)
-        if (run.status != RunStatus::ok)
+        if (run.status != RungStatus::ok)
             notes.emplace_back(
                 Paragraph{fmt::format("s = {}, dt = {} failed: {}", run.rung.elements,
                                       shortest(run.rung.dt), run.reason)});
@@ -127,11 +127,11 @@ Section orders_section(const OrdersResult& orders) {
     }
     if (const auto& constant = orders.corollary) {
         blocks.emplace_back(BlankLine{});
-        blocks.emplace_back(
-            Finding{fmt::format("Corollary 2.2: its left side is C (h^2 + dt^2) with C from {} to "
-                                "{} over the grid, {} at its finest run.",
-                                scientific(constant->least, 2), scientific(constant->greatest, 2),
-                                scientific(constant->finest, 2))});
+        blocks.emplace_back(Finding{
+            fmt::format("{}: its left side is C (h^2 + dt^2) with C from {} to {} over the "
+                        "grid, {} at its finest run.",
+                        constant->theorem, scientific(constant->least, 2),
+                        scientific(constant->greatest, 2), scientific(constant->finest, 2))});
     }
     if (!notes.empty()) {
         blocks.emplace_back(BlankLine{});

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "reports/document/document.hpp"
-#include "studies/ladder/grid.hpp"
+#include "studies/grid/grid.hpp"
 
 #include <string>
 #include <utility>

@@ -1,14 +1,9 @@
 #include "reports/document/result_document.hpp"
 
-#include "reports/document/evolution_section.hpp"
-#include "reports/document/ladder_section.hpp"
-#include "reports/document/norm_words.hpp"
-#include "reports/document/number_text.hpp"
-#include "reports/document/orders_section.hpp"
-#include "reports/document/scheme_text.hpp"
-#include "reports/document/stress_section.hpp"
-#include "reports/document/work_precision_section.hpp"
 #include "reports/files/provenance.hpp"
+#include "reports/studies/study_report.hpp"
+#include "studies/runs/beam_runs.hpp"
+#include "studies/text/number_text.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -48,21 +43,26 @@ std::string problem_line(const Scene& scene) {
 std::string basis_words(const StudyResult& result) {
     std::int64_t steps = 0;
     std::int64_t sine_steps = 0;
-    const auto add = [&](const std::vector<RungResult>& runs) {
-        for (const auto& run : runs) {
-            steps += run.counters.steps;
-            sine_steps += run.counters.sine_steps;
-        }
-    };
-    if (result.ladder)
-        add(result.ladder->rungs);
-    if (result.orders)
-        add(result.orders->runs);
+    for (const auto& [kind, record] : result.records.entries())
+        if (!kind->timed())
+            for (const auto* runs : kind->runs(record))
+                for (const auto& run : *runs) {
+                    steps += run.count("steps");
+                    sine_steps += run.count("sine_steps");
+                }
     if (steps == 0 || result.scene.scheme.algorithm != Algorithm::direct)
         return "";
     return sine_steps == 0       ? ", nodal values"
            : sine_steps == steps ? ", sine basis"
                                  : ", sine basis or nodal values";
+}
+
+/// Whether a study runs the scene's own scheme.
+bool has_own_scheme(const StudyResult& result) {
+    const auto& entries = result.records.entries();
+    return std::any_of(entries.begin(), entries.end(), [](const ByKind::Entry& entry) {
+        return entry.kind->poses_problem() && !entry.kind->timed();
+    });
 }
 
 /// What errors are measured against, if not the exact solution.
@@ -86,8 +86,8 @@ using Rows = std::vector<std::pair<std::string, std::string>>;
 Rows norms_in_words(const StudyResult& result) {
     Rows rows;
     for (const auto& study : result.runs())
-        for (const auto& norm : *study.norms) {
-            const std::pair row{norm.name, norm_words(norm.name)};
+        for (const auto& norm : study.series.measures) {
+            const std::pair row{norm.name, norm.words};
             if (std::find(rows.begin(), rows.end(), row) == rows.end())
                 rows.push_back(row);
         }
@@ -120,28 +120,23 @@ Document result_document(const StudyResult& result) {
     // A stress study has problems of its own.
     if (scene.poses_problem())
         document.head.push_back(problem_line(scene));
-    if (result.ladder || result.orders || result.evolution)
-        document.head.push_back(scheme_text(scene.scheme) + basis_words(result));
+    if (has_own_scheme(result))
+        document.head.push_back(method_of(scene.scheme).words + basis_words(result));
     if (result.reference)
         document.head.push_back(reference_line(scene, *result.reference));
-    if (result.ladder) {
-        document.head.push_back("errors up to T = " + shortest(scene.ladder->final_time));
-        document.sections.push_back(ladder_section(*result.ladder, *scene.ladder, scene.scheme));
-    }
-    if (result.orders)
-        document.sections.push_back(orders_section(*result.orders));
-    if (result.work_precision)
-        document.sections.push_back(
-            work_precision_section(*result.work_precision, *scene.work_precision));
-    if (result.evolution)
-        document.sections.push_back(evolution_section(*result.evolution, scene));
-    for (const auto& remark : result.remarks) {
-        document.sections.back().blocks.emplace_back(BlankLine{});
-        document.sections.back().blocks.emplace_back(Finding{remark});
-    }
-    if (result.stress)
-        for (auto& section : stress_sections(*result.stress))
+    std::size_t of_problem = 0; // sections on the scene's own problem, which come first
+    for (const auto& [kind, record] : result.records.entries()) {
+        for (auto& section : report_of(*kind).sections(result)) {
+            document.head.insert(document.head.end(), section.head.begin(), section.head.end());
             document.sections.push_back(std::move(section));
+        }
+        of_problem = kind->poses_problem() ? document.sections.size() : of_problem;
+    }
+    for (const auto& remark : result.remarks) {
+        auto& blocks = document.sections.at(of_problem - 1).blocks;
+        blocks.emplace_back(BlankLine{});
+        blocks.emplace_back(Finding{remark});
+    }
     return document;
 }
 

@@ -1,7 +1,7 @@
 #include "reports/document/stress_section.hpp"
 
-#include "reports/document/number_text.hpp"
 #include "reports/document/text_table.hpp"
+#include "studies/text/number_text.hpp"
 
 #include <fmt/format.h>
 

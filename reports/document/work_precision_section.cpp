@@ -1,7 +1,6 @@
 #include "reports/document/work_precision_section.hpp"
 
-#include "reports/document/number_text.hpp"
-#include "reports/document/scheme_text.hpp"
+#include "studies/text/number_text.hpp"
 
 #include <fmt/format.h>
 
@@ -49,14 +48,14 @@ Table::Group time_group(const SchemeRuns& scheme, const WorkPrecisionBlock& bloc
              quartile("q1", &Timing::q1), quartile("q3", &Timing::q3)}};
 }
 
-std::vector<Table::Group> counter_groups(const SchemeRuns& scheme, Algorithm algorithm) {
+std::vector<Table::Group> counter_groups(const SchemeRuns& scheme, const Method& method) {
     const auto count = [&](const char* heading, const auto& counter) {
         return column(scheme, heading, [&](std::size_t i) {
             return scheme.timings[i] ? std::to_string(counter(scheme.runs[i])) : std::string();
         });
     };
     std::vector<Table::Group> groups{
-        {"", {count("steps", [](const RungResult& run) { return run.counters.steps; })}},
+        {"", {count("steps", [](const RungResult& run) { return run.count("steps"); })}},
         {"node-",
          {column(scheme, "steps",
                  [&](std::size_t i) {
@@ -67,13 +66,13 @@ std::vector<Table::Group> counter_groups(const SchemeRuns& scheme, Algorithm alg
                  })}},
     };
     // An iteration is a solve of the heat equation too.
-    if (algorithm == Algorithm::fixed_point)
-        groups.push_back({"", {count("iter.", [](const RungResult& run) {
-                              return run.counters.fixed_point_iterations;
+    if (!method.iterations.empty())
+        groups.push_back({"", {count("iter.", [&](const RungResult& run) {
+                              return run.count(method.iterations);
                           })}});
     else
         groups.push_back({"heat", {count("solves", [](const RungResult& run) {
-                              return run.counters.heat_solves;
+                              return run.count("heat_solves");
                           })}});
     return groups;
 }
@@ -95,14 +94,14 @@ std::vector<Block> rows_blocks(const SchemeRuns& scheme, const TimedScheme& time
                                                     : scientific(errors[k], 4);
                           })}});
     groups.push_back(time_group(scheme, block));
-    for (auto& group : counter_groups(scheme, timed.scheme.algorithm))
+    for (auto& group : counter_groups(scheme, timed.method))
         groups.push_back(std::move(group));
     std::vector<Block> blocks{
-        Paragraph{timed.name + ": " + scheme_text(timed.scheme)},
+        Paragraph{timed.name + ": " + timed.method.words},
         Table{timed.name + ": errors, seconds of a run and their quartiles, and counters.",
               std::move(key), std::move(groups)}};
     for (const auto& run : scheme.runs)
-        if (run.status != RunStatus::ok)
+        if (run.status != RungStatus::ok)
             blocks.emplace_back(
                 Paragraph{fmt::format("s = {}, dt = {} failed: {}", run.rung.elements,
                                       shortest(run.rung.dt), run.reason)});

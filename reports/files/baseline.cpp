@@ -28,21 +28,16 @@ bool is_round_off(const std::string& figure) {
 /// have figures of their own; NaN: the run failed.
 std::map<std::string, double> errors_of(const StudyResult& result) {
     std::map<std::string, double> errors;
-    const auto add = [&errors](const std::string& study, const auto& figures) {
-        for (const auto& [name, figure] : figures)
+    for (const auto& [kind, record] : result.records.entries())
+        for (const auto& [name, figure] : kind->figures(record))
             if (!is_round_off(name))
-                errors[fmt::format("{}.{}", study, name)] = figure;
-    };
-    if (result.evolution)
-        add("evolution", result.evolution->figures());
-    if (result.stress)
-        add("stress", result.stress->figures());
-    for (const auto& [study, runs, norms] : result.runs())
-        for (const auto& run : *runs)
-            for (std::size_t k = 0; k < norms->size(); ++k)
-                errors[fmt::format("{}.{}: error at s = {}, dt = {}", study, (*norms)[k].name,
-                                   run.rung.elements, run.rung.dt)] =
-                    run.errors.empty() ? std::nan("") : run.errors[k];
+                errors[fmt::format("{}.{}", kind->name(), name)] = figure;
+    for (const auto& [series, results] : result.runs())
+        for (const auto& run : *results)
+            for (std::size_t k = 0; k < series.measures.size(); ++k)
+                errors[fmt::format("{}.{}: error at s = {}, dt = {}", series.study,
+                                   series.measures[k].name, run.rung.elements, run.rung.dt)] =
+                    error_of(run, k).value_or(std::nan(""));
     return errors;
 }
 

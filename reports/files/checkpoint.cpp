@@ -4,6 +4,7 @@
 #include "reports/files/kept_result.hpp"
 #include "reports/files/output_file.hpp"
 #include "reports/files/run_identity.hpp"
+#include "studies/stress/stress_block.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -19,29 +20,18 @@ using Json = nlohmann::ordered_json;
 constexpr const char* schema = "tvbeam-unfinished/2";
 constexpr const char* advice = "; remove the file to begin anew";
 
-/// A study's runs in their order (MeasuredRuns::study).
-struct AskedRuns {
-    const std::vector<Rung>* rungs;
-    std::size_t norms;
-};
-
-std::map<std::string, AskedRuns> asked_runs(const Scene& scene) {
-    std::map<std::string, AskedRuns> asked;
-    if (scene.ladder)
-        asked["ladder"] = {&scene.ladder->rungs, scene.ladder->norms.size()};
-    if (scene.orders)
-        asked["orders"] = {&scene.orders->grid, scene.orders->norms.size()};
-    if (scene.work_precision)
-        for (const auto& scheme : scene.work_precision->schemes)
-            asked["work_precision." + scheme.name] = {&scheme.rungs,
-                                                      scene.work_precision->norms.size()};
+/// The runs that the scene asks for, by Series::study.
+std::map<std::string, Series> asked_runs(const Scene& scene) {
+    std::map<std::string, Series> asked;
+    for (auto& series : scene.series())
+        asked.emplace(series.study, series);
     return asked;
 }
 
 std::size_t asked_cases(const Scene& scene) {
     std::size_t count = 0;
-    if (scene.stress)
-        for (const auto& sweep : scene.stress->sweeps)
+    if (const auto* stress = scene.get<StressBlock>())
+        for (const auto& sweep : stress->sweeps)
             count += sweep.cases.size();
     return count;
 }
@@ -118,9 +108,9 @@ void Checkpoint::read_entry(const Scene& scene, const Json& entry) {
     }
     const auto asked = asked_runs(scene);
     const auto runs = asked.find(study);
-    require_asked(runs == asked.end() ? 0 : runs->second.rungs->size());
-    runs_.emplace(std::pair(study, index),
-                  kept_run(entry["result"], (*runs->second.rungs)[index], runs->second.norms));
+    require_asked(runs == asked.end() ? 0 : runs->second.rungs.size());
+    runs_.emplace(std::pair(study, index), kept_run(entry["result"], runs->second.rungs[index],
+                                                    runs->second.measures.size()));
 }
 
 void Checkpoint::add_entry(const std::string& study, std::size_t index, const Json& result) {

@@ -69,20 +69,6 @@ std::int64_t count(const Json& json, const std::string& what) {
     return json;
 }
 
-constexpr std::int64_t Counters::*counters[] = {&Counters::steps,
-                                                &Counters::sine_steps,
-                                                &Counters::heat_solves,
-                                                &Counters::beam_solves,
-                                                &Counters::coupling_updates,
-                                                &Counters::load_updates,
-                                                &Counters::source_evaluations,
-                                                &Counters::tip_evaluations,
-                                                &Counters::contact_steps,
-                                                &Counters::fixed_point_iterations,
-                                                &Counters::norm_evaluations,
-                                                &Counters::doubles_allocated};
-static_assert(sizeof(Counters) == std::size(counters) * sizeof(std::int64_t));
-
 constexpr double StressChecks::*checks[] = {
     &StressChecks::energy,      &StressChecks::heat_residual, &StressChecks::beam_residual,
     &StressChecks::penetration, &StressChecks::wrong_sign,    &StressChecks::complementarity,
@@ -94,11 +80,11 @@ nlohmann::ordered_json kept(const RungResult& result) {
     Json errors = Json::array();
     for (const double error : result.errors)
         errors.push_back(number(error));
-    Json counts = Json::array();
-    for (const auto counter : counters)
-        counts.push_back(result.counters.*counter);
+    Json counts = Json::object();
+    for (const auto& [name, value] : result.counters)
+        counts[name] = value;
     return {{"elements", result.rung.elements}, {"steps", result.rung.steps},
-            {"dt", number(result.rung.dt)},     {"failed", result.status != RunStatus::ok},
+            {"dt", number(result.rung.dt)},     {"failed", result.status != RungStatus::ok},
             {"reason", result.reason},          {"seconds", result.seconds},
             {"counters", std::move(counts)},    {"errors", std::move(errors)}};
 }
@@ -112,17 +98,16 @@ RungResult kept_run(const nlohmann::ordered_json& json, const Rung& rung, std::s
             "elements, steps and dt are not those of the scene");
     require(member(json, "failed").is_boolean(), "failed is neither true nor false");
     const bool failed = json["failed"];
-    result.status = failed ? RunStatus::failed : RunStatus::ok;
+    result.status = failed ? RungStatus::failed : RungStatus::ok;
     result.reason = text(json, "reason");
     require(failed != result.reason.empty(), "reason does not belong to failed");
     result.seconds = seconds(json);
     const Json& counts = member(json, "counters");
-    require(counts.is_array() && counts.size() == std::size(counters),
-            "counters are not as many as there are");
-    for (std::size_t k = 0; k < std::size(counters); ++k)
-        result.counters.*counters[k] = count(counts[k], "a counter");
-    require(result.counters.steps <= rung.steps &&
-                result.counters.sine_steps <= result.counters.steps,
+    require(counts.is_object(), "counters have no names");
+    for (const auto& [name, value] : counts.items())
+        result.counters.push_back({name, count(value, "a counter")});
+    require(result.count("steps") <= rung.steps &&
+                result.count("sine_steps") <= result.count("steps"),
             "counters are of more steps than the run has");
     const Json& errors = member(json, "errors");
     require(errors.is_array() && errors.size() == (failed ? 0 : norms),

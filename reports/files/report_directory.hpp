@@ -1,7 +1,6 @@
 #pragma once
 
 #include "reports/files/output_file.hpp"
-#include "reports/plots/gnuplot.hpp"
 #include "studies/study.hpp"
 
 #include <filesystem>
@@ -10,6 +9,8 @@
 #include <vector>
 
 namespace tvbeam {
+
+class ReportFormat;
 
 /// The directory that `--out` names, and in it the files that a scene's [report] block asks for:
 ///
@@ -45,9 +46,9 @@ private:
     void remove_earlier(const std::set<std::string>& written) const;
 
     std::filesystem::path path_;
-    ReportBlock block_;
-    int lock_ = -1;                           ///< a descriptor of the directory
-    std::vector<std::filesystem::path> made_; ///< inner ones first
+    std::vector<const ReportFormat*> formats_; ///< those that are wanted
+    int lock_ = -1;                            ///< a descriptor of the directory
+    std::vector<std::filesystem::path> made_;  ///< inner ones first
 };
 
 } // namespace tvbeam

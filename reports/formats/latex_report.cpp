@@ -2,6 +2,8 @@
 
 #include "reports/document/text_table.hpp"
 #include "reports/document/written_number.hpp"
+#include "reports/formats/report_format.hpp"
+#include "studies/table_row.hpp"
 
 #include <boost/algorithm/string/replace.hpp>
 #include <fmt/format.h>
@@ -351,5 +353,15 @@ std::string latex_report(const Document& document) {
     text += "\\subsection*{Where it comes from}\n\n" + pairs(document.provenance);
     return text + "\\end{document}\n";
 }
+
+struct LatexFormat final : ReportFormat {
+    std::string name() const override { return "latex"; }
+    std::vector<std::string> certain_files() const override { return {"table.tex"}; }
+    std::vector<NamedText> write(const ReportContents& contents) const override {
+        return {{"table.tex", latex_report(contents.document)}};
+    }
+};
+
+template std::unique_ptr<const ReportFormat> make_row<ReportFormat, LatexFormat>();
 
 } // namespace tvbeam

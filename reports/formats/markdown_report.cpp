@@ -1,6 +1,8 @@
 #include "reports/formats/markdown_report.hpp"
 
 #include "reports/document/written_number.hpp"
+#include "reports/formats/report_format.hpp"
+#include "studies/table_row.hpp"
 
 #include <cctype>
 
@@ -116,5 +118,15 @@ std::string markdown_report(const Document& document) {
     }
     return text + "## Where it comes from\n\n" + rows(document.provenance);
 }
+
+struct MarkdownFormat final : ReportFormat {
+    std::string name() const override { return "markdown"; }
+    std::vector<std::string> certain_files() const override { return {"table.md"}; }
+    std::vector<NamedText> write(const ReportContents& contents) const override {
+        return {{"table.md", markdown_report(contents.document)}};
+    }
+};
+
+template std::unique_ptr<const ReportFormat> make_row<ReportFormat, MarkdownFormat>();
 
 } // namespace tvbeam

@@ -1,7 +1,8 @@
-#include "reports/document/number_text.hpp"
 #include "reports/plots/drawing.hpp"
 #include "reports/plots/plot.hpp"
 #include "reports/plots/plot_style.hpp"
+#include "studies/stress/stress.hpp"
+#include "studies/text/number_text.hpp"
 
 #include <fmt/format.h>
 
@@ -40,9 +41,10 @@ std::string level_line(const ContractionMap& map, double level) {
 } // namespace
 
 std::vector<Plot> contraction_plots(const StudyResult& result) {
-    if (!result.stress || !result.stress->contraction)
+    const auto* stress = result.get<StressResult>();
+    if (stress == nullptr || !stress->contraction)
         return {};
-    const ContractionMap& map = *result.stress->contraction;
+    const ContractionMap& map = *stress->contraction;
     Drawing drawing;
     const auto add = [&](const std::string& rows, const std::string& style,
                          const std::string& title) {

@@ -1,9 +1,9 @@
-#include "reports/document/norm_words.hpp"
-#include "reports/document/number_text.hpp"
 #include "reports/plots/drawing.hpp"
 #include "reports/plots/plot.hpp"
 #include "reports/plots/plot_style.hpp"
+#include "studies/ladder/ladder.hpp"
 #include "studies/orders/convergence_fit.hpp"
+#include "studies/text/number_text.hpp"
 
 #include <fmt/format.h>
 
@@ -58,7 +58,7 @@ struct LadderWidths {
     bool in_time = false;
 };
 
-std::optional<double> error_of(const RungResult& rung, std::size_t k) {
+std::optional<double> positive_error(const RungResult& rung, std::size_t k) {
     return !rung.errors.empty() && rung.errors[k] > 0.0 && std::isfinite(rung.errors[k])
                ? std::optional(rung.errors[k])
                : std::nullopt;
@@ -101,7 +101,7 @@ public:
     std::vector<Plot> plots() {
         for (std::size_t k = 0; k < ladder_.norms.size(); ++k)
             for (const auto& rung : ladder_.rungs)
-                if (const auto error = error_of(rung, k))
+                if (const auto error = positive_error(rung, k))
                     errors_.push_back(*error);
         if (errors_.empty())
             return {};
@@ -139,7 +139,7 @@ private:
         if (lines_[k])
             add_line(k, *lines_[k]);
         const SeriesStyle style = series_style(k);
-        std::string name = norm_words(norm.norm.name);
+        std::string name = norm.norm.words;
         if (lines_[k])
             name += ": slope " + fixed(lines_[k]->fit.p, 2);
         drawing_.add_curve(fmt::format("NaN with linespoints lc rgb '{}' pt {} ps 0.9 dt {} lw 1.6",
@@ -152,7 +152,7 @@ private:
         std::string rows;
         for (std::size_t i = 0; i < ladder_.rungs.size(); ++i)
             rows += fmt::format("{} {} {} {} {}\n", widths_.h[i], widths_.dt[i],
-                                error_of(ladder_.rungs[i], k).value_or(nan),
+                                positive_error(ladder_.rungs[i], k).value_or(nan),
                                 figures != nullptr ? (*figures)[i] : nan,
                                 norm.predictions.empty() ? nan : norm.predictions[i].value_or(nan));
         const std::string block =
@@ -261,9 +261,10 @@ private:
 } // namespace
 
 std::vector<Plot> convergence_plots(const StudyResult& result) {
-    if (!result.ladder || result.ladder->norms.empty())
+    const auto* ladder = result.get<LadderResult>();
+    if (ladder == nullptr || ladder->norms.empty())
         return {};
-    return ConvergencePlot(*result.ladder, *result.scene.ladder).plots();
+    return ConvergencePlot(*ladder, *result.scene.get<LadderBlock>()).plots();
 }
 
 } // namespace tvbeam

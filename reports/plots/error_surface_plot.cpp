@@ -1,8 +1,8 @@
-#include "reports/document/norm_words.hpp"
-#include "reports/document/number_text.hpp"
 #include "reports/plots/drawing.hpp"
 #include "reports/plots/plot.hpp"
 #include "reports/plots/plot_style.hpp"
+#include "studies/grid/grid.hpp"
+#include "studies/text/number_text.hpp"
 
 #include <fmt/format.h>
 
@@ -105,8 +105,8 @@ std::string shade(double part) {
 /// One figure, put together block by block.
 class SurfacePlot {
 public:
-    SurfacePlot(const OrdersResult& orders, std::size_t k)
-        : orders_(orders), fit_(orders.norms[k].fit), norm_(orders.norms[k].norm), k_(k),
+    SurfacePlot(const OrdersResult& orders, const OrdersBlock& block, std::size_t k)
+        : orders_(orders), fit_(orders.norms[k].fit), norm_(block.norms[k]), k_(k),
           box_(orders.runs) {}
 
     Plot plot() {
@@ -115,7 +115,7 @@ public:
         if (modelled)
             add_model();
         add_runs(modelled);
-        const std::string name = "error_surface_" + norm_;
+        const std::string name = "error_surface_" + norm_.name;
         const std::string settings = fmt::format(
             "set logscale xy\nset xrange [{}:{}]\nset yrange [{}:{}]\nset xtics {}\nset ytics {}\n"
             "set xlabel 'mesh width h'\nset ylabel 'time step Δt'\nset clip two\nset border "
@@ -265,7 +265,7 @@ private:
     }
 
     [[nodiscard]] std::string caption(bool modelled) const {
-        const std::string what = "Error over the plane of h and Δt: " + norm_words(norm_) + ". ";
+        const std::string what = "Error over the plane of h and Δt: " + norm_.words + ". ";
         return what +
                (modelled
                     ? "Lines of equal error of the fitted model, in bands that are darker the "
@@ -277,7 +277,7 @@ private:
 
     const OrdersResult& orders_;
     const TwoTermFit& fit_;
-    std::string norm_;
+    const Measure& norm_;
     std::size_t k_;
     Box box_;
     Drawing drawing_;
@@ -288,9 +288,9 @@ private:
 
 std::vector<Plot> error_surface_plots(const StudyResult& result) {
     std::vector<Plot> plots;
-    if (result.orders)
-        for (std::size_t k = 0; k < result.orders->norms.size(); ++k)
-            plots.push_back(SurfacePlot(*result.orders, k).plot());
+    if (const auto* orders = result.get<OrdersResult>())
+        for (std::size_t k = 0; k < orders->norms.size(); ++k)
+            plots.push_back(SurfacePlot(*orders, *result.scene.get<OrdersBlock>(), k).plot());
     return plots;
 }
 

@@ -1,6 +1,7 @@
 #include "reports/plots/drawing.hpp"
 #include "reports/plots/plot.hpp"
 #include "reports/plots/plot_style.hpp"
+#include "studies/evolution/evolution.hpp"
 
 #include <fmt/format.h>
 
@@ -78,7 +79,7 @@ std::vector<Window> windows_of(const EvolutionResult& result, const EvolutionBlo
 
 Plot plot_of(const EvolutionResult& result, const Scene& scene, std::size_t k,
              const Window& window) {
-    const NamedProbe& named = scene.evolution->probes[k];
+    const NamedProbe& named = scene.get<EvolutionBlock>()->probes[k];
     const ProbeHistory& probe = result.probes[k];
     Drawing drawing;
     const std::string computed =
@@ -109,10 +110,11 @@ Plot plot_of(const EvolutionResult& result, const Scene& scene, std::size_t k,
 
 std::vector<Plot> evolution_plots(const StudyResult& result) {
     std::vector<Plot> plots;
-    if (result.evolution && result.evolution->t.size() > 1)
-        for (std::size_t k = 0; k < result.evolution->probes.size(); ++k)
-            for (const auto& window : windows_of(*result.evolution, *result.scene.evolution))
-                plots.push_back(plot_of(*result.evolution, result.scene, k, window));
+    const auto* evolution = result.get<EvolutionResult>();
+    if (evolution != nullptr && evolution->t.size() > 1)
+        for (std::size_t k = 0; k < evolution->probes.size(); ++k)
+            for (const auto& window : windows_of(*evolution, *result.scene.get<EvolutionBlock>()))
+                plots.push_back(plot_of(*evolution, result.scene, k, window));
     return plots;
 }
 

@@ -1,6 +1,6 @@
 #include "reports/plots/plot_style.hpp"
 
-#include "reports/document/number_text.hpp"
+#include "studies/text/number_text.hpp"
 
 #include <fmt/format.h>
 

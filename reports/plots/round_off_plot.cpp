@@ -1,6 +1,7 @@
 #include "reports/plots/drawing.hpp"
 #include "reports/plots/plot.hpp"
 #include "reports/plots/plot_style.hpp"
+#include "studies/stress/stress.hpp"
 
 #include <fmt/format.h>
 
@@ -32,16 +33,17 @@ const std::vector<Curve>& curves() {
 } // namespace
 
 std::vector<Plot> round_off_plots(const StudyResult& result) {
-    if (!result.stress || !result.stress->roundoff)
+    const auto* stress = result.get<StressResult>();
+    if (stress == nullptr || !stress->roundoff)
         return {};
     Drawing drawing;
     std::vector<double> elements;
-    for (const auto& row : result.stress->roundoff->rows)
+    for (const auto& row : stress->roundoff->rows)
         elements.push_back(static_cast<double>(row.elements));
     std::size_t series = 0;
     for (const auto& curve : curves()) {
         std::string rows;
-        for (const auto& row : result.stress->roundoff->rows)
+        for (const auto& row : stress->roundoff->rows)
             if (const auto value = curve.value(row); value && *value > 0.0)
                 rows += fmt::format("{} {}\n", row.elements, *value);
         const SeriesStyle style = series_style(series++);

@@ -1,8 +1,8 @@
-#include "reports/document/norm_words.hpp"
-#include "reports/document/number_text.hpp"
 #include "reports/plots/drawing.hpp"
 #include "reports/plots/plot.hpp"
 #include "reports/plots/plot_style.hpp"
+#include "studies/text/number_text.hpp"
+#include "studies/work_precision/work_precision.hpp"
 
 #include <fmt/format.h>
 
@@ -26,7 +26,7 @@ std::string rows_of(const SchemeRuns& scheme, std::size_t k) {
 /// None where no row can be drawn.
 std::vector<Plot> plot_of(const WorkPrecisionResult& result, const WorkPrecisionBlock& block,
                           std::size_t k) {
-    const Norm& norm = block.norms[k];
+    const Measure& norm = block.norms[k];
     Drawing drawing;
     for (std::size_t j = 0; j < block.schemes.size(); ++j) {
         const std::string rows = rows_of(result.schemes[j], k);
@@ -61,7 +61,7 @@ std::vector<Plot> plot_of(const WorkPrecisionResult& result, const WorkPrecision
         name,
         fmt::format("Error against run time: {}; medians of up to {} runs with bars from the "
                     "lower to the upper quartile. Further left and further down is better.",
-                    norm_words(norm.name), block.runs),
+                    norm.words, block.runs),
         settings)};
 }
 
@@ -69,10 +69,12 @@ std::vector<Plot> plot_of(const WorkPrecisionResult& result, const WorkPrecision
 
 std::vector<Plot> run_time_plots(const StudyResult& result) {
     std::vector<Plot> plots;
-    if (result.work_precision)
-        for (std::size_t k = 0; k < result.scene.work_precision->norms.size(); ++k)
-            for (auto& plot : plot_of(*result.work_precision, *result.scene.work_precision, k))
+    if (const auto* timed = result.get<WorkPrecisionResult>()) {
+        const auto& block = *result.scene.get<WorkPrecisionBlock>();
+        for (std::size_t k = 0; k < block.norms.size(); ++k)
+            for (auto& plot : plot_of(*timed, block, k))
                 plots.push_back(std::move(plot));
+    }
     return plots;
 }
 

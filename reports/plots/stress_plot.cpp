@@ -1,7 +1,8 @@
-#include "reports/document/number_text.hpp"
 #include "reports/plots/drawing.hpp"
 #include "reports/plots/plot.hpp"
 #include "reports/plots/plot_style.hpp"
+#include "studies/stress/stress.hpp"
+#include "studies/text/number_text.hpp"
 
 #include <fmt/format.h>
 
@@ -181,9 +182,10 @@ OutcomeStyle style_of(Outcome outcome) {
 } // namespace
 
 std::vector<Plot> stress_plots(const StudyResult& result) {
-    if (!result.stress || result.stress->cases.empty())
+    const auto* stress = result.get<StressResult>();
+    if (stress == nullptr || stress->cases.empty())
         return {};
-    const auto& cases = result.stress->cases;
+    const auto& cases = stress->cases;
     const auto axes = most_telling(cases);
     if (!axes)
         return {};
@@ -208,7 +210,7 @@ std::vector<Plot> stress_plots(const StudyResult& result) {
         drawing.add_curve(fmt::format("{} using 1:2:(1+0.4*log10($3)) with points pt {} ps "
                                       "variable lc rgb '{}' lw 1.4",
                                       block, style.point, style.colour),
-                          fmt::format("{}: {}", name_of(outcome), result.stress->count(outcome)));
+                          fmt::format("{}: {}", name_of(outcome), stress->count(outcome)));
     }
     const double room_x = 0.06 * (x.end - x.begin);
     const double room_y = 0.06 * (y.end - y.begin);

@@ -2,6 +2,8 @@
 
 #include "core/round_off.hpp"
 #include "core/run.hpp"
+#include "studies/runs/beam_runs.hpp"
+#include "studies/scene/scene.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -125,9 +127,6 @@ Needs needs_of(const EvolutionBlock& block, const Stops& stops) {
 EvolutionResult run_evolution(const Scene& scene, const EvolutionBlock& block,
                               const ProblemData& data, const Execution& execution) {
     EvolutionResult result;
-    const double step_work =
-        work_of(scene.scheme, block.rung) / static_cast<double>(block.rung.steps);
-    result.run.rung = block.rung;
     for (const auto& probe : block.probes)
         result.probes.push_back({probe.name, {}, {}});
     const Mesh mesh = scene.mesh.with(block.rung.elements);
@@ -156,22 +155,16 @@ EvolutionResult run_evolution(const Scene& scene, const EvolutionBlock& block,
         }
     };
     const auto start = std::chrono::steady_clock::now();
-    const RunResult run =
-        tvbeam::run({scene.beam,
-                     mesh,
-                     scene.scheme,
-                     block.final_time,
-                     block.rung.steps,
-                     {},
-                     [&](std::int64_t steps) {
-                         return execution.advance(static_cast<double>(steps) * step_work);
-                     }},
-                    data, &observer);
+    const RunResult run = tvbeam::run({scene.beam,
+                                       mesh,
+                                       scene.scheme,
+                                       block.final_time,
+                                       block.rung.steps,
+                                       {},
+                                       execution.steps_of(method_of(scene.scheme), block.rung)},
+                                      data, &observer);
     const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
-    result.run.status = run.status;
-    result.run.reason = run.reason;
-    result.run.seconds = elapsed.count();
-    result.run.counters = run.counters;
+    result.run = rung_result(block.rung, run, elapsed.count());
     if (contact) {
         result.events = contact->events();
         result.beyond_stops = contact->beyond_stops();

@@ -2,8 +2,9 @@
 
 #include "core/contact/contact_events.hpp"
 #include "core/problem.hpp"
-#include "studies/runs/rung.hpp"
-#include "studies/scene/scene.hpp"
+#include "core/solver.hpp"
+#include "studies/evolution/evolution_block.hpp"
+#include "studies/runs/execution.hpp"
 
 #include <map>
 #include <optional>
@@ -11,6 +12,8 @@
 #include <vector>
 
 namespace tvbeam {
+
+struct Scene;
 
 /// What one probe read, a value a sample. A value that is not defined, the stress at t = 0, is not
 /// a number.

@@ -47,17 +47,15 @@ Probe read_probe(const std::string& name, const Place& place) {
 std::vector<NamedProbe> read_probes(TableReader& table) {
     const auto names = table.texts("probes");
     if (!names || names->empty())
-        throw InputError(table.place("probes"),
-                         table.full("probes") +
-                             " is missing or empty; name what to look at, e.g. [\"theta@0.5\", "
-                             "\"u@1\", \"stress\", \"energy\"]");
+        throw table.error("probes",
+                          " is missing or empty; name what to look at, e.g. [\"theta@0.5\", "
+                          "\"u@1\", \"stress\", \"energy\"]");
     std::vector<NamedProbe> probes;
     for (std::size_t i = 0; i < names->size(); ++i) {
         const std::string& name = (*names)[i];
         if (std::find(names->begin(), names->begin() + static_cast<std::ptrdiff_t>(i), name) !=
             names->begin() + static_cast<std::ptrdiff_t>(i))
-            throw InputError(table.place("probes", i),
-                             table.full("probes") + " names '" + name + "' twice; remove one");
+            throw table.error("probes", " names '" + name + "' twice; remove one", i);
         const Probe probe = read_probe(name, table.place("probes", i));
         for (const auto& other : probes)
             if (other.probe.quantity == probe.quantity && other.probe.x == probe.x)
@@ -72,14 +70,12 @@ std::vector<NamedProbe> read_probes(TableReader& table) {
 Rung read_rung(TableReader& table, double final_time) {
     const auto elements = table.integer("elements");
     if (!elements || *elements < 1 || *elements > most_elements)
-        throw InputError(table.place("elements"),
-                         table.full("elements") +
-                             (elements ? " is " + std::to_string(*elements) : " is missing") +
-                             "; a mesh has 1 to " + std::to_string(most_elements) + " elements");
+        throw table.error("elements",
+                          (elements ? " is " + std::to_string(*elements) : " is missing") +
+                              "; a mesh has 1 to " + std::to_string(most_elements) + " elements");
     const auto dt = table.number("dt");
     if (!dt)
-        throw InputError(table.place("dt"),
-                         table.full("dt") + " is missing; give the length of a step");
+        throw table.error("dt", " is missing; give the length of a step");
     return {*elements, steps_of(table, 0, final_time, *dt), *dt};
 }
 
@@ -87,10 +83,9 @@ Rung read_rung(TableReader& table, double final_time) {
 std::int64_t read_every(TableReader& table, const EvolutionBlock& block) {
     const std::int64_t every = table.integer("every").value_or(1);
     if (every < 1 || block.rung.steps % every != 0)
-        throw InputError(table.place("every"), table.full("every") + " is " +
-                                                   std::to_string(every) +
-                                                   "; it must be >= 1 and divide the " +
-                                                   std::to_string(block.rung.steps) + " steps");
+        throw table.error("every", " is " + std::to_string(every) +
+                                       "; it must be >= 1 and divide the " +
+                                       std::to_string(block.rung.steps) + " steps");
     const auto samples = static_cast<double>(block.rung.steps) / static_cast<double>(every);
     const double values = samples * static_cast<double>(block.probes.size());
     if (values > most_values)
@@ -108,15 +103,13 @@ std::optional<std::int64_t> read_period(TableReader& table, const EvolutionBlock
     const double samples = *period / (block.rung.dt * static_cast<double>(block.every));
     const double whole = std::round(samples);
     if (!(whole >= 1.0 && std::abs(samples - whole) <= 1e-9 * whole))
-        throw InputError(table.place("period"), table.full("period") + " is " +
-                                                    message_text(*period) +
-                                                    "; it must be a whole number of samples, not " +
-                                                    message_text(samples));
+        throw table.error("period", " is " + message_text(*period) +
+                                        "; it must be a whole number of samples, not " +
+                                        message_text(samples));
     if (!(2.0 * *period <= block.final_time * (1.0 + 1e-9)))
-        throw InputError(table.place("period"),
-                         table.full("period") + " is " + message_text(*period) +
-                             "; two of them must fit into final_time = " +
-                             message_text(block.final_time) + " to be compared");
+        throw table.error("period", " is " + message_text(*period) +
+                                        "; two of them must fit into final_time = " +
+                                        message_text(block.final_time) + " to be compared");
     return static_cast<std::int64_t>(whole) * block.every;
 }
 
@@ -130,7 +123,7 @@ std::vector<Probe> EvolutionBlock::quantities() const {
     return all;
 }
 
-EvolutionBlock read_evolution(TableReader table) {
+EvolutionBlock read_evolution(TableReader& table) {
     EvolutionBlock block;
     block.final_time = read_final_time(table);
     block.rung = read_rung(table, block.final_time);

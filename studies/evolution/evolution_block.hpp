@@ -37,6 +37,6 @@ struct EvolutionBlock {
 ///     period                      of the load: what changes from one period to the next is shown
 ///
 /// Throws InputError where a value is missing or breaks its rule.
-EvolutionBlock read_evolution(TableReader table);
+EvolutionBlock read_evolution(TableReader& table);
 
 } // namespace tvbeam

@@ -1,151 +1,114 @@
 #include "studies/gates/expectation.hpp"
 
-#include "studies/scene/scene.hpp"
+#include "mms/text/nearest_name.hpp"
 #include "studies/scene/toml_reader.hpp"
+#include "studies/study.hpp"
+
+#include <boost/algorithm/string/join.hpp>
+
+#include <algorithm>
+#include <sstream>
 
 namespace tvbeam {
 
 namespace {
 
-using Figure = Expectation::Figure;
-
-void add(std::vector<Expectation>& expectations, TableReader& table, const char* key, Figure figure,
-         const std::string& study, const std::string& norm) {
-    if (const auto band = table.band(key))
-        expectations.push_back(
-            {figure, study, norm, 0, band->lowest, band->highest, table.place(key)});
-}
-
-void add_errors(std::vector<Expectation>& expectations, TableReader& table,
-                const std::string& study, const std::string& norm, std::size_t rungs) {
-    const double within = table.number("within").value_or(1e-3);
-    if (!(within > 0.0 && within < 1.0))
-        throw InputError(table.place("within"),
-                         table.full("within") + " must be a part between 0 and 1");
-    const auto errors = table.numbers("errors");
-    if (!errors)
-        return;
-    if (errors->size() != rungs)
-        throw InputError(table.place("errors"),
-                         table.full("errors") + " has " + std::to_string(errors->size()) +
-                             " values for " + std::to_string(rungs) + " rungs; give one a rung");
-    for (std::size_t i = 0; i < rungs; ++i)
-        expectations.push_back({Figure::error, study, norm, i, (*errors)[i] * (1.0 - within),
-                                (*errors)[i] * (1.0 + within), table.place("errors", i)});
-}
-
-void add_ratios(std::vector<Expectation>& expectations, TableReader& table, const std::string& norm,
-                const LadderBlock& ladder) {
-    const auto bands = table.bands("ratios");
-    if (!bands)
-        return;
-    if (!ladder.printed || !ladder.printed->figures.contains(norm))
-        throw InputError(table.place("ratios"), table.full("ratios") +
-                                                    " compares with printed figures, but "
-                                                    "ladder.printed has none for " +
-                                                    norm);
-    const std::size_t rungs = ladder.rungs.size();
-    if (bands->size() != 1 && bands->size() != rungs)
-        throw InputError(table.place("ratios"), table.full("ratios") + " has " +
-                                                    std::to_string(bands->size()) + " bands for " +
-                                                    std::to_string(rungs) +
-                                                    " rungs; give one for all, or one a rung");
-    for (std::size_t i = 0; i < rungs; ++i) {
-        const auto& band = (*bands)[bands->size() == 1 ? 0 : i];
-        expectations.push_back(
-            {Figure::ratio, "ladder", norm, i, band.lowest, band.highest, table.place("ratios")});
-    }
-}
-
-/// The names by which a study's norms stand in [expect].
-std::vector<std::string> names_of(const std::vector<Norm>& norms, bool roots) {
-    std::vector<std::string> names;
-    names.reserve(norms.size());
-    for (const auto& norm : norms)
-        names.push_back(roots ? norm.root() : norm.name);
-    return names;
-}
-
-template <typename Read>
-void for_each_norm(TableReader& expect, const char* study, const std::vector<std::string>& measured,
-                   const Read& read) {
-    auto block = expect.table(study);
-    if (!block)
-        return;
-    if (measured.empty())
-        throw InputError(expect.place(study), expect.full(study) +
-                                                  " expects something of a study that the scene "
-                                                  "does not run: it has no block [" +
-                                                  study + "] with norms");
-    for (const auto& name : measured)
-        if (auto table = block->table(name)) {
-            read(*table, name);
-            table->finish();
-        }
-    block->finish();
-}
-
-void add_work_precision(std::vector<Expectation>& expectations, TableReader& expect,
-                        const WorkPrecisionBlock* timed) {
-    auto block = expect.table("work_precision");
-    if (!block)
-        return;
-    if (timed == nullptr)
-        throw InputError(expect.place("work_precision"),
-                         expect.full("work_precision") +
-                             " expects something of a study that the scene does not run: it has no "
-                             "block [work_precision]");
-    for (const auto& scheme : timed->schemes)
-        for_each_norm(*block, scheme.name.c_str(), names_of(timed->norms, false),
-                      [&](TableReader& table, const std::string& norm) {
-                          const std::string study = "work_precision." + scheme.name;
-                          add(expectations, table, "orders", Figure::order, study, norm);
-                          add_errors(expectations, table, study, norm, scheme.rungs.size());
-                      });
-    block->finish();
+/// The finished runs of a series.
+const std::vector<RungResult>& runs_of(const StudyResult& result, const std::string& study) {
+    const auto all = result.runs();
+    return *std::find_if(all.begin(), all.end(), [&](const MeasuredRuns& one) {
+                return one.series.study == study;
+            })->results;
 }
 
 } // namespace
 
-std::vector<Expectation> read_expectations(TableReader table, const LadderBlock* ladder,
-                                           const OrdersBlock* orders,
-                                           const WorkPrecisionBlock* timed,
-                                           const std::vector<std::string>& figured) {
-    // A study that the scene does not run measures no norm.
-    const LadderBlock no_ladder;
-    const OrdersBlock no_orders;
-    const LadderBlock& rungs = ladder != nullptr ? *ladder : no_ladder;
-    const OrdersBlock& grid = orders != nullptr ? *orders : no_orders;
-    std::vector<Expectation> expectations;
-    for_each_norm(table, "ladder", names_of(rungs.norms, false),
-                  [&](TableReader& norm_table, const std::string& norm) {
-                      add(expectations, norm_table, "orders", Figure::order, "ladder", norm);
-                      add_ratios(expectations, norm_table, norm, rungs);
-                      add_errors(expectations, norm_table, "ladder", norm, rungs.rungs.size());
-                      add(expectations, norm_table, "predicted", Figure::predicted, "ladder", norm);
-                  });
-    for_each_norm(table, "orders", names_of(grid.norms, true),
-                  [&](TableReader& norm_table, const std::string& norm) {
-                      const auto add_band = [&](const char* key, Figure figure) {
-                          add(expectations, norm_table, key, figure, "orders", norm);
-                      };
-                      add_band("p", Figure::p);
-                      add_band("q", Figure::q);
-                      add_band("a", Figure::a);
-                      add_band("b", Figure::b);
-                      add_band("rho", Figure::rho);
-                      if (norm == "corollary")
-                          add_band("constant", Figure::constant);
-                  });
-    add_work_precision(expectations, table, timed);
-    for (const auto& study : figured)
-        if (auto figures = table.table(study)) {
-            for (const auto& name : figures->keys())
-                add(expectations, *figures, name.c_str(), Figure::named, study, name);
-            figures->finish();
+std::string metric_text(double value) {
+    std::ostringstream text;
+    text.precision(6);
+    text << value;
+    return text.str();
+}
+
+std::optional<double> error_of(const RungResult& run, std::size_t k) {
+    return run.errors.empty() ? std::nullopt : std::optional(run.errors[k]);
+}
+
+Metric row_metric(const Series& series, const RungResult& run, std::size_t k,
+                  const std::string& name, std::optional<double> value,
+                  const std::string& otherwise) {
+    return {series.study + "." + series.measures[k].name + ": " + name + " at s = " +
+                std::to_string(run.rung.elements) + ", dt = " + metric_text(run.rung.dt),
+            value, run.reason.empty() ? otherwise : "no error: " + run.reason};
+}
+
+void expect_band(TableReader& table, const std::string& key, std::vector<Expectation>& expectations,
+                 Metrics metrics) {
+    if (const auto band = table.band(key))
+        expectations.push_back({band->lowest, band->highest, table.place(key), std::move(metrics)});
+}
+
+void expect_orders(TableReader& table, const Series& series, std::size_t k,
+                   std::vector<Expectation>& expectations) {
+    expect_band(table, "orders", expectations, [series, k](const StudyResult& result) {
+        const auto& runs = runs_of(result, series.study);
+        const auto orders = observed_orders(records_of(runs, k));
+        std::vector<Metric> metrics;
+        for (std::size_t row = 1; row < orders.size(); ++row)
+            metrics.push_back(row_metric(series, runs[row], k, "observed order", orders[row]));
+        if (metrics.empty())
+            metrics.push_back(row_metric(series, runs[0], k, "observed order", std::nullopt,
+                                         "nothing: a ladder of one rung has no order"));
+        return metrics;
+    });
+}
+
+void expect_errors(TableReader& table, const Series& series, std::size_t k,
+                   std::vector<Expectation>& expectations) {
+    const double within = table.number("within").value_or(1e-3);
+    if (!(within > 0.0 && within < 1.0))
+        throw table.error("within", " must be a part between 0 and 1");
+    const auto errors = table.numbers("errors");
+    if (!errors)
+        return;
+    if (errors->size() != series.rungs.size())
+        throw table.error("errors", " has " + std::to_string(errors->size()) + " values for " +
+                                        std::to_string(series.rungs.size()) +
+                                        " rungs; give one a rung");
+    for (std::size_t row = 0; row < errors->size(); ++row)
+        expectations.push_back(
+            {(*errors)[row] * (1.0 - within), (*errors)[row] * (1.0 + within),
+             table.place("errors", row), [series, k, row](const StudyResult& result) {
+                 const RungResult& run = runs_of(result, series.study)[row];
+                 return std::vector{row_metric(series, run, k, "error", error_of(run, k))};
+             }});
+}
+
+void expect_figures(TableReader& table, const std::string& study,
+                    std::vector<Expectation>& expectations) {
+    for (const auto& name : table.keys())
+        expect_band(table, name, expectations, [study, name](const StudyResult& result) {
+            const auto figures = result.figures(study);
+            std::vector<std::string> names;
+            names.reserve(figures.size());
+            for (const auto& [known, figure] : figures)
+                names.push_back(known);
+            const auto found = figures.find(name);
+            return std::vector{
+                Metric{study + "." + name,
+                       found == figures.end() ? std::nullopt : std::optional(found->second),
+                       "no figure of this name" + did_you_mean(name, names) + "; the study has " +
+                           boost::algorithm::join(names, ", ")}};
+        });
+}
+
+void for_each_measure(TableReader& table, const std::vector<Measure>& measures,
+                      const std::function<void(TableReader&, std::size_t k)>& read) {
+    for (std::size_t k = 0; k < measures.size(); ++k)
+        if (auto inner = table.table(measures[k].name)) {
+            read(*inner, k);
+            inner->finish();
         }
-    table.finish();
-    return expectations;
 }
 
 } // namespace tvbeam

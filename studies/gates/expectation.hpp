@@ -1,59 +1,64 @@
 #pragma once
 
 #include "mms/text/input_error.hpp"
+#include "studies/runs/run.hpp"
 
 #include <cstddef>
+#include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace tvbeam {
 
-/// A two-sided band that a figure of the result must lie in.
+struct StudyResult;
+class TableReader;
+
+/// A number that a result has, or why it has none.
+struct Metric {
+    std::string what; ///< e.g. "ladder.theta_L2L2_sq: error at s = 40, dt = 2.5e-4"
+    std::optional<double> value;
+    std::string absence; ///< said where there is no value
+};
+
+/// A two-sided band that metrics of the result must lie in.
 struct Expectation {
-    enum class Figure {
-        order,     ///< every observed order of a norm along a ladder
-        ratio,     ///< error / printed figure, of one rung
-        error,     ///< the error of one rung
-        predicted, ///< error / prediction of the two-term model, both of the norm itself, of every
-                   ///< rung finer than the grid
-        p,
-        q,
-        a,
-        b,
-        rho,      ///< of the two-term fit
-        constant, ///< the greatest constant of Corollary 2.2 over the grid
-        named     ///< the figure of the study that is called `norm`
-    };
-    Figure figure = Figure::order;
-    std::string study; ///< whose runs they are: "ladder", "orders", or as in MeasuredRuns
-    std::string norm;
-    std::size_t rung = 0; ///< for ratio and error
     double lowest = 0.0;
     double highest = 0.0;
     Place place; ///< where the scene says so
+    std::function<std::vector<Metric>(const StudyResult&)> metrics;
 };
 
-struct LadderBlock;
-struct OrdersBlock;
-struct WorkPrecisionBlock;
-class TableReader;
+/// What a table of [expect] holds, key by key: each reads a band and adds an expectation, where the
+/// key is there.
+using Metrics = std::function<std::vector<Metric>(const StudyResult&)>;
+void expect_band(TableReader& table, const std::string& key, std::vector<Expectation>& expectations,
+                 Metrics metrics);
 
-/// Reads the block [expect]:
-///
-///     [expect.ladder.NORM]    orders = [lo, hi]; ratios = [lo, hi] or one such pair a rung; errors
-///     = one a rung, with
-///                             within = relative half-width of their bands (default 1e-3);
-///                             predicted = [lo, hi]
-///     [expect.orders.NORM]    p, q, a, b, rho = [lo, hi]; for corollary also constant = [lo, hi]
-///     [expect.work_precision."SCHEME".NORM]    orders, errors, within as for a ladder
-///     [expect.evolution], [expect.stress]      any of the figures() of their record = [lo, hi]
-///
-/// ladder, orders, timed: the scene's studies, or null; figured: those with figures(). Throws
-/// InputError where a band has no width on a side, a norm is not measured, or a list does not have
-/// one value a rung.
-std::vector<Expectation> read_expectations(TableReader table, const LadderBlock* ladder,
-                                           const OrdersBlock* orders,
-                                           const WorkPrecisionBlock* timed,
-                                           const std::vector<std::string>& figured = {});
+/// orders = [lo, hi], for every observed order of measure k along the series; errors = one a rung,
+/// with within = the relative half-width of their bands, default 1e-3.
+void expect_orders(TableReader& table, const Series& series, std::size_t k,
+                   std::vector<Expectation>& expectations);
+void expect_errors(TableReader& table, const Series& series, std::size_t k,
+                   std::vector<Expectation>& expectations);
+
+/// A band for any of the figures of a study.
+void expect_figures(TableReader& table, const std::string& study,
+                    std::vector<Expectation>& expectations);
+
+/// Reads a table for each measure that is there, by its name, with read(table, k).
+void for_each_measure(TableReader& table, const std::vector<Measure>& measures,
+                      const std::function<void(TableReader&, std::size_t k)>& read);
+
+/// The metric of one row of a series: its value, or what the run or `otherwise` says instead.
+Metric row_metric(const Series& series, const RungResult& run, std::size_t k,
+                  const std::string& name, std::optional<double> value,
+                  const std::string& otherwise = "undefined");
+
+/// The error of measure k, if the run has one.
+std::optional<double> error_of(const RungResult& run, std::size_t k);
+
+/// A number as messages of gates show it.
+std::string metric_text(double value);
 
 } // namespace tvbeam

@@ -1,8 +1,6 @@
 #include "studies/ladder/ladder.hpp"
 
 #include "studies/ladder/order_remarks.hpp"
-#include "studies/ladder/round_off_remark.hpp"
-#include "studies/reference/reference_solution.hpp"
 
 #include <algorithm>
 #include <iterator>
@@ -20,7 +18,7 @@ std::vector<Refinement> made_whole(std::vector<Refinement> roots, const Refineme
     return roots;
 }
 
-LadderNorm analysed(const Norm& norm, const std::vector<RungResult>& rungs, std::size_t k,
+LadderNorm analysed(const Measure& norm, const std::vector<RungResult>& rungs, std::size_t k,
                     const TwoTermModel* model, const std::optional<Refinement>& reference) {
     LadderNorm result;
     result.norm = norm;
@@ -41,39 +39,46 @@ LadderNorm analysed(const Norm& norm, const std::vector<RungResult>& rungs, std:
 }
 
 /// The rungs whose orders mean something: not those close to the reference.
-std::vector<RungResult> telling(const Scene& scene, const std::vector<RungResult>& rungs) {
+std::vector<RungResult> telling(const std::optional<ReferenceBlock>& reference,
+                                const std::vector<RungResult>& rungs) {
     std::vector<RungResult> result;
-    std::copy_if(rungs.begin(), rungs.end(), std::back_inserter(result),
-                 [&](const RungResult& rung) {
-                     return !scene.reference || !scene.reference->is_close_to(rung.rung);
-                 });
+    std::copy_if(
+        rungs.begin(), rungs.end(), std::back_inserter(result),
+        [&](const RungResult& rung) { return !reference || !reference->is_close_to(rung.rung); });
     return result;
 }
 
 } // namespace
 
-LadderResult run_ladder(const Scene& scene, const LadderBlock& ladder, const ProblemData& data,
-                        const OrdersResult* orders, const Execution& execution) {
+Series series_of(const LadderBlock& block, const Method& method) {
+    return {"ladder", block.final_time, method, block.norms, block.rungs};
+}
+
+LadderResult analyse_ladder(const Series& series, std::vector<RungResult> rungs,
+                            const StudiedSolver& solver, const OrdersResult* orders) {
     LadderResult result;
-    result.rungs =
-        run_rungs("ladder", scene, ladder.norms, ladder.final_time, ladder.rungs, data, execution);
-    const auto remarked = telling(scene, result.rungs);
-    for (std::size_t k = 0; k < ladder.norms.size(); ++k) {
-        const Norm& norm = ladder.norms[k];
-        // The constants of a model are those of its final time.
-        const bool same_time = scene.orders && scene.orders->final_time == ladder.final_time;
-        const TwoTermModel* model =
-            orders != nullptr && same_time ? orders->model_of(norm) : nullptr;
-        result.norms.push_back(analysed(norm, result.rungs, k, model, reference_widths(scene)));
+    result.rungs = std::move(rungs);
+    const auto remarked = telling(solver.reference, result.rungs);
+    const auto widths = solver.reference ? solver.reference->widths() : std::nullopt;
+    for (std::size_t k = 0; k < series.measures.size(); ++k) {
+        const Measure& norm = series.measures[k];
+        const TwoTermModel* model = orders != nullptr ? orders->model_of(norm) : nullptr;
+        result.norms.push_back(analysed(norm, result.rungs, k, model, widths));
         result.norms.back().remarks =
             order_remarks(norm, root_records_of(remarked, k, norm), model);
-        if (auto remark = round_off_remark(scene, data, ladder.final_time, result.rungs, norm, k);
+        if (auto remark = solver.remark ? solver.remark(series, result.rungs, k) : "";
             !remark.empty())
             result.norms.back().remarks.push_back(std::move(remark));
     }
-    if (!ladder.norms.empty())
-        result.reference_remark = reference_remark(scene, result.rungs);
+    if (!series.measures.empty() && solver.reference)
+        result.reference_remark = reference_remark(*solver.reference, result.rungs);
     return result;
+}
+
+LadderResult run_ladder(const LadderBlock& block, const Method& method, const StudiedSolver& solver,
+                        const OrdersResult* orders, const Execution& execution) {
+    const Series series = series_of(block, method);
+    return analyse_ladder(series, run_series(series, solver.run, execution), solver, orders);
 }
 
 } // namespace tvbeam

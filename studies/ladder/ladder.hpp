@@ -1,8 +1,10 @@
 #pragma once
 
-#include "studies/ladder/grid.hpp"
+#include "studies/grid/grid.hpp"
+#include "studies/ladder/ladder_block.hpp"
 #include "studies/orders/verdict.hpp"
-#include "studies/runs/rung.hpp"
+#include "studies/runs/execution.hpp"
+#include "studies/runs/studied_solver.hpp"
 
 #include <optional>
 #include <string>
@@ -12,7 +14,7 @@ namespace tvbeam {
 
 /// One norm along a ladder.
 struct LadderNorm {
-    Norm norm;
+    Measure norm;
     std::vector<std::optional<double>> orders;      ///< observed order against the rung before
     std::vector<RowVerdict> verdicts;               ///< what each rung shows
     std::vector<std::optional<double>> predictions; ///< of the two-term model; empty without one
@@ -26,9 +28,16 @@ struct LadderResult {
     std::string reference_remark; ///< rungs too close to the reference; empty without such
 };
 
-/// Runs every rung of the scene's ladder, the others also after one that failed. orders: the grid
-/// study of the same scene, whose models then judge the rungs and predict them; or null.
-LadderResult run_ladder(const Scene& scene, const LadderBlock& ladder, const ProblemData& data,
-                        const OrdersResult* orders, const Execution& execution = {});
+/// The runs that the block asks for.
+Series series_of(const LadderBlock& block, const Method& method);
+
+/// What the finished runs of a ladder show. orders: a grid of the same solver up to the same final
+/// time, whose models then judge the rungs and predict them; or null.
+LadderResult analyse_ladder(const Series& series, std::vector<RungResult> rungs,
+                            const StudiedSolver& solver, const OrdersResult* orders = nullptr);
+
+/// Runs every rung, the others also after one that failed, and analyses them.
+LadderResult run_ladder(const LadderBlock& block, const Method& method, const StudiedSolver& solver,
+                        const OrdersResult* orders = nullptr, const Execution& execution = {});
 
 } // namespace tvbeam

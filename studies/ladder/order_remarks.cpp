@@ -1,30 +1,24 @@
 #include "studies/ladder/order_remarks.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <optional>
 
 namespace tvbeam {
 
 namespace {
 
-std::string format(const char* pattern, double value) {
-    std::array<char, 32> text{};
-    std::snprintf(text.data(), text.size(), pattern, value);
-    return text.data();
-}
-
 std::string order_text(double value) {
-    return format("%.2f", value);
+    return fmt::format("{:.2f}", value);
 }
 
 /// A rung by what is refined along the ladder.
 std::string rung_name(std::span<const Refinement> ladder, const Refinement& rung) {
     if (ladder.front().h == ladder.back().h)
-        return "dt = " + format("%.3g", rung.dt);
-    return "s = " + format("%.0f", 1.0 / rung.h);
+        return "dt = " + fmt::format("{:.3g}", rung.dt);
+    return "s = " + fmt::format("{:.0f}", 1.0 / rung.h);
 }
 
 struct Observed {
@@ -32,12 +26,12 @@ struct Observed {
     double order; ///< of the norm itself
 };
 
-std::string of_square(const Norm& norm, double order) {
+std::string of_square(const Measure& norm, double order) {
     return norm.squared ? " (the square of order " + order_text(order) + ")" : "";
 }
 
 /// What the orders do. Why they do it is guessed where no model says it.
-std::string from_pairs(const Norm& norm, std::span<const Refinement> roots,
+std::string from_pairs(const Measure& norm, std::span<const Refinement> roots,
                        const std::vector<Observed>& known, bool explained) {
     const double steady = 0.15;
     const double power = norm.squared ? 2.0 : 1.0;
@@ -85,7 +79,7 @@ bool refines_evenly(std::span<const Refinement> roots) {
 
 /// Why the orders are what they are: the faster term, of the higher order along the ladder, and the
 /// slower one, which remains in the end.
-std::string from_model(const Norm& norm, std::span<const Refinement> roots,
+std::string from_model(const Measure& norm, std::span<const Refinement> roots,
                        const TwoTermModel& model) {
     const LadderForecast view = forecast(model, roots);
     // A term that hardly shrinks was not seen by the fit, whatever it calls its order.
@@ -111,21 +105,21 @@ std::string from_model(const Norm& norm, std::span<const Refinement> roots,
         return text + "space and time error fall alike along this ladder, with order " +
                order(slow_order) + ".";
     if (at_last < 1.0)
-        text += "the order " + order(fast_order) + of_square(norm, fast_order) +
-                " is that of the " + faster + " error; the " + slower + " error, of order " +
-                order(slow_order) + " along this ladder, is " + format("%.2g", at_last) +
-                " times as large at " + last + (at_last < 0.5 ? " and hidden." : ".");
+        text += fmt::format("the order {}{} is that of the {} error; the {} error, of order {} "
+                            "along this ladder, is {:.2g} times as large at {}{}",
+                            order(fast_order), of_square(norm, fast_order), faster, slower,
+                            order(slow_order), at_last, last, at_last < 0.5 ? " and hidden." : ".");
     else if (at_first < 1.0)
-        text += "the " + faster + " error, of order " + order(fast_order) +
-                of_square(norm, fast_order) + ", rules the coarse rungs; at " + last + " the " +
-                slower + " error, of order " + order(slow_order) + ", is " +
-                format("%.2g", at_last) + " times as large.";
+        text += fmt::format("the {} error, of order {}{}, rules the coarse rungs; at {} the {} "
+                            "error, of order {}, is {:.2g} times as large.",
+                            faster, order(fast_order), of_square(norm, fast_order), last, slower,
+                            order(slow_order), at_last);
     else
-        text += "the " + slower + " error, of order " + order(slow_order) +
-                of_square(norm, slow_order) + ", rules the whole ladder: at " + first + " it is " +
-                format("%.2g", at_first) + " times as large as the " + faster +
-                " error, of order " + order(fast_order) + ", and at " + last + " " +
-                format("%.2g", at_last) + " times.";
+        text += fmt::format("the {} error, of order {}{}, rules the whole ladder: at {} it is "
+                            "{:.2g} times as large as the {} error, of order {}, and at {} {:.2g} "
+                            "times.",
+                            slower, order(slow_order), of_square(norm, slow_order), first, at_first,
+                            faster, order(fast_order), last, at_last);
     if (view.cancellation)
         text += " The two have opposite signs and cancel in part about " +
                 rung_name(roots, {.h = view.cancellation->h, .dt = view.cancellation->dt}) + ".";
@@ -139,7 +133,7 @@ std::string from_model(const Norm& norm, std::span<const Refinement> roots,
 
 } // namespace
 
-std::vector<std::string> order_remarks(const Norm& norm, std::span<const Refinement> roots,
+std::vector<std::string> order_remarks(const Measure& norm, std::span<const Refinement> roots,
                                        const TwoTermModel* model) {
     const auto orders = observed_orders(roots);
     std::vector<Observed> known;

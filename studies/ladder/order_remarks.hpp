@@ -1,8 +1,8 @@
 #pragma once
 
-#include "core/norms/norms.hpp"
 #include "studies/orders/observed_order.hpp"
 #include "studies/orders/two_term_model.hpp"
+#include "studies/runs/run.hpp"
 
 #include <span>
 #include <string>
@@ -15,7 +15,7 @@ namespace tvbeam {
 /// that the pairwise orders keep, and where they leave it by more than 0.15. Nothing for fewer than
 /// two orders. roots: the records of the norm itself, also where the table shows its square; orders
 /// in the text are the table's.
-std::vector<std::string> order_remarks(const Norm& norm, std::span<const Refinement> roots,
+std::vector<std::string> order_remarks(const Measure& norm, std::span<const Refinement> roots,
                                        const TwoTermModel* model);
 
 } // namespace tvbeam

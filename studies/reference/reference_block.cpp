@@ -1,6 +1,6 @@
 #include "studies/reference/reference_block.hpp"
 
-#include "studies/scene/scene.hpp"
+#include "studies/scene/study_keys.hpp"
 #include "studies/scene/toml_reader.hpp"
 
 #include <algorithm>
@@ -16,38 +16,23 @@ namespace {
 constexpr std::int64_t fewest_for_richardson = 6;
 constexpr double most_bytes = 1024.0 * 1024.0 * 1024.0;
 
-/// The studies of a scene, with the names of their blocks.
-struct Study {
-    std::string name;
-    const std::vector<Rung>* rungs;
-};
-
-std::vector<Study> studies_of(const LadderBlock* ladder, const OrdersBlock* orders) {
-    std::vector<Study> studies;
-    if (ladder != nullptr && !ladder->norms.empty())
-        studies.push_back({"ladder", &ladder->rungs});
-    if (orders != nullptr)
-        studies.push_back({"orders", &orders->grid});
-    return studies;
-}
-
-std::int64_t read_elements(TableReader& table, bool richardson, const std::vector<Study>& studies) {
+std::int64_t read_elements(TableReader& table, bool richardson,
+                           const std::vector<Series>& measured) {
     const auto given = table.integer("elements");
     if (!given)
-        throw InputError(table.place("elements"),
-                         table.full("elements") +
-                             " is missing; give a multiple of every number of elements in the "
-                             "studies");
+        throw table.error("elements",
+                          " is missing; give a multiple of every number of elements in the "
+                          "studies");
     const std::int64_t elements = *given;
     const auto refuse = [&](const std::string& why) {
-        throw InputError(table.place("elements"),
-                         table.full("elements") + " is " + std::to_string(elements) + why);
+        throw table.error("elements", " is " + std::to_string(elements) + why);
     };
     if (elements < 1 || elements > most_elements)
         refuse("; a mesh has 1 to " + std::to_string(most_elements) + " elements");
-    for (const auto& [name, rungs] : studies)
-        for (const auto& rung : *rungs) {
-            const std::string held = std::to_string(rung.elements) + " of " + name + ".elements";
+    for (const auto& series : measured)
+        for (const auto& rung : series.rungs) {
+            const std::string held =
+                std::to_string(rung.elements) + " of " + series.study + ".elements";
             if (elements < rung.elements)
                 refuse(", coarser than the " + held + "; a reference is at least as fine");
             if (elements % rung.elements != 0)
@@ -59,15 +44,13 @@ std::int64_t read_elements(TableReader& table, bool richardson, const std::vecto
     return elements;
 }
 
-double read_dt(TableReader& table, bool richardson, const std::vector<Study>& studies) {
+double read_dt(TableReader& table, bool richardson, const std::vector<Series>& measured) {
     const auto given = table.number("dt");
     if (!given)
-        throw InputError(table.place("dt"),
-                         table.full("dt") +
-                             " is missing; give a step that divides every dt of the studies");
+        throw table.error("dt", " is missing; give a step that divides every dt of the studies");
     const double dt = *given;
     const auto refuse = [&](const std::string& why) {
-        throw InputError(table.place("dt"), table.full("dt") + " is " + message_text(dt) + why);
+        throw table.error("dt", " is " + message_text(dt) + why);
     };
     if (!(dt > 0.0))
         refuse("; it must be > 0");
@@ -75,9 +58,9 @@ double read_dt(TableReader& table, bool richardson, const std::vector<Study>& st
     const std::string must =
         richardson ? "; with richardson = true its double, the step of one of the runs, must "
                    : "; it must ";
-    for (const auto& [name, rungs] : studies)
-        for (const auto& rung : *rungs) {
-            const std::string held = message_text(rung.dt) + " of " + name + ".dt";
+    for (const auto& series : measured)
+        for (const auto& rung : series.rungs) {
+            const std::string held = message_text(rung.dt) + " of " + series.study + ".dt";
             const double ratio = rung.dt / unit;
             const double steps = rung.dt / dt * static_cast<double>(rung.steps);
             std::ostringstream why;
@@ -99,7 +82,7 @@ double read_dt(TableReader& table, bool richardson, const std::vector<Study>& st
 
 /// Temperature and curvature on every element at every kept level.
 void require_memory(const TableReader& table, const ReferenceBlock& reference,
-                    const LadderBlock* ladder, const OrdersBlock* orders) {
+                    const std::vector<Series>& measured) {
     const auto refuse = [&](double levels) {
         const double bytes =
             3.0 * sizeof(double) * static_cast<double>(reference.elements) * levels;
@@ -113,10 +96,10 @@ void require_memory(const TableReader& table, const ReferenceBlock& reference,
                                  "steps in the studies");
     };
     // First the study with most steps alone: the levels of all are listed only if they are few.
-    for (const auto& [name, rungs] : studies_of(ladder, orders))
-        for (const auto& rung : *rungs)
+    for (const auto& series : measured)
+        for (const auto& rung : series.rungs)
             refuse(static_cast<double>(rung.steps));
-    refuse(static_cast<double>(kept_levels(reference, ladder, orders).size()));
+    refuse(static_cast<double>(kept_levels(reference, measured).size()));
 }
 
 } // namespace
@@ -133,12 +116,18 @@ bool ReferenceBlock::is_close_to(const Rung& rung) const {
     return !richardson && (2 * rung.elements >= elements || steps_in(rung) <= 2);
 }
 
-std::vector<std::int64_t> kept_levels(const ReferenceBlock& reference, const LadderBlock* ladder,
-                                      const OrdersBlock* orders) {
+std::optional<Refinement> ReferenceBlock::widths() const {
+    if (richardson)
+        return std::nullopt;
+    return Refinement{.h = 1.0 / static_cast<double>(elements), .dt = dt};
+}
+
+std::vector<std::int64_t> kept_levels(const ReferenceBlock& reference,
+                                      const std::vector<Series>& measured) {
     std::vector<std::int64_t> levels;
     std::vector<std::pair<std::int64_t, std::int64_t>> listed; // runs of one grid share their steps
-    for (const auto& [name, rungs] : studies_of(ladder, orders))
-        for (const auto& rung : *rungs) {
+    for (const auto& series : measured)
+        for (const auto& rung : series.rungs) {
             const std::pair every{reference.steps_in(rung), rung.steps};
             if (std::find(listed.begin(), listed.end(), every) != listed.end())
                 continue;
@@ -151,15 +140,31 @@ std::vector<std::int64_t> kept_levels(const ReferenceBlock& reference, const Lad
     return levels;
 }
 
-ReferenceBlock read_reference(TableReader table, const LadderBlock* ladder,
-                              const OrdersBlock* orders) {
-    const auto studies = studies_of(ladder, orders);
+std::string reference_remark(const ReferenceBlock& reference,
+                             const std::vector<RungResult>& rungs) {
+    std::ostringstream named;
+    std::size_t close = 0;
+    for (const auto& run : rungs)
+        if (reference.is_close_to(run.rung)) {
+            named << (close > 0 ? ", " : "") << "s = " << run.rung.elements
+                  << " (dt = " << run.rung.dt << ")";
+            ++close;
+        }
+    if (close == 0)
+        return {};
+    return (close == 1 ? "The rung " : "The rungs ") + named.str() +
+           (close == 1 ? " has an h or dt" : " have an h or dt") +
+           " within a factor of two of the reference's: what is measured there lacks much of the "
+           "error, and orders that it enters come out too high.";
+}
+
+ReferenceBlock read_reference(TableReader& table, const std::vector<Series>& measured) {
     ReferenceBlock reference;
     reference.richardson = table.flag("richardson").value_or(false);
-    reference.elements = read_elements(table, reference.richardson, studies);
-    reference.dt = read_dt(table, reference.richardson, studies);
+    reference.elements = read_elements(table, reference.richardson, measured);
+    reference.dt = read_dt(table, reference.richardson, measured);
     table.finish();
-    require_memory(table, reference, ladder, orders);
+    require_memory(table, reference, measured);
     return reference;
 }
 

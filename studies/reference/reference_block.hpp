@@ -1,13 +1,14 @@
 #pragma once
 
+#include "studies/runs/run.hpp"
+
 #include <cstdint>
+#include <optional>
+#include <string>
 #include <vector>
 
 namespace tvbeam {
 
-struct LadderBlock;
-struct OrdersBlock;
-struct Rung;
 class TableReader;
 
 /// The block [reference]: errors are measured against a run of the scene's own scheme that is finer
@@ -29,16 +30,22 @@ struct ReferenceBlock {
     /// Whether the orders of the rung are lost in the reference's own error: its h or Δt is within
     /// a factor of two of the reference's, and nothing is extrapolated.
     [[nodiscard]] bool is_close_to(const Rung& rung) const;
+
+    /// Its h and dt, if its own error counts: not of an extrapolated one.
+    [[nodiscard]] std::optional<Refinement> widths() const;
 };
 
-/// The steps of the reference after which some rung of the studies measures its error, in order;
-/// the time levels that are kept. ladder, orders: the scene's studies, or null.
-std::vector<std::int64_t> kept_levels(const ReferenceBlock& reference, const LadderBlock* ladder,
-                                      const OrdersBlock* orders);
+/// The steps of the reference after which some rung of the series measures its error, in order; the
+/// time levels that are kept.
+std::vector<std::int64_t> kept_levels(const ReferenceBlock& reference,
+                                      const std::vector<Series>& measured);
 
-/// Reads the block. Throws InputError where the reference does not fit a rung, is coarser than one,
-/// or would fill more than 1 GiB.
-ReferenceBlock read_reference(TableReader table, const LadderBlock* ladder,
-                              const OrdersBlock* orders);
+/// A sentence about the rungs too close to the reference for their orders to mean anything; empty
+/// when there are none.
+std::string reference_remark(const ReferenceBlock& reference, const std::vector<RungResult>& rungs);
+
+/// Reads the block. measured: what will be measured against the reference. Throws InputError where
+/// the reference does not fit a rung, is coarser than one, or would fill more than 1 GiB.
+ReferenceBlock read_reference(TableReader& table, const std::vector<Series>& measured);
 
 } // namespace tvbeam

@@ -4,7 +4,7 @@
 #include "core/run.hpp"
 #include "core/time/time_levels.hpp"
 #include "studies/reference/piecewise_polynomial.hpp"
-#include "studies/runs/rung.hpp"
+#include "studies/runs/beam_runs.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -37,40 +37,16 @@ VectorXd nodal_means(const DiscontinuousLinear& w) {
     return nodal;
 }
 
-std::vector<Norm> norms_of(const Scene& scene) {
-    std::vector<Norm> norms;
-    if (scene.ladder)
-        norms = scene.ladder->norms;
-    if (scene.orders)
-        norms.insert(norms.end(), scene.orders->norms.begin(), scene.orders->norms.end());
-    return norms;
-}
-
-/// What the norms read of a reference.
-Needs reference_needs(const Scene& scene) {
-    bool heat = false;
-    bool bending = false;
-    bool stress = false;
-    for (const auto& norm : norms_of(scene)) {
-        const QuantitySet set = norm.quantities();
-        const auto has = [&](Quantity quantity) { return set[static_cast<std::size_t>(quantity)]; };
-        heat = heat || has(Quantity::theta) || has(Quantity::theta_x);
-        bending = bending || has(Quantity::u) || has(Quantity::u_x) || has(Quantity::u_xx);
-        stress = stress || has(Quantity::stress);
-    }
-    return {.temperature = heat, .deflection = bending || stress, .curvature = bending};
-}
-
 /// The solution at the kept levels. As computed: Θ̃ continuous, w in P1disc, both piecewise linear.
 /// Extrapolated: nodal values, with cubics between them, as linear ones would bring back the error
 /// that was taken away.
 class ReferenceSolution {
 public:
-    ReferenceSolution(const Scene& scene, double final_time, const Execution& execution)
-        : execution_(execution), block_(*scene.reference), needs_(reference_needs(scene)),
-          levels_(kept_levels(block_, scene.ladder ? &*scene.ladder : nullptr,
-                              scene.orders ? &*scene.orders : nullptr)),
-          steps_(levels_.back()), dt_(final_time / static_cast<double>(steps_)) {
+    ReferenceSolution(const ReferenceBlock& block, const std::vector<Series>& measured,
+                      const Needs& needs, const Execution& execution)
+        : execution_(execution), block_(block), needs_(needs),
+          levels_(kept_levels(block_, measured)), steps_(levels_.back()),
+          dt_(longest_time(measured) / static_cast<double>(steps_)) {
         const auto count = static_cast<Index>(levels_.size());
         if (needs_.temperature)
             theta_.setZero(block_.elements + 1, count);
@@ -243,13 +219,18 @@ Amplitudes with_one_more(const ProblemData& data, std::function<double(double t)
 
 } // namespace
 
-ReferenceResult measure_against_reference(const Scene& scene, double final_time, ProblemData& data,
+ReferenceResult measure_against_reference(const Scene& scene, ProblemData& data,
                                           const Execution& execution) {
     const auto start = std::chrono::steady_clock::now();
+    const ReferenceBlock& block = *scene.reference;
+    const auto measured = scene.measured_series();
     ReferenceResult result;
     std::shared_ptr<const ReferenceSolution> reference;
+    ProblemData with_fields = data; // whose fields are not separable: what norms then need
+    with_fields.exact = looked_up(nullptr, block.elements);
+    const Needs needs = ErrorNorms::needs(with_fields, norms_of(scene.measures()));
     try {
-        auto computed = std::make_shared<ReferenceSolution>(scene, final_time, execution);
+        auto computed = std::make_shared<ReferenceSolution>(block, measured, needs, execution);
         result.failure = computed->compute(scene, data);
         reference = std::move(computed);
     } catch (const std::bad_alloc&) {
@@ -259,11 +240,11 @@ ReferenceResult measure_against_reference(const Scene& scene, double final_time,
     result.seconds = elapsed.count();
 
     if (result.failure.empty()) {
-        data.exact = looked_up(reference, scene.reference->elements);
+        data.exact = looked_up(reference, block.elements);
         data.amplitudes =
             with_one_more(data, [reference](double t) { return reference->stress(t); });
     } else {
-        data.exact = looked_up(nullptr, scene.reference->elements);
+        data.exact = looked_up(nullptr, block.elements);
         // A run that cannot be measured ends in its first step, as one that cannot start.
         data.amplitudes = with_one_more(data, [why = result.failure](double) -> double {
             throw std::domain_error("the reference run failed: " + why);
@@ -272,32 +253,6 @@ ReferenceResult measure_against_reference(const Scene& scene, double final_time,
     data.exact->stress = data.amplitude_count;
     ++data.amplitude_count;
     return result;
-}
-
-std::optional<Refinement> reference_widths(const Scene& scene) {
-    if (!scene.reference || scene.reference->richardson)
-        return std::nullopt;
-    return Refinement{.h = 1.0 / static_cast<double>(scene.reference->elements),
-                      .dt = scene.reference->dt};
-}
-
-std::string reference_remark(const Scene& scene, const std::vector<RungResult>& rungs) {
-    if (!scene.reference)
-        return {};
-    std::ostringstream named;
-    std::size_t close = 0;
-    for (const auto& [rung, status, reason, seconds, counters, errors] : rungs)
-        if (scene.reference->is_close_to(rung)) {
-            named << (close > 0 ? ", " : "") << "s = " << rung.elements << " (dt = " << rung.dt
-                  << ")";
-            ++close;
-        }
-    if (close == 0)
-        return {};
-    return (close == 1 ? "The rung " : "The rungs ") + named.str() +
-           (close == 1 ? " has an h or dt" : " have an h or dt") +
-           " within a factor of two of the reference's: what is measured there lacks much of the "
-           "error, and orders that it enters come out too high.";
 }
 
 } // namespace tvbeam

@@ -1,3 +1,14 @@
+#pragma once
+
+#include "core/problem.hpp"
+#include "studies/runs/execution.hpp"
+#include "studies/scene/scene.hpp"
+
+#include <optional>
+#include <string>
+
+namespace tvbeam {
+
 /// A computed solution in place of an exact one.
 ///
 /// A run of the scene's own scheme, on a mesh and with steps that every rung's divide into, is made
@@ -15,40 +26,19 @@
 ///   the ladder says so;
 /// - an extrapolated reference has an error of higher order, which is neglected. It is of that
 ///   order only where the solution is smooth in x and t: not across a change of contact.
-#pragma once
-
-#include "core/problem.hpp"
-#include "studies/orders/observed_order.hpp"
-#include "studies/runs/execution.hpp"
-#include "studies/scene/scene.hpp"
-
-#include <optional>
-#include <string>
-
-namespace tvbeam {
-
-struct RungResult;
-
+///
 /// How the reference of a study came out.
 struct ReferenceResult {
     std::string failure;  ///< why it failed; empty when it did not
     double seconds = 0.0; ///< wall clock of its runs
 };
 
-/// Runs the reference of a scene up to final_time, the longest of the studies that are measured
+/// Runs the reference of a scene up to the longest final time of the studies that are measured
 /// against it, and sets it in place of data.exact: Θ̃, U and their derivatives by evaluation, the
 /// contact stress as one more amplitude. It is known at the levels of their rungs; elsewhere it
 /// throws std::domain_error, by which a run fails. After a reference that failed, every run that is
 /// measured against it fails with the same reason.
-ReferenceResult measure_against_reference(const Scene& scene, double final_time, ProblemData& data,
+ReferenceResult measure_against_reference(const Scene& scene, ProblemData& data,
                                           const Execution& execution = {});
-
-/// h and dt of the reference whose own error counts; none where errors are measured against an
-/// exact or an extrapolated solution.
-std::optional<Refinement> reference_widths(const Scene& scene);
-
-/// A sentence about the rungs too close to the reference for their orders to mean anything; empty
-/// when there are none.
-std::string reference_remark(const Scene& scene, const std::vector<RungResult>& rungs);
 
 } // namespace tvbeam

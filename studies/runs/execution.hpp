@@ -1,14 +1,15 @@
 #pragma once
 
+#include "studies/runs/run.hpp"
+
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace tvbeam {
 
-struct Rung;
-struct RungResult;
-struct Scheme;
 struct StressCase;
 
 /// Told of work as it is done, by several threads at a time.
@@ -29,7 +30,7 @@ class FinishedRuns {
 public:
     virtual ~FinishedRuns() = default;
 
-    /// The result of run `index` of a study (MeasuredRuns::study), if it is there.
+    /// The result of run `index` of a series (Series::study), if it is there.
     virtual std::optional<RungResult> find(const std::string& study, std::size_t index) = 0;
     virtual void add(const std::string& study, std::size_t index, const RungResult& result) = 0;
 
@@ -50,9 +51,20 @@ struct Execution {
             progress->expect(work);
     }
     bool advance(double work) const { return progress == nullptr || progress->advance(work); }
+
+    /// RunTask::advance of a run of so much work.
+    [[nodiscard]] std::function<bool(std::int64_t)> steps_of(const Method& method,
+                                                             const Rung& rung) const;
 };
 
-/// What a run costs, about, in node-steps of implicit Euler by the direct algorithm.
-double work_of(const Scheme& scheme, const Rung& rung);
+/// The result of run `index` of a series that was kept; or else what `run` gives, which is kept
+/// unless it was interrupted. work: of the run.
+RungResult run_or_find(const std::string& study, std::size_t index, const Execution& execution,
+                       double work, const std::function<RungResult()>& run);
+
+/// Makes every run of the series, in up to `execution.jobs` threads; the results stand in the order
+/// of the rungs and do not depend on the number of jobs, but for their seconds.
+std::vector<RungResult> run_series(const Series& series, const RunCall& run,
+                                   const Execution& execution);
 
 } // namespace tvbeam

@@ -12,11 +12,9 @@ namespace {
 double at_least_zero(TableReader& table, std::string_view key) {
     const auto value = table.number(key);
     if (!value)
-        throw InputError(table.place(key),
-                         table.full(key) + " is missing; it must be given and be >= 0");
+        throw table.error(key, " is missing; it must be given and be >= 0");
     if (*value < 0.0)
-        throw InputError(table.place(key),
-                         table.full(key) + " is " + message_text(*value) + "; it must be >= 0");
+        throw table.error(key, " is " + message_text(*value) + "; it must be >= 0");
     return *value;
 }
 
@@ -25,19 +23,15 @@ double read_contact(TableReader table, const Stops& stops) {
     const bool penalty = table.choice("law", {"rigid", "penalty"}).value_or(0) == 1;
     const auto epsilon = table.number("epsilon");
     if (penalty && !stops.exist())
-        throw InputError(table.place("law"), table.full("law") +
-                                                 " is 'penalty', but there are no stops; give "
-                                                 "beam.stops = [g1, g2], or remove it");
+        throw table.error("law", " is 'penalty', but there are no stops; give "
+                                 "beam.stops = [g1, g2], or remove it");
     if (penalty && !(epsilon && *epsilon > 0.0))
-        throw InputError(
-            table.place("epsilon"),
-            table.full("epsilon") +
-                (epsilon ? " is " + message_text(*epsilon) : std::string(" is missing")) +
-                "; it must be > 0, by how much the stop yields to a unit force");
+        throw table.error("epsilon",
+                          (epsilon ? " is " + message_text(*epsilon) : std::string(" is missing")) +
+                              "; it must be > 0, by how much the stop yields to a unit force");
     if (!penalty && epsilon)
-        throw InputError(table.place("epsilon"), table.full("epsilon") +
-                                                     " belongs to law = \"penalty\"; rigid stops "
-                                                     "do not yield: remove it");
+        throw table.error("epsilon", " belongs to law = \"penalty\"; rigid stops "
+                                     "do not yield: remove it");
     table.finish();
     return penalty ? *epsilon : 0.0;
 }
@@ -51,16 +45,14 @@ Beam read_beam(TableReader table) {
     beam.theta_A = table.number("theta_A").value_or(0.0);
     if (const auto stops = table.numbers("stops", TableReader::Infinity::allowed)) {
         if (stops->size() != 2)
-            throw InputError(table.place("stops"), table.full("stops") + " has " +
-                                                       std::to_string(stops->size()) +
-                                                       " values; it must be [g1, g2]");
+            throw table.error("stops", " has " + std::to_string(stops->size()) +
+                                           " values; it must be [g1, g2]");
         beam.stops.lower = (*stops)[0];
         beam.stops.upper = (*stops)[1];
         if (beam.stops.lower >= beam.stops.upper)
-            throw InputError(table.place("stops"), table.full("stops") + " is [" +
-                                                       message_text(beam.stops.lower) + ", " +
-                                                       message_text(beam.stops.upper) +
-                                                       "]; g1 must be below g2: are they swapped?");
+            throw table.error("stops", " is [" + message_text(beam.stops.lower) + ", " +
+                                           message_text(beam.stops.upper) +
+                                           "]; g1 must be below g2: are they swapped?");
         if (!(beam.stops.lower < 0.0))
             throw InputError(table.place("stops", 0), "g1, the first of " + table.full("stops") +
                                                           ", is " + message_text(beam.stops.lower) +
@@ -80,9 +72,9 @@ MeshFamily read_mesh(TableReader table) {
     MeshFamily family;
     if (const auto grading = table.number("grading")) {
         if (!(*grading > 0.0))
-            throw InputError(table.place("grading"),
-                             table.full("grading") + " is " + message_text(*grading) +
-                                 "; it must be > 0: 1 is uniform, 2 has nodes at (j/s)^2");
+            throw table.error("grading",
+                              " is " + message_text(*grading) +
+                                  "; it must be > 0: 1 is uniform, 2 has nodes at (j/s)^2");
         family.grading = *grading;
     }
     if (const auto nodes = table.numbers("nodes")) {
@@ -94,9 +86,7 @@ MeshFamily read_mesh(TableReader table) {
         for (std::size_t i = 1; i < nodes->size(); ++i)
             increasing = increasing && (*nodes)[i - 1] < (*nodes)[i];
         if (!increasing)
-            throw InputError(table.place("nodes"),
-                             table.full("nodes") +
-                                 " must begin with 0, end with 1 and increase between them");
+            throw table.error("nodes", " must begin with 0, end with 1 and increase between them");
         family.nodes = *nodes;
     }
     table.finish();

@@ -9,45 +9,35 @@ namespace tvbeam {
 
 namespace {
 
-/// In the order of ReportFile.
-const std::vector<std::string>& names() {
-    static const std::vector<std::string> all{"json", "csv", "markdown", "latex", "plots", "html"};
-    return all;
-}
-
-ReportFile file_named(const TableReader& table, const std::string& name, std::size_t index) {
-    const auto found = std::find(names().begin(), names().end(), name);
-    if (found != names().end())
-        return static_cast<ReportFile>(found - names().begin());
-    std::string list;
-    for (const auto& known : names())
-        list += (list.empty() ? "'" : ", '") + known + "'";
-    throw InputError(table.place("files", index), table.full("files") + " names '" + name +
-                                                      "'; known are " + list +
-                                                      did_you_mean(name, names()));
+bool contains(const std::vector<std::string>& names, const std::string& name) {
+    return std::find(names.begin(), names.end(), name) != names.end();
 }
 
 } // namespace
 
-bool ReportBlock::wants(ReportFile file) const {
-    return std::find(files.begin(), files.end(), file) != files.end();
+bool ReportBlock::wants(const std::string& file) const {
+    return files.empty() || contains(files, file);
 }
 
-ReportBlock read_report(TableReader table) {
+ReportBlock read_report(TableReader table, const std::vector<std::string>& known) {
     ReportBlock report;
     if (const auto wanted = table.texts("files")) {
-        report.files.clear();
         for (std::size_t i = 0; i < wanted->size(); ++i) {
-            const ReportFile file = file_named(table, (*wanted)[i], i);
-            if (report.wants(file))
-                throw InputError(table.place("files", i), table.full("files") + " names '" +
-                                                              (*wanted)[i] + "' twice; remove one");
-            report.files.push_back(file);
+            const std::string& name = (*wanted)[i];
+            std::string list;
+            for (const auto& one : known)
+                list += (list.empty() ? "'" : ", '") + one + "'";
+            if (!known.empty() && !contains(known, name))
+                throw table.error(
+                    "files", " names '" + name + "'; known are " + list + did_you_mean(name, known),
+                    i);
+            if (contains(report.files, name))
+                throw table.error("files", " names '" + name + "' twice; remove one", i);
+            report.files.push_back(name);
         }
         if (report.files.empty())
-            throw InputError(table.place("files"),
-                             table.full("files") + " is empty; name what --out is to write, e.g. "
-                                                   "[\"html\"], or leave it out for all");
+            throw table.error("files", " is empty; name what --out is to write, e.g. "
+                                       "[\"html\"], or leave it out for all");
     }
     table.finish();
     return report;

@@ -7,23 +7,18 @@ namespace tvbeam {
 
 class TableReader;
 
-/// A kind of file that a result can be written to.
-enum class ReportFile { json, csv, markdown, latex, plots, html };
-
-/// The block [report]: what `tvbeam run --out` writes. Without it, every kind.
+/// The block [report]: what `tvbeam run --out` writes.
 struct ReportBlock {
-    std::vector<ReportFile> files{ReportFile::json,  ReportFile::csv,   ReportFile::markdown,
-                                  ReportFile::latex, ReportFile::plots, ReportFile::html};
+    std::vector<std::string> files; ///< kinds of files by name; empty: every kind
 
-    [[nodiscard]] bool wants(ReportFile file) const;
+    [[nodiscard]] bool wants(const std::string& file) const;
 };
 
 /// Reads the block:
 ///
-///     files    of "json", "csv", "markdown", "latex", "plots", "html", at least one, none twice;
-///              absent: all of them
+///     files    e.g. ["json", "html"], at least one, none twice; absent: all of them
 ///
-/// Throws InputError.
-ReportBlock read_report(TableReader table);
+/// known: the kinds there are; empty: whatever it names is taken. Throws InputError.
+ReportBlock read_report(TableReader table, const std::vector<std::string>& known);
 
 } // namespace tvbeam

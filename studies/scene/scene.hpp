@@ -1,47 +1,20 @@
 #pragma once
 
-#include "core/norms/norms.hpp"
 #include "core/problem.hpp"
 #include "core/scheme.hpp"
 #include "core/space/mesh.hpp"
 #include "mms/given_problem.hpp"
 #include "mms/solution.hpp"
-#include "studies/evolution/evolution_block.hpp"
-#include "studies/gates/expectation.hpp"
 #include "studies/reference/reference_block.hpp"
 #include "studies/scene/report_block.hpp"
-#include "studies/scene/study_keys.hpp"
-#include "studies/stress/stress_block.hpp"
-#include "studies/work_precision/work_precision_block.hpp"
+#include "studies/study_kind.hpp"
 
-#include <map>
 #include <optional>
 #include <string>
 #include <variant>
 #include <vector>
 
 namespace tvbeam {
-
-/// Figures to compare with, a list of one figure a rung for each norm.
-struct PrintedFigures {
-    std::string source; ///< where they were printed
-    std::map<std::string, std::vector<double>> figures;
-};
-
-/// The block [ladder]: the same problem on a sequence of meshes and steps.
-struct LadderBlock {
-    double final_time = 0.0;
-    std::vector<Rung> rungs;
-    std::vector<Norm> norms;
-    std::optional<PrintedFigures> printed;
-};
-
-/// The block [orders]: a grid of runs, every mesh with every step.
-struct OrdersBlock {
-    double final_time = 0.0;
-    std::vector<Rung> grid;  ///< elements change fastest
-    std::vector<Norm> norms; ///< none is a square, but for `corollary`
-};
 
 /// What to run. A study runs if its block is there.
 struct Scene {
@@ -52,11 +25,7 @@ struct Scene {
     MeshFamily mesh;
     std::variant<Solution, GivenData> problem;
     Scheme scheme;
-    std::optional<LadderBlock> ladder;
-    std::optional<OrdersBlock> orders;
-    std::optional<WorkPrecisionBlock> work_precision;
-    std::optional<EvolutionBlock> evolution;
-    std::optional<StressBlock> stress;       ///< brings its own beams, schemes and problems
+    ByKind blocks;                           ///< of the studies that it has
     std::optional<ReferenceBlock> reference; ///< then errors are measured against it
     std::vector<Expectation> expectations;   ///< empty unless they were asked for
     ReportBlock report;                      ///< what --out writes
@@ -67,16 +36,28 @@ struct Scene {
     [[nodiscard]] bool has_exact_solution() const {
         return std::holds_alternative<Solution>(problem);
     }
-    /// Of all studies that want errors; a study's own squares included.
-    [[nodiscard]] std::vector<Norm> norms() const;
-
-    /// Whether a study runs the scene's own problem; [stress] brings its own.
-    [[nodiscard]] bool poses_problem() const {
-        return ladder || orders || work_precision || evolution;
+    /// The block of a study, e.g. get<LadderBlock>(); null where the scene has none.
+    template <typename Block>
+    [[nodiscard]] const Block* get() const {
+        return blocks.get<Block>();
+    }
+    template <typename Block>
+    [[nodiscard]] Block* get() {
+        return blocks.get<Block>();
     }
 
+    /// All runs of the scene's own problem that its studies ask for; and those that are measured.
+    [[nodiscard]] std::vector<Series> series() const;
+    [[nodiscard]] std::vector<Series> measured_series() const;
+
+    /// What is measured, study by study.
+    [[nodiscard]] std::vector<Measure> measures() const;
+
+    /// Whether a study runs the scene's own problem; [stress] brings its own.
+    [[nodiscard]] bool poses_problem() const;
+
     /// To which a study of the scene's own problem runs; 0 without one.
-    [[nodiscard]] double longest_time() const;
+    [[nodiscard]] double longest_time() const { return tvbeam::longest_time(series()); }
 };
 
 /// How a scene is read.
@@ -84,6 +65,8 @@ struct Reading {
     bool short_form = false; ///< with the block [short], whose keys replace those of the same path
     bool expectations = false; ///< with the block [expect]; otherwise it is passed over
     bool own_problem = false;  ///< without solution and [data]: the caller has the problem
+    /// Kinds of files that [report] may name; empty: any.
+    std::vector<std::string> report_files = {};
 };
 
 /// Reads a scene: a shipped name or a file, with overrides `key=value` applied in order. Everything
@@ -97,10 +80,11 @@ ProblemData problem_of(const Scene& scene, double final_time);
 
 /// Refuses, for a scene that is run on a problem of the caller's, what a reader would have refused:
 /// throws InputError where norms ask for errors and there is no exact solution, and where the steps
-/// of a rung do not fill the final time.
+/// of a run do not fill its final time.
 void require_runnable(const Scene& scene, const ProblemData& data);
 
-/// What the scene does without, in words, e.g. "contact: the scene has no stops".
-std::vector<std::string> left_out(const Scene& scene, const ProblemData& data);
+/// What the scene does without, in words, e.g. "contact: the scene has no stops". The problem of
+/// the context is the one that is measured.
+std::vector<std::string> left_out(const StudyContext& context);
 
 } // namespace tvbeam

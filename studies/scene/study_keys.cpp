@@ -20,18 +20,35 @@ std::vector<double> read_dt(TableReader& table, const std::vector<std::int64_t>&
             dt.push_back(number_from_expression(formula, {{"s", static_cast<double>(s)}}));
     } else if (const auto list = table.numbers("dt")) {
         if (list->size() != elements.size())
-            throw InputError(table.place("dt"),
-                             table.full("dt") + " has " + std::to_string(list->size()) +
-                                 " values, " + table.full("elements") + " has " +
-                                 std::to_string(elements.size()) +
-                                 "; give one dt a rung, or one expression in s, e.g. \"0.01/s\"");
+            throw table.error(
+                "dt", " has " + std::to_string(list->size()) + " values, " +
+                          table.full("elements") + " has " + std::to_string(elements.size()) +
+                          "; give one dt a rung, or one expression in s, e.g. \"0.01/s\"");
         dt = *list;
     } else {
-        throw InputError(table.place("dt"), table.full("dt") +
-                                                " is missing; give one dt a rung, or one "
-                                                "expression in s, e.g. \"0.01/s\"");
+        throw table.error("dt", " is missing; give one dt a rung, or one "
+                                "expression in s, e.g. \"0.01/s\"");
     }
     return dt;
+}
+
+const Measure* named(const std::vector<Measure>& measures, const std::string& name) {
+    const auto found = std::find_if(measures.begin(), measures.end(),
+                                    [&](const Measure& measure) { return measure.name == name; });
+    return found == measures.end() ? nullptr : &*found;
+}
+
+std::string unknown_norm(const std::string& name, const SolverKeys& keys) {
+    std::vector<std::string> roots;
+    std::string list;
+    for (const auto& measure : keys.measures)
+        if (measure.name == measure.root()) {
+            roots.push_back(measure.name);
+            list += (list.empty() ? "" : ", ") + measure.name;
+        }
+    const bool squares = roots.size() < keys.measures.size();
+    return "unknown norm '" + name + "'" + did_you_mean(name, roots) + "; known: " + list +
+           (squares ? ", and their squares with _sq behind the name" : "");
 }
 
 } // namespace
@@ -39,31 +56,25 @@ std::vector<double> read_dt(TableReader& table, const std::vector<std::int64_t>&
 double read_final_time(TableReader& table) {
     const auto final_time = table.number("final_time");
     if (!final_time)
-        throw InputError(table.place("final_time"),
-                         table.full("final_time") +
-                             " is missing; give the time at which the run ends");
+        throw table.error("final_time", " is missing; give the time at which the run ends");
     if (!(*final_time > 0.0))
-        throw InputError(table.place("final_time"), table.full("final_time") + " is " +
-                                                        message_text(*final_time) +
-                                                        "; it must be > 0");
+        throw table.error("final_time", " is " + message_text(*final_time) + "; it must be > 0");
     return *final_time;
 }
 
 std::vector<std::int64_t> read_elements(TableReader& table) {
     const auto elements = table.integers("elements");
     if (!elements)
-        throw InputError(table.place("elements"),
-                         table.full("elements") +
-                             " is missing; give the numbers of elements, e.g. [10, 20, 40]");
+        throw table.error("elements",
+                          " is missing; give the numbers of elements, e.g. [10, 20, 40]");
     if (elements->empty())
-        throw InputError(table.place("elements"),
-                         table.full("elements") + " is empty; it must hold a number of elements");
+        throw table.error("elements", " is empty; it must hold a number of elements");
     for (std::size_t i = 0; i < elements->size(); ++i)
         if ((*elements)[i] < 1 || (*elements)[i] > most_elements)
-            throw InputError(table.place("elements", i),
-                             table.full("elements") + " holds " + std::to_string((*elements)[i]) +
-                                 "; a mesh has 1 to " + std::to_string(most_elements) +
-                                 " elements");
+            throw table.error("elements",
+                              " holds " + std::to_string((*elements)[i]) + "; a mesh has 1 to " +
+                                  std::to_string(most_elements) + " elements",
+                              i);
     return *elements;
 }
 
@@ -99,28 +110,32 @@ std::vector<Rung> read_rungs(TableReader& table, double final_time) {
     return rungs;
 }
 
-std::vector<Norm> read_norms(TableReader& table) {
-    std::vector<Norm> norms;
+std::vector<Measure> read_norms(TableReader& table, const SolverKeys& keys) {
+    std::vector<Measure> measures;
     const auto names = table.texts("norms").value_or(std::vector<std::string>{});
     for (std::size_t i = 0; i < names.size(); ++i) {
-        const auto norm = Norm::named(names[i]);
-        if (!norm) {
-            std::vector<std::string> known = Norm::names();
-            std::string list;
-            for (const auto& name : known)
-                list += (list.empty() ? "" : ", ") + name;
-            throw InputError(table.place("norms", i),
-                             "unknown norm '" + names[i] + "'" + did_you_mean(names[i], known) +
-                                 "; known: " + list +
-                                 ", and their squares with _sq behind the name");
-        }
-        if (std::any_of(norms.begin(), norms.end(),
-                        [&](const Norm& other) { return other.name == norm->name; }))
-            throw InputError(table.place("norms", i),
-                             table.full("norms") + " names '" + names[i] + "' twice; remove one");
-        norms.push_back(*norm);
+        const Measure* measure = named(keys.measures, names[i]);
+        if (measure == nullptr)
+            throw InputError(table.place("norms", i), unknown_norm(names[i], keys));
+        if (named(measures, names[i]) != nullptr)
+            throw table.error("norms", " names '" + names[i] + "' twice; remove one", i);
+        measures.push_back(*measure);
     }
-    return norms;
+    return measures;
+}
+
+std::map<std::string, std::vector<double>> read_by_measure(
+    TableReader& table, const SolverKeys& keys, const std::vector<Measure>& wanted,
+    const std::function<void(const std::string& name, const std::vector<double>&)>& check) {
+    std::map<std::string, std::vector<double>> lists;
+    for (const auto& measure : keys.measures)
+        if (const auto list = table.numbers(measure.name)) {
+            check(measure.name, *list);
+            if (named(wanted, measure.name) != nullptr)
+                lists[measure.name] = *list;
+        }
+    table.finish();
+    return lists;
 }
 
 } // namespace tvbeam

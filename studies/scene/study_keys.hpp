@@ -1,21 +1,24 @@
 #pragma once
 
-#include "core/norms/norms.hpp"
+#include "studies/runs/run.hpp"
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <map>
+#include <string>
 #include <vector>
 
 namespace tvbeam {
 
 class TableReader;
 
-/// One run of a study: s elements, h = 1/s, and N steps of length dt. On a mesh that is not uniform
-/// h is the mean length, to which those of a family of meshes are in proportion.
-struct Rung {
-    std::int64_t elements = 0;
-    std::int64_t steps = 0;
-    double dt = 0.0; ///< as the scene gives it; steps · dt = final_time to rounding
+/// What the blocks of studies may name: the measures and methods of the solver under study.
+struct SolverKeys {
+    std::vector<Measure> measures; ///< all, squares behind the norms themselves
+    /// Reads the keys of a method from a table that may hold others; what is absent is as in the
+    /// scene's own.
+    std::function<Method(TableReader&)> read_method;
 };
 
 /// What a run may have.
@@ -31,7 +34,7 @@ double read_final_time(TableReader& table);
 /// elements: a list that is not empty, each from 1 to most_elements.
 std::vector<std::int64_t> read_elements(TableReader& table);
 
-/// The number of steps of length dt in final_time; they must fill it to 1e-9 of a step. index: of
+/// The number of steps of length dt in final_time; they must fill it to 1e-9 of itself. index: of
 /// dt in its list, for the place of a message.
 std::int64_t steps_of(const TableReader& table, std::size_t index, double final_time, double dt);
 
@@ -40,6 +43,13 @@ std::int64_t steps_of(const TableReader& table, std::size_t index, double final_
 std::vector<Rung> read_rungs(TableReader& table, double final_time);
 
 /// norms: known names, none twice; may be absent.
-std::vector<Norm> read_norms(TableReader& table);
+std::vector<Measure> read_norms(TableReader& table, const SolverKeys& keys);
+
+/// A list of numbers for each measure that the table names. Lists may stand there for measures that
+/// are not wanted, e.g. after --set ladder.norms=…; `check` is told of every list, and those of the
+/// others are dropped.
+std::map<std::string, std::vector<double>> read_by_measure(
+    TableReader& table, const SolverKeys& keys, const std::vector<Measure>& wanted,
+    const std::function<void(const std::string& name, const std::vector<double>&)>& check);
 
 } // namespace tvbeam

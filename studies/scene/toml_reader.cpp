@@ -192,6 +192,15 @@ Place TableReader::place(std::string_view key, std::size_t element) const {
     return place(key);
 }
 
+InputError TableReader::error(std::string_view key, const std::string& text) const {
+    return {place(key), full(key) + text};
+}
+
+InputError TableReader::error(std::string_view key, const std::string& text,
+                              std::size_t element) const {
+    return {place(key, element), full(key) + text};
+}
+
 InputError TableReader::wrong_type(std::string_view key, const toml::node& node,
                                    const std::string& wanted) const {
     return {place(key), full(key) + " is " + type_name(node) + "; it must be " + wanted};

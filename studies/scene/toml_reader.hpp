@@ -84,6 +84,11 @@ public:
     /// The key with the path of its table: beam.zeta.
     [[nodiscard]] std::string full(std::string_view key) const;
 
+    /// What is wrong with a key's value, or its element: "full(key)text", at its place.
+    [[nodiscard]] InputError error(std::string_view key, const std::string& text) const;
+    [[nodiscard]] InputError error(std::string_view key, const std::string& text,
+                                   std::size_t element) const;
+
     /// Refuses keys that no reader asked for, naming the nearest that one did.
     void finish() const;
 

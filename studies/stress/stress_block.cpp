@@ -83,13 +83,14 @@ std::vector<double> numbers(TableReader& table, const char* key, double otherwis
                             TableReader::Infinity infinity = TableReader::Infinity::refused) {
     auto values = table.numbers(key, infinity).value_or(std::vector<double>{otherwise});
     if (values.empty())
-        throw InputError(table.place(key), table.full(key) + " is empty; it must hold a value");
+        throw table.error(key, " is empty; it must hold a value");
     for (std::size_t i = 0; i < values.size(); ++i)
         if (!(positive ? values[i] > 0.0 : values[i] >= 0.0))
-            throw InputError(
-                table.place(key, i),
-                table.full(key) + " holds " + message_text(values[i]) +
-                    (positive ? "; its values must be > 0" : "; its values must be >= 0"));
+            throw table.error(
+                key,
+                " holds " + message_text(values[i]) +
+                    (positive ? "; its values must be > 0" : "; its values must be >= 0"),
+                i);
     return values;
 }
 
@@ -101,8 +102,8 @@ std::int64_t count(TableReader& table, const char* key, std::int64_t otherwise,
                    std::int64_t greatest) {
     const std::int64_t value = table.integer(key).value_or(otherwise);
     if (value < 1 || value > greatest)
-        throw InputError(table.place(key), table.full(key) + " is " + std::to_string(value) +
-                                               "; it must be 1 to " + std::to_string(greatest));
+        throw table.error(key, " is " + std::to_string(value) + "; it must be 1 to " +
+                                   std::to_string(greatest));
     return value;
 }
 
@@ -114,14 +115,12 @@ std::vector<std::size_t> words(TableReader& table, const char* key,
     for (const auto& choice : choices)
         known += (known.empty() ? "'" : ", '") + choice + "'";
     if (given.empty())
-        throw InputError(table.place(key),
-                         table.full(key) + " is empty; it must hold some of " + known);
+        throw table.error(key, " is empty; it must hold some of " + known);
     std::vector<std::size_t> indices;
     for (std::size_t i = 0; i < given.size(); ++i) {
         const auto found = std::find(choices.begin(), choices.end(), given[i]);
         if (found == choices.end())
-            throw InputError(table.place(key, i), table.full(key) + " holds '" + given[i] +
-                                                      "'; its values must be of " + known);
+            throw table.error(key, " holds '" + given[i] + "'; its values must be of " + known, i);
         indices.push_back(static_cast<std::size_t>(found - choices.begin()));
     }
     return indices;
@@ -184,8 +183,7 @@ StressSweep read_sweep(TableReader table, const std::string& name) {
     const std::int64_t work = count(table, "work", 2'000'000, most_work);
     const std::int64_t points = count(table, "points", 100, most_cases);
     if (sampling != 2 && table.has("points"))
-        throw InputError(table.place("points"),
-                         table.full("points") + " belongs to sampling = \"sobol\"; remove it");
+        throw table.error("points", " belongs to sampling = \"sobol\"; remove it");
     double all = 1.0;
     for (const auto& axis : axes)
         all *= static_cast<double>(axis.values);
@@ -214,9 +212,8 @@ StressSweep read_sweep(TableReader table, const std::string& name) {
 double single(TableReader& table, const char* key, double otherwise, bool positive) {
     const double value = table.number(key).value_or(otherwise);
     if (!(positive ? value > 0.0 : value >= 0.0))
-        throw InputError(table.place(key),
-                         table.full(key) + " is " + message_text(value) +
-                             (positive ? "; it must be > 0" : "; it must be >= 0"));
+        throw table.error(key, " is " + message_text(value) +
+                                   (positive ? "; it must be > 0" : "; it must be >= 0"));
     return value;
 }
 
@@ -224,8 +221,7 @@ double single(TableReader& table, const char* key, double otherwise, bool positi
 std::vector<double> geometric(TableReader& table, const char* key) {
     auto range = table.table(key);
     if (!range)
-        throw InputError(table.place(key),
-                         table.full(key) + " is missing; give { from = …, to = …, count = … }");
+        throw table.error(key, " is missing; give { from = …, to = …, count = … }");
     const double from = single(*range, "from", 0.0, true);
     const double to = single(*range, "to", 0.0, true);
     const auto points = count(*range, "count", 20, 1000);
@@ -277,7 +273,7 @@ RoundOffBlock read_roundoff(TableReader table) {
 
 } // namespace
 
-StressBlock read_stress(TableReader table) {
+StressBlock read_stress(TableReader& table) {
     StressBlock block;
     if (auto sweeps = table.table("sweep")) {
         for (const auto& name : sweeps->keys())

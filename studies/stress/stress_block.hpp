@@ -80,6 +80,6 @@ struct StressBlock {
 /// is gone through), "product", or "sobol" with the number of `points`. `steps` is the number of
 /// steps of a case and `work` bounds steps × elements; a case has two steps at least.
 /// Throws InputError.
-StressBlock read_stress(TableReader table);
+StressBlock read_stress(TableReader& table);
 
 } // namespace tvbeam

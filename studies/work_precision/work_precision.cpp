@@ -19,6 +19,10 @@ constexpr double least_share = 0.9;
 constexpr int first_decade = 2; // 1e-2
 constexpr int last_decade = 9;
 
+std::string study_of(const TimedScheme& scheme) {
+    return "work_precision." + scheme.name;
+}
+
 /// One rung of one scheme, and its timed runs so far.
 struct Contestant {
     std::size_t scheme;
@@ -29,10 +33,9 @@ struct Contestant {
 
 class Race {
 public:
-    Race(const Scene& scene, const WorkPrecisionBlock& block, const ProblemData& data,
-         const Execution& execution, double one_run_above)
-        : scene_(scene), block_(block), data_(data), execution_(execution),
-          one_run_above_(one_run_above) {}
+    Race(const WorkPrecisionBlock& block, const RunCall& run, const Execution& execution,
+         double one_run_above)
+        : block_(block), run_(run), execution_(execution), one_run_above_(one_run_above) {}
 
     [[nodiscard]] bool interrupted() const { return interrupted_; }
 
@@ -51,26 +54,27 @@ public:
     }
 
 private:
-    RungResult run(std::size_t scheme, const Rung& rung, const std::vector<Norm>& norms) {
-        RungResult result = run_rung(scene_, block_.schemes[scheme].scheme, norms,
-                                     block_.final_time, rung, data_, execution_);
-        interrupted_ = interrupted_ || result.status == RunStatus::interrupted;
+    RungResult run(std::size_t scheme, const Rung& rung, const std::vector<Measure>& norms) {
+        const Method& method = block_.schemes[scheme].method;
+        RungResult result =
+            run_({rung, block_.final_time, method, norms, execution_.steps_of(method, rung)});
+        interrupted_ = interrupted_ || result.status == RungStatus::interrupted;
         return result;
     }
 
     void enter(std::size_t scheme) {
         SchemeRuns& runs = result_.emplace_back();
         for (const auto& rung : block_.schemes[scheme].rungs) {
-            runs.runs.push_back(run_or_find("work_precision." + block_.schemes[scheme].name,
-                                            runs.runs.size(), execution_,
-                                            work_of(block_.schemes[scheme].scheme, rung),
+            runs.runs.push_back(run_or_find(study_of(block_.schemes[scheme]), runs.runs.size(),
+                                            execution_,
+                                            work_of(block_.schemes[scheme].method, rung),
                                             [&] { return run(scheme, rung, block_.norms); }));
             runs.timings.emplace_back();
             RungResult& measured = runs.runs.back();
-            if (measured.status != RunStatus::ok)
+            if (measured.status != RungStatus::ok)
                 continue;
             const RungResult warm_up = run(scheme, rung, {});
-            if (warm_up.status != RunStatus::ok)
+            if (warm_up.status != RungStatus::ok)
                 continue;
             measured.counters = warm_up.counters;
             contestants_.push_back({scheme, runs.runs.size() - 1, warm_up.seconds, {}});
@@ -82,13 +86,12 @@ private:
         if (contestant.warm_up < quick)
             run(contestant.scheme, rung, {});
         const RungResult timed = run(contestant.scheme, rung, {});
-        if (timed.status == RunStatus::ok)
+        if (timed.status == RungStatus::ok)
             contestant.seconds.push_back(timed.seconds);
     }
 
-    const Scene& scene_;
     const WorkPrecisionBlock& block_;
-    const ProblemData& data_;
+    const RunCall& run_;
     const Execution& execution_;
     double one_run_above_;
     bool interrupted_ = false;
@@ -175,6 +178,14 @@ void add_rises(std::vector<std::string>& remarks, const std::string& norm,
 
 } // namespace
 
+std::vector<Series> series_of(const WorkPrecisionBlock& block) {
+    std::vector<Series> all;
+    for (const auto& scheme : block.schemes)
+        all.push_back(
+            {study_of(scheme), block.final_time, scheme.method, block.norms, scheme.rungs});
+    return all;
+}
+
 std::string busy_remark(double processor_seconds, double wall_clock_seconds) {
     const double share = processor_seconds / wall_clock_seconds;
     if (share >= least_share)
@@ -189,13 +200,12 @@ std::uint64_t node_steps(const Rung& rung) {
     return static_cast<std::uint64_t>(rung.elements) * static_cast<std::uint64_t>(rung.steps);
 }
 
-WorkPrecisionResult run_work_precision(const Scene& scene, const WorkPrecisionBlock& block,
-                                       const ProblemData& data, const Execution& execution,
-                                       double one_run_above) {
+WorkPrecisionResult run_work_precision(const WorkPrecisionBlock& block, const RunCall& run,
+                                       const Execution& execution, double one_run_above) {
     WorkPrecisionResult result;
     const std::clock_t processor = std::clock();
     const auto start = std::chrono::steady_clock::now();
-    Race race(scene, block, data, execution, one_run_above);
+    Race race(block, run, execution, one_run_above);
     result.schemes = race.take();
     result.interrupted = race.interrupted();
     const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;

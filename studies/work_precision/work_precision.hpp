@@ -1,8 +1,8 @@
 #pragma once
 
-#include "studies/runs/rung.hpp"
-#include "studies/scene/scene.hpp"
+#include "studies/runs/execution.hpp"
 #include "studies/work_precision/timing.hpp"
+#include "studies/work_precision/work_precision_block.hpp"
 
 #include <optional>
 #include <string>
@@ -35,7 +35,7 @@ struct ReachedError {
 
 /// One norm over all schemes.
 struct NormCosts {
-    Norm norm;
+    Measure norm;
     /// From large to small: 1e-2 … 1e-9 and on to the smallest error measured, and the targets.
     std::vector<ReachedError> errors;
     std::vector<std::string> remarks; ///< errors that rise along a ladder, in sentences
@@ -48,6 +48,9 @@ struct WorkPrecisionResult {
     std::string busy_remark;         ///< see busy_remark
     bool interrupted = false;        ///< runs are missing, timed ones perhaps
 };
+
+/// The runs that the block asks for, a series a scheme.
+std::vector<Series> series_of(const WorkPrecisionBlock& block);
 
 /// A sentence where the runs had less than nine tenths of a core: a run that is shorter than the
 /// turn that the system gives a program is then timed right, a longer one with the turns of others,
@@ -62,9 +65,8 @@ std::uint64_t node_steps(const Rung& rung);
 /// all rungs take turns, so that a machine that is busy for a while slows all alike, and nothing
 /// runs beside them, whatever execution.jobs says. Errors are kept as run_or_find does; times are
 /// not.
-WorkPrecisionResult run_work_precision(const Scene& scene, const WorkPrecisionBlock& block,
-                                       const ProblemData& data, const Execution& execution = {},
-                                       double one_run_above = 2.0);
+WorkPrecisionResult run_work_precision(const WorkPrecisionBlock& block, const RunCall& run,
+                                       const Execution& execution = {}, double one_run_above = 2.0);
 
 /// What the rows say, for every norm of the block.
 std::vector<NormCosts> costs_of(const WorkPrecisionBlock& block,

@@ -1,7 +1,5 @@
 #pragma once
 
-#include "core/norms/norms.hpp"
-#include "core/scheme.hpp"
 #include "studies/scene/study_keys.hpp"
 
 #include <map>
@@ -15,15 +13,15 @@ class TableReader;
 /// One scheme of the block, on a ladder of its own.
 struct TimedScheme {
     std::string name; ///< no other scheme of the block has it
-    Scheme scheme;
+    Method method;
     std::vector<Rung> rungs;
 };
 
 /// The block [work_precision]: errors of several schemes against the time of their runs.
 struct WorkPrecisionBlock {
     double final_time = 0.0;
-    std::vector<Norm> norms; ///< at least one
-    int runs = 20;           ///< timed ones of each rung
+    std::vector<Measure> norms; ///< at least one
+    int runs = 20;              ///< timed ones of each rung
     /// By norm: errors that the schemes are compared at, besides powers of ten.
     std::map<std::string, std::vector<double>> targets;
     std::vector<TimedScheme> schemes; ///< at least one
@@ -36,11 +34,11 @@ struct WorkPrecisionBlock {
 ///     [work_precision.targets]
 ///     NORM                    errors to reach, e.g. those of a table's last row
 ///     [[work_precision.scheme]]
-///     name                    default: from the scheme, e.g. "bdf2, direct, lumped"
-///     algorithm, time, …      as in [scheme]; what is absent is as in `scheme`
+///     name                    default: the method's, e.g. "bdf2, direct, lumped"
+///     algorithm, time, …      as in [scheme]; what is absent is as there
 ///     elements, dt            as in [ladder]
 ///
 /// Throws InputError where a value is missing or breaks its rule.
-WorkPrecisionBlock read_work_precision(TableReader table, const Scheme& scheme);
+WorkPrecisionBlock read_work_precision(TableReader& table, const SolverKeys& keys);
 
 } // namespace tvbeam

@@ -27,7 +27,7 @@ int main() {
     const auto scene =
         tvbeam::read_scene("spreading_heat.toml", {}, {.expectations = true, .own_problem = true});
     const SpreadingHeat solution{.g2 = scene.beam.stops.upper};
-    const auto problem = tvbeam::autodiff_problem(solution, scene.beam, scene.ladder->final_time);
+    const auto problem = tvbeam::autodiff_problem(solution, scene.beam, scene.longest_time());
     bool holds = true;
     for (const auto& one : tvbeam::check(tvbeam::run_study(scene, problem))) {
         std::cout << one.what << ": " << one.found << ", expected " << one.expected << '\n';

@@ -21,8 +21,7 @@ const Rung rung{.elements = 10, .steps = 30, .dt = 1.0 / 30.0};
 
 RungResult run() {
     RungResult result{.rung = rung, .seconds = 0.1};
-    result.counters.steps = 30;
-    result.counters.sine_steps = 30;
+    result.counters = {{"steps", 30}, {"sine_steps", 30}, {"heat_solves", 60}};
     result.errors = {1.0 / 3.0, std::numeric_limits<double>::denorm_min()};
     return result;
 }
@@ -66,13 +65,13 @@ BOOST_AUTO_TEST_CASE(a_run_comes_back_bit_for_bit) {
     BOOST_TEST(after.errors == before.errors, boost::test_tools::per_element());
     BOOST_TEST(after.seconds == before.seconds);
     BOOST_TEST(after.rung.dt == before.rung.dt);
-    BOOST_TEST(after.counters.sine_steps == 30);
+    BOOST_TEST(after.count("sine_steps") == 30);
     RungResult failed = run();
-    failed.status = RunStatus::failed;
+    failed.status = RungStatus::failed;
     failed.reason = "not finite";
     failed.errors.clear();
     const RungResult again = kept_run(Json::parse(kept(failed).dump()), rung, 2);
-    BOOST_TEST((again.status == RunStatus::failed));
+    BOOST_TEST((again.status == RungStatus::failed));
     BOOST_TEST(again.reason == "not finite");
 }
 
@@ -93,12 +92,12 @@ BOOST_AUTO_TEST_CASE(a_run_that_the_scene_does_not_give_is_refused) {
              {"/reason", 5, "reason is not a text"},
              {"/seconds", -1.0, "seconds are not a time"},
              {"/seconds", "inf", "seconds are not a time"},
-             {"/counters", Json::array(), "counters are not as many as there are"},
-             {"/counters/3", 1e300, no_counter},
-             {"/counters/3", -1, no_counter},
-             {"/counters/3", std::numeric_limits<std::uint64_t>::max(), no_counter},
-             {"/counters/0", 31, too_many},
-             {"/counters/1", 31, too_many},
+             {"/counters", Json::array(), "counters have no names"},
+             {"/counters/heat_solves", 1e300, no_counter},
+             {"/counters/heat_solves", -1, no_counter},
+             {"/counters/heat_solves", std::numeric_limits<std::uint64_t>::max(), no_counter},
+             {"/counters/steps", 31, too_many},
+             {"/counters/sine_steps", 31, too_many},
              {"/errors", Json::array(), not_one_a_norm},
              {"/errors", {1.0, 2.0, 3.0}, not_one_a_norm},
              {"/errors", 1.0, not_one_a_norm},

@@ -1,11 +1,14 @@
 // What the figures show: the numbers in their data, and what is chosen to be shown.
 
 #include "core/contraction.hpp"
-#include "reports/document/number_text.hpp"
 #include "reports/formats/html_report.hpp"
 #include "reports/plots/plot.hpp"
 #include "reports/plots/plot_style.hpp"
+#include "studies/grid/grid.hpp"
+#include "studies/ladder/ladder.hpp"
+#include "studies/stress/stress.hpp"
 #include "studies/study.hpp"
+#include "studies/text/number_text.hpp"
 
 #include <boost/test/unit_test.hpp>
 
@@ -59,7 +62,7 @@ const StudyResult& paper() {
 template <typename Error>
 StudyResult made_up(const Error& error) {
     StudyResult result = paper();
-    auto& ladder = *result.ladder;
+    auto& ladder = *result.get<LadderResult>();
     for (std::size_t k = 0; k < ladder.norms.size(); ++k)
         for (auto& rung : ladder.rungs)
             rung.errors[k] = error(1.0 / static_cast<double>(rung.rung.elements), k);
@@ -87,14 +90,15 @@ BOOST_AUTO_TEST_CASE(the_points_of_a_convergence_figure_are_the_errors_and_the_p
     const auto plots = convergence_plots(paper());
     BOOST_REQUIRE(plots.size() == 1u);
     const auto blocks = blocks_of(plots[0]);
-    const auto& rungs = paper().ladder->rungs;
+    const auto& rungs = paper().get<LadderResult>()->rungs;
     const Rows& rows = block(blocks, "theta_L2L2_sq: h, dt, error");
     BOOST_REQUIRE(rows.size() == rungs.size());
     for (std::size_t i = 0; i < rows.size(); ++i) {
         BOOST_TEST(rows[i][0] == 1.0 / static_cast<double>(rungs[i].rung.elements));
         BOOST_TEST(rows[i][1] == rungs[i].rung.dt);
         BOOST_TEST(rows[i][2] == rungs[i].errors[0]);
-        BOOST_TEST(rows[i][3] == paper().scene.ladder->printed->figures.at("theta_L2L2_sq").at(i));
+        BOOST_TEST(rows[i][3] ==
+                   paper().scene.get<LadderBlock>()->printed->figures.at("theta_L2L2_sq").at(i));
     }
     BOOST_TEST(has(plots[0].script, "(and Δt = 0.01 h with it)"), plots[0].script);
     BOOST_TEST(has(plots[0].script, "printed in Table 1"));
@@ -144,7 +148,7 @@ BOOST_AUTO_TEST_CASE(
     const auto plots = error_surface_plots(paper());
     BOOST_REQUIRE(plots.size() == 2u);
     for (std::size_t k = 0; k < plots.size(); ++k) {
-        const TwoTermModel& model = paper().orders->norms[k].fit.model;
+        const TwoTermModel& model = paper().get<OrdersResult>()->norms[k].fit.model;
         BOOST_TEST(model.rho < 0.0); // the lines bulge: the angle of ρ is not that of −ρ
         std::size_t lines = 0;
         for (const auto& [heading, rows] : blocks_of(plots[k])) {
@@ -164,27 +168,28 @@ BOOST_AUTO_TEST_CASE(
         BOOST_TEST(lines >= 3u);
         const auto runs = blocks_of(plots[k]);
         BOOST_TEST(block(runs, "runs of the fit").size() ==
-                   paper().orders->norms[k].fit.used.size());
+                   paper().get<OrdersResult>()->norms[k].fit.used.size());
     }
 }
 
 BOOST_AUTO_TEST_CASE(where_no_model_holds_the_runs_stand_with_their_errors) {
     StudyResult result = paper();
-    result.orders->norms[0].fit.failure = "none";
+    result.get<OrdersResult>()->norms[0].fit.failure = "none";
     const Plot plot = error_surface_plots(result).at(0);
     BOOST_TEST(!has(plot.data, "model"));
-    BOOST_TEST(block(blocks_of(plot), "other runs").size() == result.orders->runs.size());
+    BOOST_TEST(block(blocks_of(plot), "other runs").size() ==
+               result.get<OrdersResult>()->runs.size());
 }
 
 BOOST_AUTO_TEST_CASE(the_two_parameters_that_decide_the_outcome_are_the_axes) {
     StudyResult result = paper();
-    result.stress.emplace();
+    result.records.set(StressResult{});
     // Refused where α > 1 and Δt > 1; ζ has more values, and decides nothing.
     int i = 0;
     for (const double alpha : {1e-2, 1e-1, 1e1, 1e2})
         for (const double dt : {1e-3, 1e-1, 1e1, 1e3})
             for (const double zeta : {0.0, 1e-4, 1e-2, 1e0, 1e2, 1e4, 1e6})
-                result.stress->cases.push_back(
+                result.get<StressResult>()->cases.push_back(
                     stress_case(alpha, zeta * (1 + i++ % 3), dt,
                                 alpha > 1.0 && dt > 1.0 ? Outcome::refused : Outcome::certified));
     const Plot plot = stress_plots(result).at(0);
@@ -204,11 +209,12 @@ BOOST_AUTO_TEST_CASE(the_two_parameters_that_decide_the_outcome_are_the_axes) {
 
 BOOST_AUTO_TEST_CASE(zero_and_no_stops_have_places_of_their_own_on_a_logarithmic_axis) {
     StudyResult result = paper();
-    result.stress.emplace();
+    result.records.set(StressResult{});
     for (const double alpha : {0.0, 1e-2, 1.0})
         for (const double gap : {1e-3, 1.0, std::numeric_limits<double>::infinity()}) {
-            result.stress->cases.push_back(stress_case(alpha, 1.0, 1.0, Outcome::certified));
-            result.stress->cases.back().parameters.stops = {-gap, gap};
+            result.get<StressResult>()->cases.push_back(
+                stress_case(alpha, 1.0, 1.0, Outcome::certified));
+            result.get<StressResult>()->cases.back().parameters.stops = {-gap, gap};
         }
     const Plot plot = stress_plots(result).at(0);
     // A decade below 1e-2, a decade above 1.
@@ -218,9 +224,9 @@ BOOST_AUTO_TEST_CASE(zero_and_no_stops_have_places_of_their_own_on_a_logarithmic
 
 BOOST_AUTO_TEST_CASE(the_lines_of_a_contraction_map_are_where_it_is_predicted) {
     StudyResult result = paper();
-    result.stress.emplace();
+    result.records.set(StressResult{});
     const double zeta = 0.05;
-    result.stress->contraction =
+    result.get<StressResult>()->contraction =
         measure_contraction({{0.1, 1.0, 10.0}, {1e-3, 0.1}, zeta, 8, "euler", ThermalMass::lumped});
     const auto blocks = blocks_of(contraction_plots(result).at(0));
     for (const double level : {0.01, 0.1, 1.0}) {
@@ -240,7 +246,7 @@ BOOST_AUTO_TEST_CASE(the_lines_of_a_contraction_map_are_where_it_is_predicted) {
 
 BOOST_AUTO_TEST_CASE(what_a_round_off_study_did_not_measure_is_not_drawn) {
     StudyResult result = paper();
-    result.stress.emplace();
+    result.records.set(StressResult{});
     RoundOffRow coarse;
     coarse.elements = 10;
     coarse.moment.value = 1e-15;
@@ -249,7 +255,7 @@ BOOST_AUTO_TEST_CASE(what_a_round_off_study_did_not_measure_is_not_drawn) {
     RoundOffRow fine = coarse;
     fine.elements = 100;
     fine.hermite = {std::nullopt, "stopped"};
-    result.stress->roundoff = RoundOffTable{{coarse, fine}};
+    result.get<StressResult>()->roundoff = RoundOffTable{{coarse, fine}};
     const auto blocks = blocks_of(round_off_plots(result).at(0));
     BOOST_TEST(block(blocks, "moment form, nodal").size() == 2U);
     BOOST_TEST(block(blocks, "Hermite form:").size() == 1U);

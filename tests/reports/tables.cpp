@@ -2,13 +2,12 @@
 
 #include "core/norms/norms.hpp"
 #include "reports/document/html_text.hpp"
-#include "reports/document/norm_words.hpp"
-#include "reports/document/number_text.hpp"
 #include "reports/document/text_table.hpp"
 #include "reports/document/written_number.hpp"
 #include "reports/formats/html_report.hpp"
 #include "reports/formats/latex_report.hpp"
 #include "reports/formats/markdown_report.hpp"
+#include "studies/text/number_text.hpp"
 #include "tests/comma_locale.hpp"
 
 #include <boost/test/unit_test.hpp>
@@ -39,6 +38,10 @@ Document document() {
         {"contact"},
         {{"theta_L2L2", "temperature"}},
         {{"version", "1"}}};
+}
+
+std::string words_of(const std::string& norm) {
+    return Norm::named(norm)->words;
 }
 
 } // namespace
@@ -158,14 +161,14 @@ BOOST_AUTO_TEST_CASE(formulas_are_set_with_raised_exponents_and_greek_letters) {
 BOOST_AUTO_TEST_CASE(every_norm_has_words_and_no_two_the_same) {
     std::vector<std::string> words;
     for (const auto& name : Norm::names()) {
-        words.push_back(norm_words(name));
+        words.push_back(words_of(name));
         BOOST_TEST(words.back() != name);
         if (Norm::named(name + "_sq"))
-            BOOST_TEST(norm_words(name + "_sq") == words.back() + ", squared");
+            BOOST_TEST(words_of(name + "_sq") == words.back() + ", squared");
     }
     std::sort(words.begin(), words.end());
     BOOST_TEST((std::adjacent_find(words.begin(), words.end()) == words.end()));
-    BOOST_TEST(norm_words("u_LinfH2semi_sq") == "deflection in L∞(0,T; H² seminorm), squared");
+    BOOST_TEST(words_of("u_LinfH2semi_sq") == "deflection in L∞(0,T; H² seminorm), squared");
 }
 
 BOOST_AUTO_TEST_CASE(a_decimal_comma_changes_nothing) {

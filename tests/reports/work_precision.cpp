@@ -1,8 +1,10 @@
 // The report of a work-precision study: what it says of made-up rows, in 80 columns.
 
-#include "reports/document/number_text.hpp"
+#include "studies/work_precision/work_precision.hpp"
 #include "reports/document/text_document.hpp"
 #include "reports/document/work_precision_section.hpp"
+#include "studies/runs/beam_runs.hpp"
+#include "studies/text/number_text.hpp"
 
 #include <boost/test/unit_test.hpp>
 
@@ -38,12 +40,11 @@ struct Study {
                 {elements, 100 * elements, 0.02 / static_cast<double>(elements)});
             RungResult run;
             run.rung = scheme.rungs.back();
-            run.counters.steps = run.rung.steps;
-            run.counters.heat_solves = run.rung.steps;
+            run.counters = {{"steps", run.rung.steps}, {"heat_solves", run.rung.steps}};
             if (row.error)
                 run.errors.assign(block.norms.size(), *row.error);
             else
-                run.status = RunStatus::failed;
+                run.status = RungStatus::failed;
             run.reason = row.error ? "" : "the fixed point did not converge in step 1 of 20";
             runs.runs.push_back(run);
             Timing timing{row.seconds, 0.99 * row.seconds, row.seconds, 1.01 * row.seconds,
@@ -64,7 +65,7 @@ struct Study {
 Study study(const std::vector<std::string>& norms) {
     Study made;
     for (const auto& norm : norms)
-        made.block.norms.push_back(*Norm::named(norm));
+        made.block.norms.push_back(measure_of(*Norm::named(norm)));
     made.block.final_time = 2.0;
     return made;
 }

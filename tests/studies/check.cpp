@@ -2,6 +2,7 @@
 
 #include "studies/gates/check.hpp"
 #include "mms/text/input_error.hpp"
+#include "studies/ladder/ladder.hpp"
 #include "tests/temporary_directory.hpp"
 
 #include <boost/test/unit_test.hpp>
@@ -166,13 +167,14 @@ BOOST_AUTO_TEST_CASE(the_short_form_replaces_what_its_block_names_and_nothing_el
     const TemporaryDirectory directory;
     const std::string file =
         directory.write("s.toml", head + "[short.ladder]\nelements = [5, 10]\n");
-    BOOST_TEST(read_scene(file).ladder->rungs[0].elements == 10);
+    BOOST_TEST(read_scene(file).get<LadderBlock>()->rungs[0].elements == 10);
     const Scene shortened = read_scene(file, {}, {.short_form = true});
-    BOOST_TEST(shortened.ladder->rungs[0].elements == 5);
-    BOOST_TEST(shortened.ladder->final_time == 2.0);
-    BOOST_TEST(shortened.ladder->norms.size() == 1u);
+    BOOST_TEST(shortened.get<LadderBlock>()->rungs[0].elements == 5);
+    BOOST_TEST(shortened.get<LadderBlock>()->final_time == 2.0);
+    BOOST_TEST(shortened.get<LadderBlock>()->norms.size() == 1u);
     BOOST_TEST(read_scene(file, {"ladder.elements=[7,8]"}, {.short_form = true})
-                   .ladder->rungs[0]
+                   .get<LadderBlock>()
+                   ->rungs[0]
                    .elements == 7);
 }
 

@@ -3,7 +3,10 @@
 #include "studies/evolution/evolution.hpp"
 #include "core/contact/contact_events.hpp"
 #include "core/run.hpp"
+#include "studies/evolution/evolution.hpp"
 #include "studies/gates/check.hpp"
+#include "studies/grid/grid.hpp"
+#include "studies/ladder/ladder.hpp"
 #include "studies/scene/toml_reader.hpp"
 #include "studies/study.hpp"
 #include "tests/marching.hpp"
@@ -29,7 +32,7 @@ using Kind = ContactEvent::Kind;
 using Stop = ContactEvent::Stop;
 
 EvolutionResult evolution(const Scene& scene) {
-    return *run_study(scene).evolution;
+    return *run_study(scene).get<EvolutionResult>();
 }
 
 /// The paper's second experiment with another scheme, mesh and step.
@@ -122,8 +125,8 @@ BOOST_DATA_TEST_CASE(what_is_given_at_an_end_is_read_there_to_the_last_digit,
                                    ",dt=0.02,probes=['theta@0',"
                                    "'theta@1','u@0']}",
                                "mesh={grading=" + message_text(grading) + "}"});
-            scene.ladder.reset();
-            scene.orders.reset();
+            scene.blocks.remove<LadderBlock>();
+            scene.blocks.remove<OrdersBlock>();
             scene.scheme = scheme;
             const EvolutionResult result = evolution(scene);
             BOOST_TEST_CONTEXT(elements << " elements, grading " << grading) {
@@ -220,7 +223,7 @@ probes     = ["theta@0.3"]
 )toml"),
                                    {}, {.expectations = true});
     const StudyResult result = run_study(scene);
-    BOOST_TEST(std::isnan(result.evolution->probes[0].greatest_error().value()));
+    BOOST_TEST(std::isnan(result.get<EvolutionResult>()->probes[0].greatest_error().value()));
     const auto checked = check(result);
     BOOST_REQUIRE(checked.size() == 1U);
     BOOST_TEST(!checked[0].holds);
@@ -387,9 +390,9 @@ probes     = ["theta@0.5"]
     const TemporaryDirectory directory;
     const Scene scene = read_scene(directory.write("scene.toml", heat));
     const StudyResult result = run_study(scene);
-    BOOST_TEST(result.evolution->run.counters.heat_solves == 10);
-    BOOST_TEST(result.evolution->run.counters.beam_solves == 0);
-    BOOST_TEST(result.evolution->run.counters.norm_evaluations == 0);
+    BOOST_TEST(result.get<EvolutionResult>()->run.count("heat_solves") == 10);
+    BOOST_TEST(result.get<EvolutionResult>()->run.count("beam_solves") == 0);
+    BOOST_TEST(result.get<EvolutionResult>()->run.count("norm_evaluations") == 0);
     BOOST_TEST(std::count(result.left_out.begin(), result.left_out.end(),
                           "deflection: no norm or probe asks for it") == 1);
 }
@@ -412,7 +415,7 @@ elements   = 4
 dt         = 0.001
 probes     = ["theta@0.5"]
 )toml");
-    BOOST_TEST(int(result.run.status == RunStatus::failed));
+    BOOST_TEST(int(result.run.status == RungStatus::failed));
     BOOST_TEST(result.run.reason.find("in step") != std::string::npos, result.run.reason);
     BOOST_TEST(result.t.size() > 1U);
     BOOST_TEST(result.t.size() < 501U);

@@ -1,5 +1,7 @@
 // How runs are carried out: progress, interruption, and results kept from an earlier attempt.
 
+#include "studies/evolution/evolution.hpp"
+#include "studies/stress/stress.hpp"
 #include "studies/study.hpp"
 #include "tests/temporary_directory.hpp"
 
@@ -76,7 +78,7 @@ const std::vector<std::string> small{"ladder.elements=[4, 8, 16, 32]", "ladder.p
 std::vector<std::vector<double>> errors_of(const StudyResult& result) {
     std::vector<std::vector<double>> errors;
     for (const auto& study : result.runs())
-        for (const auto& run : *study.runs)
+        for (const auto& run : *study.results)
             errors.push_back(run.errors);
     return errors;
 }
@@ -115,12 +117,12 @@ BOOST_DATA_TEST_CASE(an_interrupted_study_keeps_what_finished_and_says_what_did_
     BOOST_TEST(cut.failed());
     std::size_t finished = 0;
     for (const auto& study : cut.runs())
-        for (const auto& run : *study.runs) {
-            if (run.status == RunStatus::ok) {
+        for (const auto& run : *study.results) {
+            if (run.status == RungStatus::ok) {
                 ++finished;
                 continue;
             }
-            BOOST_TEST(int(run.status == RunStatus::interrupted));
+            BOOST_TEST(int(run.status == RungStatus::interrupted));
             BOOST_TEST(run.errors.empty());
         }
     BOOST_TEST(finished == shelf.runs.size());
@@ -137,16 +139,17 @@ BOOST_DATA_TEST_CASE(an_interrupted_study_keeps_what_finished_and_says_what_did_
 BOOST_DATA_TEST_CASE(a_stress_study_goes_on_where_it_was_interrupted, data::make({1, 3}), jobs) {
     const TemporaryDirectory directory;
     const Scene scene = read_scene(directory.write("scene.toml", sweep));
-    const auto undisturbed = *run_study(scene).stress;
+    const StressResult undisturbed = *run_study(scene).get<StressResult>();
     BOOST_REQUIRE(undisturbed.cases.size() == 6U);
     Meter meter(100.0); // of 6 cases of 40 or 160
     Shelf shelf;
     const StudyResult cut =
         run_study(scene, {.jobs = jobs, .progress = &meter, .finished = &shelf});
     BOOST_TEST(cut.interrupted());
-    BOOST_TEST(cut.stress->cases.size() == shelf.cases.size());
+    BOOST_TEST(cut.get<StressResult>()->cases.size() == shelf.cases.size());
     BOOST_TEST(shelf.cases.size() < 6U);
-    const auto resumed = *run_study(scene, {.jobs = jobs, .finished = &shelf}).stress;
+    const StudyResult again = run_study(scene, {.jobs = jobs, .finished = &shelf});
+    const StressResult& resumed = *again.get<StressResult>();
     BOOST_REQUIRE(resumed.cases.size() == 6U);
     BOOST_TEST(shelf.added == 6);
     for (std::size_t i = 0; i < 6; ++i) {
@@ -162,8 +165,8 @@ BOOST_AUTO_TEST_CASE(an_evolution_that_is_interrupted_keeps_its_history) {
     Meter meter(100.0 * 1000.0);
     const StudyResult cut = run_study(read_scene("figure1"), {.progress = &meter});
     BOOST_TEST(cut.interrupted());
-    BOOST_TEST(cut.evolution->t.size() > 900U);
-    BOOST_TEST(cut.evolution->t.size() < 1100U);
+    BOOST_TEST(cut.get<EvolutionResult>()->t.size() > 900U);
+    BOOST_TEST(cut.get<EvolutionResult>()->t.size() < 1100U);
 }
 
 // At once, and, in timed runs, when all errors have been measured.

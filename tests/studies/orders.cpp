@@ -1,5 +1,7 @@
 // The grid study of the paper's problem, and what it says of the ladder.
 
+#include "studies/grid/grid.hpp"
+#include "studies/ladder/ladder.hpp"
 #include "studies/study.hpp"
 
 #include <boost/test/data/monomorphic.hpp>
@@ -25,8 +27,8 @@ BOOST_DATA_TEST_CASE(the_paper_s_scheme_has_order_two_in_h_and_one_in_dt,
                      boost::unit_test::data::make({"lumped", "consistent"}), mass) {
     const StudyResult result =
         run_study(read_scene("table1-orders", {std::string("scheme.thermal_mass=") + mass}));
-    const TwoTermFit& theta = orders_of(*result.orders, "theta_L2L2").fit;
-    const TwoTermFit& u = orders_of(*result.orders, "u_LinfH2semi").fit;
+    const TwoTermFit& theta = orders_of(*result.get<OrdersResult>(), "theta_L2L2").fit;
+    const TwoTermFit& u = orders_of(*result.get<OrdersResult>(), "u_LinfH2semi").fit;
     BOOST_REQUIRE(theta.holds());
     BOOST_REQUIRE(u.holds());
     BOOST_TEST(std::abs(theta.model.p - 2.0) <= 0.02);
@@ -35,25 +37,26 @@ BOOST_DATA_TEST_CASE(the_paper_s_scheme_has_order_two_in_h_and_one_in_dt,
     BOOST_TEST(std::abs(u.model.q - 1.0) <= 0.02);
     BOOST_TEST(theta.model.rho < -0.8); // the two errors of θ have opposite signs
     // No point of the grid is finer than s = 160 or Δt = 1e-3.
-    for (const auto& run : result.orders->runs)
+    for (const auto& run : result.get<OrdersResult>()->runs)
         BOOST_TEST((run.rung.elements <= 160 && run.rung.dt >= 1e-3));
 }
 
 BOOST_AUTO_TEST_CASE(the_constant_of_corollary_2_2_stays_bounded_over_the_grid) {
     const StudyResult result = run_study(read_scene("table1-orders"));
-    BOOST_REQUIRE(result.orders->corollary);
+    BOOST_REQUIRE(result.get<OrdersResult>()->corollary);
     // Where the first-order term rules, corollary ≈ (b Δt)²: C tends to b²; where the second-order
     // term rules, to (a h)², which falls. Its greatest value is a² h² on the coarsest mesh with the
     // finest step.
-    const TwoTermModel& model = orders_of(*result.orders, "corollary").fit.model;
-    BOOST_TEST(result.orders->corollary->greatest <= 1.05 * model.a * model.a * 0.1 * 0.1);
-    BOOST_TEST(result.orders->corollary->finest <= model.b * model.b);
+    const TwoTermModel& model = orders_of(*result.get<OrdersResult>(), "corollary").fit.model;
+    BOOST_TEST(result.get<OrdersResult>()->corollary->greatest <=
+               1.05 * model.a * model.a * 0.1 * 0.1);
+    BOOST_TEST(result.get<OrdersResult>()->corollary->finest <= model.b * model.b);
 }
 
 BOOST_AUTO_TEST_CASE(the_grid_predicts_finer_rungs_and_explains_the_order_of_the_table) {
     const StudyResult result =
         run_study(read_scene("table1-extended", {"ladder.elements=[40, 80, 160, 320]"}));
-    const LadderResult& ladder = *result.ladder;
+    const LadderResult& ladder = *result.get<LadderResult>();
     for (const auto& norm : ladder.norms) {
         BOOST_REQUIRE(norm.predictions.size() == 4u);
         const auto k = static_cast<std::size_t>(&norm - ladder.norms.data());
@@ -65,7 +68,7 @@ BOOST_AUTO_TEST_CASE(the_grid_predicts_finer_rungs_and_explains_the_order_of_the
                    norm.remarks[1]);
     }
     // θ: the terms are equally large where a h² = b h/100, h = b/(100 a).
-    const TwoTermModel& theta = orders_of(*result.orders, "theta_L2L2").fit.model;
+    const TwoTermModel& theta = orders_of(*result.get<OrdersResult>(), "theta_L2L2").fit.model;
     const double s = 100.0 * theta.a / theta.b;
     BOOST_TEST(s > 1500.0);
     BOOST_TEST(s < 3000.0);
@@ -76,7 +79,7 @@ BOOST_AUTO_TEST_CASE(a_ladder_is_judged_by_orders_of_its_own_final_time_only) {
         const StudyResult result = run_study(
             read_scene("table1", {"ladder.elements=[10, 20, 40]", "ladder.dt=\"0.01/s\"",
                                   "ladder.printed={}", "ladder.final_time=" + final_time}));
-        return result.ladder->norms[0].predictions.size();
+        return result.get<LadderResult>()->norms[0].predictions.size();
     };
     BOOST_TEST(predictions("2") == 3u); // that of [orders]
     BOOST_TEST(predictions("1") == 0u);
@@ -85,7 +88,7 @@ BOOST_AUTO_TEST_CASE(a_ladder_is_judged_by_orders_of_its_own_final_time_only) {
 BOOST_AUTO_TEST_CASE(verdicts_stand_in_every_rung) {
     const StudyResult result = run_study(read_scene(
         "table1", {"ladder.elements=[10, 20, 40]", "ladder.dt=\"0.01/s\"", "ladder.printed={}"}));
-    for (const auto& norm : result.ladder->norms) {
+    for (const auto& norm : result.get<LadderResult>()->norms) {
         BOOST_TEST(norm.verdicts.size() == 3u);
         for (const auto& verdict : norm.verdicts)
             BOOST_TEST(!verdict.reason.empty());

@@ -2,6 +2,9 @@
 
 #include "mms/autodiff_problem.hpp"
 #include "studies/gates/check.hpp"
+#include "studies/grid/grid.hpp"
+#include "studies/ladder/ladder.hpp"
+#include "studies/runs/beam_runs.hpp"
 #include "tests/temporary_directory.hpp"
 
 #include <boost/test/unit_test.hpp>
@@ -97,15 +100,18 @@ BOOST_AUTO_TEST_CASE(every_study_of_it_is_that_of_the_same_solution_as_text) {
         run_study(own_scene("solution = \"./text.toml\"\n" + beam + studies, false));
     for (std::size_t k = 0; k < 2; ++k)
         for (std::size_t i = 0; i < 3; ++i) {
-            BOOST_TEST(own.ladder->rungs[i].errors.at(k) == shared.ladder->rungs[i].errors.at(k),
+            BOOST_TEST(own.get<LadderResult>()->rungs[i].errors.at(k) ==
+                           shared.get<LadderResult>()->rungs[i].errors.at(k),
                        boost::test_tools::tolerance(1e-10));
-            BOOST_TEST((own.ladder->norms[k].verdicts[i].verdict ==
-                        shared.ladder->norms[k].verdicts[i].verdict));
+            BOOST_TEST((own.get<LadderResult>()->norms[k].verdicts[i].verdict ==
+                        shared.get<LadderResult>()->norms[k].verdicts[i].verdict));
             if (i > 0)
-                BOOST_TEST(*own.ladder->norms[k].orders[i] == *shared.ladder->norms[k].orders[i],
+                BOOST_TEST(*own.get<LadderResult>()->norms[k].orders[i] ==
+                               *shared.get<LadderResult>()->norms[k].orders[i],
                            boost::test_tools::tolerance(1e-9));
         }
-    BOOST_TEST(own.orders->norms[0].fit.model.p == shared.orders->norms[0].fit.model.p,
+    BOOST_TEST(own.get<OrdersResult>()->norms[0].fit.model.p ==
+                   shared.get<OrdersResult>()->norms[0].fit.model.p,
                boost::test_tools::tolerance(1e-6));
     const auto checked = check(own);
     BOOST_TEST(checked.size() == 2U + 2U + 1U);
@@ -145,23 +151,23 @@ BOOST_AUTO_TEST_CASE(a_scene_put_together_in_code_is_checked_before_it_is_run) {
     Scene scene;
     scene.beam = {.alpha = 0.5, .zeta = 0.1, .stops = {-0.02, 0.1}};
     scene.scheme.time = TimeScheme::named("bdf2");
-    scene.ladder = LadderBlock{.final_time = 1.0,
-                               .rungs = {{4, 8, 1.0 / 8}, {8, 16, 1.0 / 16}, {16, 32, 1.0 / 32}},
-                               .norms = {*Norm::named("theta_L2L2")},
-                               .printed = {}};
+    scene.blocks.set(LadderBlock{.final_time = 1.0,
+                                 .rungs = {{4, 8, 1.0 / 8}, {8, 16, 1.0 / 16}, {16, 32, 1.0 / 32}},
+                                 .norms = {measure_of(*Norm::named("theta_L2L2"))},
+                                 .printed = {}});
     const ProblemData data = autodiff_problem(OwnSolution{0.1}, scene.beam, 1.0);
     const StudyResult result = run_study(scene, data);
-    BOOST_TEST(std::abs(*result.ladder->norms[0].orders[2] - 2.0) <= 0.05);
+    BOOST_TEST(std::abs(*result.get<LadderResult>()->norms[0].orders[2] - 2.0) <= 0.05);
 
     ProblemData without = data;
     without.exact.reset();
     BOOST_TEST(message_of([&] {
                    run_study(scene, without);
                }).find("the problem has no exact solution") != std::string::npos);
-    scene.ladder->rungs[1].dt = 0.1;
+    scene.get<LadderBlock>()->rungs[1].dt = 0.1;
     BOOST_TEST(message_of([&] { run_study(scene, data); }) ==
                "a run has 8 elements and 16 steps of 0.1; they must fill the final time 1");
-    scene.ladder->rungs[1] = {0, 16, 1.0 / 16};
+    scene.get<LadderBlock>()->rungs[1] = {0, 16, 1.0 / 16};
     BOOST_TEST(message_of([&] { run_study(scene, data); }).find("a run has 0 elements") == 0U);
 }
 

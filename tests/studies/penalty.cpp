@@ -6,6 +6,9 @@
 // small beside 1/3, and in what comes and goes within a step, where it is small beside the
 // compliance of a step, Δt/(3 (Δt + ζ)) = 0.03.
 
+#include "studies/evolution/evolution.hpp"
+#include "studies/grid/grid.hpp"
+#include "studies/ladder/ladder.hpp"
 #include "studies/orders/convergence_fit.hpp"
 #include "studies/scene/toml_reader.hpp"
 #include "studies/study.hpp"
@@ -37,11 +40,11 @@ EvolutionResult evolution(const std::string& name, const std::string& time, doub
         overrides.push_back("beam.contact={law=\"penalty\", epsilon=" + message_text(epsilon) +
                             "}");
     Scene scene = read_scene(name, overrides);
-    scene.ladder.reset();
-    scene.orders.reset();
+    scene.blocks.remove<LadderBlock>();
+    scene.blocks.remove<OrdersBlock>();
     scene.reference.reset();
-    EvolutionResult result = *run_study(scene).evolution;
-    BOOST_REQUIRE_MESSAGE(result.run.status == RunStatus::ok, result.run.reason);
+    EvolutionResult result = *run_study(scene).get<EvolutionResult>();
+    BOOST_REQUIRE_MESSAGE(result.run.status == RungStatus::ok, result.run.reason);
     return result;
 }
 

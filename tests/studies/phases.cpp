@@ -3,6 +3,9 @@
 #include "core/run.hpp"
 #include "mms/autodiff_problem.hpp"
 #include "mms/manufactured_problem.hpp"
+#include "studies/evolution/evolution.hpp"
+#include "studies/grid/grid.hpp"
+#include "studies/ladder/ladder.hpp"
 #include "studies/scene/toml_reader.hpp"
 #include "studies/study.hpp"
 #include "tests/marching.hpp"
@@ -214,7 +217,7 @@ dt         = 1
 probes     = ["stress"]
 )toml"),
                                                   {dt}))
-                                 .evolution;
+                                 .get<EvolutionResult>();
         const auto level = static_cast<std::size_t>(c.n);
         BOOST_TEST_CONTEXT(c) {
             BOOST_TEST(result.t[level] == c.j / 10.0);
@@ -238,7 +241,7 @@ BOOST_AUTO_TEST_CASE(a_reference_run_meets_the_end_too) {
             text.append(richardson).append("\n");
             const StudyResult result = studied(straight("0.3"), text);
             BOOST_REQUIRE(!result.failed());
-            for (const auto& rung : result.ladder->rungs)
+            for (const auto& rung : result.get<LadderResult>()->rungs)
                 BOOST_TEST(rung.errors.at(0) < 1e-11);
         }
 }
@@ -257,7 +260,7 @@ BOOST_DATA_TEST_CASE(an_end_within_a_step_leaves_the_orders_that_are_said,
                   "'\n[ladder]\nfinal_time = 0.3\nelements = [256, 256, 256]\n"
                   "dt = [0.0046875, 0.001171875, 0.00029296875]\n"
                   "norms = ['theta_L2L2', 'u_LinfH2semi_sq', 'sigma_L2']\n");
-    const auto& norms = result.ladder->norms;
+    const auto& norms = result.get<LadderResult>()->norms;
     BOOST_TEST(std::abs(norms[0].orders.back().value() - 1.0) < 0.25);
     BOOST_TEST(std::abs(norms[1].orders.back().value() - 2.0) < 0.25);
     BOOST_TEST(std::abs(norms[2].orders.back().value() - 1.0) < 0.25);
@@ -277,7 +280,7 @@ BOOST_DATA_TEST_CASE(an_impact_within_a_step_leaves_half_an_order_to_the_stress,
         read_scene("impact", {std::string("scheme.time=") + time, "ladder.final_time=3",
                               "ladder.elements=[256,256]", "ladder.dt=[0.01171875,0.0029296875]",
                               "ladder.norms=['sigma_L2']"}));
-    BOOST_TEST(std::abs(result.ladder->norms[0].orders.back().value() - 0.5) < 0.1);
+    BOOST_TEST(std::abs(result.get<LadderResult>()->norms[0].orders.back().value() - 0.5) < 0.1);
     BOOST_REQUIRE(result.remarks.size() == 1U);
     BOOST_TEST(result.remarks[0].find("the order 0.5 in sigma_L2") != std::string::npos,
                result.remarks[0]);

@@ -3,7 +3,10 @@
 
 #include "core/space/quadrature.hpp"
 #include "mms/text/input_error.hpp"
+#include "studies/evolution/evolution.hpp"
 #include "studies/gates/check.hpp"
+#include "studies/grid/grid.hpp"
+#include "studies/ladder/ladder.hpp"
 #include "studies/reference/piecewise_polynomial.hpp"
 #include "studies/reference/reference_solution.hpp"
 #include "studies/study.hpp"
@@ -65,16 +68,20 @@ StudyResult study_of(const std::string& text) {
     return run_study(scene_of(text));
 }
 
+LadderResult ladder_of(const std::string& text) {
+    return *study_of(text).get<LadderResult>();
+}
+
 /// The greatest distance of a reference from the exact solution, at the levels of one rung, field
 /// by field: θ̃, θ̃_x, u, u_x, u_xx, σ̃.
 std::vector<double> distances(const Scene& scene) {
-    const double final_time = scene.ladder->final_time;
+    const double final_time = scene.get<LadderBlock>()->final_time;
     const ProblemData exact = problem_of(scene, final_time);
     ProblemData computed = problem_of(scene, final_time);
-    BOOST_REQUIRE(measure_against_reference(scene, final_time, computed).failure.empty());
+    BOOST_REQUIRE(measure_against_reference(scene, computed).failure.empty());
     const ArrayXd x = ArrayXd::LinSpaced(203, 0.001, 0.999);
     std::vector<double> result(6, 0.0);
-    const Rung& rung = scene.ladder->rungs.front();
+    const Rung& rung = scene.get<LadderBlock>()->rungs.front();
     for (std::int64_t n = 1; n <= rung.steps; ++n) {
         const double t = final_time * static_cast<double>(n) / static_cast<double>(rung.steps);
         std::size_t at = 0;
@@ -127,12 +134,12 @@ BOOST_AUTO_TEST_CASE(a_repeated_rule_is_exact_for_a_kink_between_its_parts) {
 }
 
 BOOST_AUTO_TEST_CASE(a_reference_gives_the_orders_that_the_exact_solution_gives) {
-    const OrdersResult exact = *study_of(free_beam + grid).orders;
+    const OrdersResult exact = *study_of(free_beam + grid).get<OrdersResult>();
     const auto hold = [&](const std::string& block, double orders, double constants) {
         const StudyResult study = study_of(free_beam + grid + block);
         BOOST_REQUIRE(study.reference);
         for (std::size_t k = 0; k < exact.norms.size(); ++k) {
-            const TwoTermFit& fit = study.orders->norms[k].fit;
+            const TwoTermFit& fit = study.get<OrdersResult>()->norms[k].fit;
             const TwoTermModel& wanted = exact.norms[k].fit.model;
             BOOST_REQUIRE(fit.holds());
             BOOST_TEST(std::abs(fit.model.p - wanted.p) < orders, fit.model.p << " " << wanted.p);
@@ -164,7 +171,7 @@ BOOST_AUTO_TEST_CASE(
 
 BOOST_AUTO_TEST_CASE(a_rung_that_is_the_reference_has_no_error_and_no_order) {
     const StudyResult study = study_of(free_beam + steps + reference(32, "5e-3"));
-    const LadderResult& ladder = *study.ladder;
+    const LadderResult& ladder = *study.get<LadderResult>();
     for (std::size_t k = 0; k < ladder.norms.size(); ++k) {
         BOOST_TEST(ladder.rungs[1].errors[k] > 1e-5);
         BOOST_TEST(ladder.rungs[2].errors[k] == 0.0);
@@ -186,24 +193,24 @@ BOOST_AUTO_TEST_CASE(a_norm_integrates_the_kinks_of_the_reference_exactly) {
     const auto nodal = [&](int elements) {
         const Scene scene = scene_of(free_beam + rung + reference(elements, "0.1"));
         ProblemData problem = problem_of(scene, 0.1);
-        measure_against_reference(scene, 0.1, problem);
+        measure_against_reference(scene, problem);
         return problem.exact->theta.rest(fine.nodes, 0.1);
     };
     const double wanted = std::sqrt(squared_norm(fine, (nodal(15) - nodal(5)).matrix()));
     const StudyResult study = study_of(free_beam + rung + reference(15, "0.1"));
-    BOOST_TEST(std::abs(study.ladder->rungs[0].errors[0] / wanted - 1.0) < 1e-12);
+    BOOST_TEST(std::abs(study.get<LadderResult>()->rungs[0].errors[0] / wanted - 1.0) < 1e-12);
 }
 
 BOOST_AUTO_TEST_CASE(a_rung_close_to_the_reference_in_dt_alone_is_remarked) {
     const std::string remark =
-        study_of(free_beam + steps + reference(96, "2.5e-3")).ladder->reference_remark;
+        ladder_of(free_beam + steps + reference(96, "2.5e-3")).reference_remark;
     BOOST_TEST(remark.starts_with("The rung s = 32 (dt = 0.005) has"), remark);
 }
 
 BOOST_AUTO_TEST_CASE(rungs_far_from_the_reference_or_one_extrapolated_are_not_remarked) {
     const std::string measured = free_beam + steps;
     for (const auto& block : {reference(96, "1e-3"), reference(32, "2.5e-3", true)})
-        BOOST_TEST(study_of(measured + block).ladder->reference_remark.empty());
+        BOOST_TEST(ladder_of(measured + block).reference_remark.empty());
 }
 
 BOOST_AUTO_TEST_CASE(the_stress_is_measured_against_the_reference_s) {
@@ -213,11 +220,11 @@ elements = [8, 16]
 dt = [0.02, 0.01]
 norms = ["sigma_L2"]
 )";
-    const LadderResult exact = *study_of(pressed_beam + ladder).ladder;
+    const LadderResult exact = ladder_of(pressed_beam + ladder);
     const std::string measured = pressed_beam + ladder;
     for (const auto& [block, tolerance] : {std::pair{reference(256, "6.25e-4"), 0.08},
                                            std::pair{reference(64, "2.5e-3", true), 0.02}}) {
-        const LadderResult found = *study_of(measured + block).ladder;
+        const LadderResult found = ladder_of(measured + block);
         for (std::size_t i = 0; i < 2; ++i) {
             const double ratio = found.rungs[i].errors[0] / exact.rungs[i].errors[0];
             BOOST_TEST(std::abs(ratio - 1.0) < tolerance, ratio);
@@ -231,9 +238,9 @@ BOOST_DATA_TEST_CASE(a_reference_serves_every_time_scheme, data::make(TimeScheme
     const std::string measured = free_beam + "[scheme]\ntime = '" + time + "'\n" +
                                  "[ladder]\nfinal_time = 1\nelements = [32, 64]\n"
                                  "dt = [0.1, 0.05]\nnorms = ['theta_L2L2', 'u_LinfH2semi']\n";
-    const LadderResult exact = *study_of(measured).ladder;
+    const LadderResult exact = ladder_of(measured);
     for (const auto& block : {reference(512, "7.8125e-4"), reference(256, "0.0125", true)}) {
-        const LadderResult found = *study_of(measured + block).ladder;
+        const LadderResult found = ladder_of(measured + block);
         for (std::size_t i = 0; i < 2; ++i)
             for (std::size_t k = 0; k < 2; ++k) {
                 const double ratio = found.rungs[i].errors[k] / exact.rungs[i].errors[k];
@@ -250,9 +257,9 @@ dt = [0.01, 0.005, 0.0025]
 norms = ["theta_L2L2_sq"]
 )";
     const StudyResult study = study_of(free_beam + grid + ladder + reference(256, "1.25e-3"));
-    const LadderNorm& norm = study.ladder->norms.front();
+    const LadderNorm& norm = study.get<LadderResult>()->norms.front();
     for (std::size_t i = 0; i < 3; ++i) {
-        const double ratio = study.ladder->rungs[i].errors[0] / *norm.predictions[i];
+        const double ratio = study.get<LadderResult>()->rungs[i].errors[0] / *norm.predictions[i];
         BOOST_TEST(std::abs(ratio - 1.0) < 0.03, ratio);
     }
     // The measured orders rise towards the reference; the model knows better.
@@ -264,7 +271,7 @@ norms = ["theta_L2L2_sq"]
 BOOST_AUTO_TEST_CASE(a_reference_is_not_known_at_a_time_that_no_rung_has) {
     const Scene scene = scene_of(free_beam + steps + reference(32, "2.5e-3"));
     ProblemData problem = problem_of(scene, 1.0);
-    measure_against_reference(scene, 1.0, problem);
+    measure_against_reference(scene, problem);
     const ArrayXd x = ArrayXd::Constant(1, 0.5);
     BOOST_CHECK_NO_THROW(problem.exact->theta.rest(x, 0.015)); // of the rung with dt = 0.005
     BOOST_CHECK_THROW(problem.exact->theta.rest(x, 0.0175), std::domain_error); // 7 steps of 2.5e-3
@@ -286,10 +293,12 @@ BOOST_AUTO_TEST_CASE(
             const StudyResult beside = study_of(measured + evolution);
             BOOST_TEST(!beside.failed());
             for (std::size_t i = 0; i < 3; ++i)
-                BOOST_TEST(beside.ladder->rungs[i].errors == alone.ladder->rungs[i].errors,
+                BOOST_TEST(beside.get<LadderResult>()->rungs[i].errors ==
+                               alone.get<LadderResult>()->rungs[i].errors,
                            boost::test_tools::per_element());
-            const ProbeHistory& tip = beside.evolution->probes[0];
-            BOOST_TEST(tip.exact == study_of(beam + evolution).evolution->probes[0].exact,
+            const ProbeHistory& tip = beside.get<EvolutionResult>()->probes[0];
+            BOOST_TEST(tip.exact ==
+                           study_of(beam + evolution).get<EvolutionResult>()->probes[0].exact,
                        boost::test_tools::per_element());
             BOOST_TEST(*tip.greatest_error() > 0.0);
         }
@@ -301,8 +310,8 @@ BOOST_AUTO_TEST_CASE(a_fixed_point_is_measured_against_its_reference) {
         "[ladder]\nfinal_time = 1\nelements = [8, 16]\ndt = [0.02, 0.01]\n"
         "norms = ['u_LinfH2semi']\n";
     for (const auto& block : {reference(32, "0.0025"), reference(32, "0.0025", true)}) {
-        const LadderResult iterated = *study_of(free_beam + fixed_point + curvature + block).ladder;
-        const LadderResult direct = *study_of(free_beam + curvature + block).ladder;
+        const LadderResult iterated = ladder_of(free_beam + fixed_point + curvature + block);
+        const LadderResult direct = ladder_of(free_beam + curvature + block);
         for (std::size_t i = 0; i < 2; ++i)
             BOOST_TEST(iterated.rungs[i].errors.at(0) == direct.rungs[i].errors.at(0),
                        boost::test_tools::tolerance(1e-6));
@@ -316,7 +325,7 @@ BOOST_AUTO_TEST_CASE(a_reference_that_fails_fails_every_run_with_its_reason) {
     BOOST_REQUIRE(study.reference);
     BOOST_TEST(!study.reference->failure.empty());
     BOOST_TEST(study.failed());
-    for (const auto& rung : study.ladder->rungs)
+    for (const auto& rung : study.get<LadderResult>()->rungs)
         BOOST_TEST(rung.reason.find("the reference run failed: ") != std::string::npos,
                    rung.reason);
 }

@@ -2,6 +2,7 @@
 
 #include "studies/scene/scene.hpp"
 #include "mms/text/input_error.hpp"
+#include "studies/ladder/ladder.hpp"
 #include "studies/scene/shipped.hpp"
 #include "tests/temporary_directory.hpp"
 
@@ -143,8 +144,8 @@ const std::vector<Wrong> wrong_scenes{
 std::string message_of(const std::string& file, const std::vector<std::string>& overrides = {}) {
     try {
         const Scene scene = read_scene(file, overrides);
-        if (scene.ladder)
-            problem_of(scene, scene.ladder->final_time);
+        if (scene.get<LadderBlock>())
+            problem_of(scene, scene.get<LadderBlock>()->final_time);
     } catch (const InputError& error) {
         return error.what();
     }
@@ -167,13 +168,13 @@ BOOST_AUTO_TEST_CASE(a_scene_is_read_as_written) {
     BOOST_TEST(scene.beam.stops.upper == 0.1);
     BOOST_TEST((scene.scheme.algorithm == Algorithm::direct));
     BOOST_TEST((scene.scheme.thermal_mass == ThermalMass::lumped));
-    BOOST_REQUIRE(scene.ladder);
-    BOOST_REQUIRE(scene.ladder->rungs.size() == 2);
-    BOOST_TEST(scene.ladder->rungs[1].elements == 20);
-    BOOST_TEST(scene.ladder->rungs[1].steps == 4000);
-    BOOST_TEST(scene.ladder->rungs[1].dt == 5e-4);
-    BOOST_TEST(scene.ladder->norms[1].name == "u_LinfH2semi");
-    BOOST_TEST(scene.ladder->printed->figures.at("theta_L2L2_sq")[1] == 2.0);
+    BOOST_REQUIRE(scene.get<LadderBlock>());
+    BOOST_REQUIRE(scene.get<LadderBlock>()->rungs.size() == 2);
+    BOOST_TEST(scene.get<LadderBlock>()->rungs[1].elements == 20);
+    BOOST_TEST(scene.get<LadderBlock>()->rungs[1].steps == 4000);
+    BOOST_TEST(scene.get<LadderBlock>()->rungs[1].dt == 5e-4);
+    BOOST_TEST(scene.get<LadderBlock>()->norms[1].name == "u_LinfH2semi");
+    BOOST_TEST(scene.get<LadderBlock>()->printed->figures.at("theta_L2L2_sq")[1] == 2.0);
 }
 
 BOOST_AUTO_TEST_CASE(what_may_be_absent_has_its_default) {
@@ -190,8 +191,8 @@ dt = "1/(10*s)"
     BOOST_TEST(scene.title == "bare");
     BOOST_TEST(!scene.beam.stops.exist());
     BOOST_TEST((scene.scheme.thermal_mass == ThermalMass::consistent));
-    BOOST_TEST(scene.ladder->rungs[1].steps == 70);
-    BOOST_TEST(scene.ladder->norms.empty());
+    BOOST_TEST(scene.get<LadderBlock>()->rungs[1].steps == 70);
+    BOOST_TEST(scene.get<LadderBlock>()->norms.empty());
 }
 
 BOOST_AUTO_TEST_CASE(one_sided_stops_are_written_with_infinity) {
@@ -250,7 +251,7 @@ BOOST_AUTO_TEST_CASE(overrides_replace_and_add_keys) {
                           "ladder.printed.theta_L2L2_sq=[1]"});
     BOOST_TEST(scene.beam.alpha == 2.0); // the last one counts
     BOOST_TEST(scene.beam.theta_A == 0.5);
-    BOOST_TEST(scene.ladder->rungs.size() == 1);
+    BOOST_TEST(scene.get<LadderBlock>()->rungs.size() == 1);
     BOOST_TEST((scene.scheme.thermal_mass == ThermalMass::consistent));
 }
 

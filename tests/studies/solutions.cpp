@@ -3,6 +3,9 @@
 // order, it stands below with its reason.
 
 #include "mms/expected_orders.hpp"
+#include "studies/grid/grid.hpp"
+#include "studies/ladder/ladder.hpp"
+#include "studies/runs/beam_runs.hpp"
 #include "studies/scene/shipped.hpp"
 #include "studies/study.hpp"
 #include "tests/marching.hpp"
@@ -38,7 +41,7 @@ std::vector<std::string> schemes() {
 bool is_of(const Scene& scene, const std::string& solution) {
     const auto* own = std::get_if<Solution>(&scene.problem);
     return own != nullptr && own->name == solution && scene.scheme.algorithm == Algorithm::direct &&
-           scene.ladder;
+           scene.get<LadderBlock>() != nullptr;
 }
 
 /// The scene that studies a solution: that of its name, or else the first that names it.
@@ -59,19 +62,20 @@ const std::vector<std::string> norms{"theta_L2L2", "u_LinfH2semi"};
 
 /// The order of each of the norms between two runs.
 std::vector<double> orders(Scene scene, const Rung& coarse, const Rung& fine) {
-    LadderBlock ladder{.final_time = scene.ladder->final_time,
+    LadderBlock ladder{.final_time = scene.get<LadderBlock>()->final_time,
                        .rungs = {coarse, fine},
                        .norms = {},
                        .printed = {}};
     for (const auto& name : norms)
-        ladder.norms.push_back(*Norm::named(name));
-    scene.ladder = ladder;
-    scene.orders.reset();
+        ladder.norms.push_back(measure_of(*Norm::named(name)));
+    scene.blocks.set(ladder);
+    scene.blocks.remove<OrdersBlock>();
     const StudyResult result = run_study(scene);
     std::vector<double> found;
     for (std::size_t k = 0; k < norms.size(); ++k) {
-        const auto& rungs = result.ladder->rungs;
-        BOOST_REQUIRE_MESSAGE(rungs[0].status == RunStatus::ok && rungs[1].status == RunStatus::ok,
+        const auto& rungs = result.get<LadderResult>()->rungs;
+        BOOST_REQUIRE_MESSAGE(rungs[0].status == RungStatus::ok &&
+                                  rungs[1].status == RungStatus::ok,
                               rungs[0].reason << rungs[1].reason);
         found.push_back(std::log2(rungs[0].errors[k] / rungs[1].errors[k]));
     }
@@ -79,7 +83,7 @@ std::vector<double> orders(Scene scene, const Rung& coarse, const Rung& fine) {
 }
 
 Rung rung(const Scene& scene, std::int64_t elements, std::int64_t steps) {
-    return {elements, steps, scene.ladder->final_time / static_cast<double>(steps)};
+    return {elements, steps, scene.get<LadderBlock>()->final_time / static_cast<double>(steps)};
 }
 
 /// What is refined.
@@ -178,7 +182,7 @@ struct History {
 
 History history(const Scene& scene, const ProblemData& problem, const Mesh& mesh, int samples,
                 int steps) {
-    const double dt = scene.ladder->final_time / steps;
+    const double dt = scene.get<LadderBlock>()->final_time / steps;
     const auto solver = make_solver(scene.beam, problem, mesh, scene.scheme, dt, Needs{});
     History result;
     int n = 0;
@@ -213,7 +217,7 @@ BOOST_DATA_TEST_CASE(time_error_on_a_graded_mesh_has_the_order_of_the_scheme,
                      data::make(solutions_on_graded_meshes()), solution) {
     Scene scene = scene_of(solution);
     const Mesh mesh = MeshFamily{1.5, {}}.with(32);
-    const ProblemData problem = problem_of(scene, scene.ladder->final_time);
+    const ProblemData problem = problem_of(scene, scene.get<LadderBlock>()->final_time);
     for (const auto& scheme : schemes()) {
         scene.scheme.time = TimeScheme::named(scheme);
         const int order = scene.scheme.time.order;
@@ -236,8 +240,8 @@ BOOST_DATA_TEST_CASE(where_no_order_in_h_is_forecast_no_mesh_matters, data::make
                      solution) {
     Scene scene = scene_of(solution);
     scene.scheme.time = TimeScheme::named("sdirk2");
-    const auto expected =
-        expected_orders(std::get<Solution>(scene.problem), scene.beam, scene.ladder->final_time);
+    const auto expected = expected_orders(std::get<Solution>(scene.problem), scene.beam,
+                                          scene.get<LadderBlock>()->final_time);
     const auto found = orders(scene, rung(scene, 16, 512), rung(scene, 32, 512));
     for (std::size_t k = 0; k < norms.size(); ++k) {
         const auto forecast =

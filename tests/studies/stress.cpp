@@ -5,6 +5,7 @@
 #include "studies/ladder/ladder.hpp"
 #include "studies/scene/scene.hpp"
 #include "studies/stress/stress_problem.hpp"
+#include "studies/study.hpp"
 #include "tests/temporary_directory.hpp"
 
 #include <boost/test/data/monomorphic.hpp>
@@ -22,7 +23,7 @@ namespace {
 
 StressBlock read_block(const std::string& text) {
     const TemporaryDirectory directory;
-    return *read_scene(directory.write("scene.toml", text)).stress;
+    return *read_scene(directory.write("scene.toml", text)).get<StressBlock>();
 }
 
 } // namespace
@@ -179,9 +180,7 @@ BOOST_AUTO_TEST_CASE(hermite_form_warns_where_round_off_may_exceed_its_error) {
                        {"ladder.final_time=0.01", "ladder.elements=[" + elements + "]",
                         "ladder.dt=[" + dt + "]", "ladder.printed={}",
                         "ladder.norms=['u_LinfH2semi']", "scheme={algorithm='" + algorithm + "'}"});
-        return run_ladder(scene, *scene.ladder, problem_of(scene, 0.01), nullptr)
-            .norms.at(0)
-            .remarks;
+        return run_study(scene).get<LadderResult>()->norms.at(0).remarks;
     };
     const auto warns = [](const std::vector<std::string>& remarks) {
         return std::any_of(remarks.begin(), remarks.end(), [](const std::string& remark) {

@@ -1,7 +1,11 @@
 // The study [work_precision]: its block, its runs, and what is made of them.
 
+#include "studies/work_precision/work_precision.hpp"
 #include "mms/text/input_error.hpp"
 #include "studies/gates/check.hpp"
+#include "studies/grid/grid.hpp"
+#include "studies/ladder/ladder.hpp"
+#include "studies/runs/beam_runs.hpp"
 #include "studies/study.hpp"
 #include "tests/temporary_directory.hpp"
 
@@ -113,9 +117,9 @@ Scene scene_of(const std::string& text, const std::vector<std::string>& override
 }
 
 WorkPrecisionResult timed(const Scene& scene, double one_run_above = 1e9) {
-    return run_work_precision(scene, *scene.work_precision,
-                              problem_of(scene, scene.work_precision->final_time), {},
-                              one_run_above);
+    const ProblemData problem = problem_of(scene, scene.longest_time());
+    return run_work_precision(*scene.get<WorkPrecisionBlock>(),
+                              beam_runs(scene, problem, problem).run, {}, one_run_above);
 }
 
 /// A scheme with made-up errors, in times 1 s, 2 s, 4 s, ….
@@ -124,7 +128,7 @@ SchemeRuns made_up(const std::vector<double>& errors, double factor) {
     double seconds = factor;
     for (const double error : errors) {
         RungResult run;
-        run.status = std::isnan(error) ? RunStatus::failed : RunStatus::ok;
+        run.status = std::isnan(error) ? RungStatus::failed : RungStatus::ok;
         if (!std::isnan(error))
             run.errors = {error, error};
         scheme.runs.push_back(run);
@@ -140,7 +144,7 @@ constexpr double failed = std::numeric_limits<double>::quiet_NaN();
 /// As many schemes as ladders of errors.
 WorkPrecisionBlock block_for(const std::vector<SchemeRuns>& schemes) {
     WorkPrecisionBlock block;
-    block.norms = {*Norm::named("theta_L2L2"), *Norm::named("u_L2H2")};
+    block.norms = {measure_of(*Norm::named("theta_L2L2")), measure_of(*Norm::named("u_L2H2"))};
     for (std::size_t k = 0; k < schemes.size(); ++k)
         block.schemes.push_back({"scheme " + std::to_string(k),
                                  {},
@@ -158,7 +162,7 @@ const ReachedError& at(const NormCosts& costs, double error) {
 BOOST_AUTO_TEST_SUITE(work_precision)
 
 BOOST_AUTO_TEST_CASE(the_block_is_read_as_written) {
-    const WorkPrecisionBlock block = *scene_of(good).work_precision;
+    const WorkPrecisionBlock block = *scene_of(good).get<WorkPrecisionBlock>();
     BOOST_TEST(block.final_time == 2.0);
     BOOST_TEST(block.norms.size() == 2u);
     BOOST_TEST(block.runs == 3);
@@ -166,19 +170,19 @@ BOOST_AUTO_TEST_CASE(the_block_is_read_as_written) {
     BOOST_REQUIRE(block.schemes.size() == 2u);
     // What is absent is as in [scheme], and the name says what the scheme is.
     BOOST_TEST(block.schemes[0].name == "euler, direct, lumped");
-    BOOST_TEST((block.schemes[0].scheme.thermal_mass == ThermalMass::lumped));
+    BOOST_TEST((scheme_of(block.schemes[0].method).thermal_mass == ThermalMass::lumped));
     BOOST_TEST(block.schemes[0].rungs[2].elements == 16);
     BOOST_TEST(block.schemes[0].rungs[2].steps == 320);
     BOOST_TEST(block.schemes[1].name == "BDF2");
-    BOOST_TEST(block.schemes[1].scheme.time.name == "bdf2");
-    BOOST_TEST((block.schemes[1].scheme.thermal_mass == ThermalMass::lumped));
+    BOOST_TEST(scheme_of(block.schemes[1].method).time.name == "bdf2");
+    BOOST_TEST((scheme_of(block.schemes[1].method).thermal_mass == ThermalMass::lumped));
     BOOST_TEST(block.schemes[1].rungs[1].steps == 40);
 }
 
 BOOST_AUTO_TEST_CASE(twenty_runs_unless_the_scene_says_otherwise) {
     std::string text = good;
     text.erase(text.find("runs       = 3\n"), 15);
-    BOOST_TEST(scene_of(text).work_precision->runs == 20);
+    BOOST_TEST(scene_of(text).get<WorkPrecisionBlock>()->runs == 20);
 }
 
 BOOST_DATA_TEST_CASE(a_wrong_block_is_told_at_its_place, data::make(wrong_blocks), wrong) {
@@ -198,12 +202,13 @@ BOOST_AUTO_TEST_CASE(overrides_reach_the_block_and_each_scheme_by_its_number) {
         scene_of(good, {"work_precision.runs=5", "work_precision.scheme.1.elements=[5]",
                         "work_precision.scheme.1.dt=\"0.5/s\"",
                         "work_precision.scheme.0.algorithm=fixed-point"});
-    BOOST_TEST(scene.work_precision->runs == 5);
-    BOOST_TEST(scene.work_precision->schemes[1].rungs[0].elements == 5);
-    BOOST_TEST(scene.work_precision->schemes[1].rungs[0].steps == 20);
-    BOOST_TEST(scene.work_precision->schemes[0].name == "euler, fixed-point, lumped");
+    BOOST_TEST(scene.get<WorkPrecisionBlock>()->runs == 5);
+    BOOST_TEST(scene.get<WorkPrecisionBlock>()->schemes[1].rungs[0].elements == 5);
+    BOOST_TEST(scene.get<WorkPrecisionBlock>()->schemes[1].rungs[0].steps == 20);
+    BOOST_TEST(scene.get<WorkPrecisionBlock>()->schemes[0].name == "euler, fixed-point, lumped");
     BOOST_TEST(scene_of(good, {"work_precision.scheme=[{elements=[7], dt=[1]}]"})
-                   .work_precision->schemes.size() == 1u);
+                   .get<WorkPrecisionBlock>()
+                   ->schemes.size() == 1u);
     const auto says = [](const std::string& override_text, const std::string& part) {
         const std::string message = message_of(good, {override_text});
         BOOST_TEST(message.starts_with("--set " + override_text + ": "), message);
@@ -220,10 +225,10 @@ BOOST_AUTO_TEST_CASE(the_short_form_replaces_the_list_of_schemes) {
     const TemporaryDirectory directory;
     const std::string file = directory.write(
         "s.toml", good + "[[short.work_precision.scheme]]\nelements = [4]\ndt = [0.1]\n");
-    BOOST_TEST(read_scene(file).work_precision->schemes.size() == 2u);
+    BOOST_TEST(read_scene(file).get<WorkPrecisionBlock>()->schemes.size() == 2u);
     const Scene scene = read_scene(file, {}, {.short_form = true});
-    BOOST_TEST(scene.work_precision->schemes.size() == 1u);
-    BOOST_TEST(scene.work_precision->runs == 3);
+    BOOST_TEST(scene.get<WorkPrecisionBlock>()->schemes.size() == 1u);
+    BOOST_TEST(scene.get<WorkPrecisionBlock>()->runs == 3);
 }
 
 BOOST_AUTO_TEST_CASE(errors_are_those_of_a_ladder_and_counters_those_of_a_run_without_norms) {
@@ -231,11 +236,12 @@ BOOST_AUTO_TEST_CASE(errors_are_those_of_a_ladder_and_counters_those_of_a_run_wi
         scene_of(good + "[ladder]\nfinal_time = 2.0\nelements = [4, 8, 16]\ndt = \"0.1/s\"\n"
                         "norms = [\"theta_L2L2_sq\", \"u_LinfH2semi\"]\n");
     const StudyResult result = run_study(scene);
-    const SchemeRuns& euler = result.work_precision->schemes[0];
+    const SchemeRuns& euler = result.get<WorkPrecisionResult>()->schemes[0];
     for (std::size_t i = 0; i < 3; ++i) {
-        BOOST_TEST(euler.runs[i].errors == result.ladder->rungs[i].errors);
-        BOOST_TEST(euler.runs[i].counters.steps == result.ladder->rungs[i].counters.steps);
-        BOOST_TEST(euler.runs[i].counters.norm_evaluations == 0);
+        BOOST_TEST(euler.runs[i].errors == result.get<LadderResult>()->rungs[i].errors);
+        BOOST_TEST(euler.runs[i].count("steps") ==
+                   result.get<LadderResult>()->rungs[i].count("steps"));
+        BOOST_TEST(euler.runs[i].count("norm_evaluations") == 0);
         BOOST_REQUIRE(euler.timings[i]);
         BOOST_TEST(euler.timings[i]->runs == 3);
         BOOST_TEST(euler.timings[i]->min > 0.0);
@@ -261,11 +267,11 @@ BOOST_AUTO_TEST_CASE(a_run_that_failed_stays_with_its_reason_and_without_a_time)
         good, {"beam.alpha=5", "work_precision.scheme.0.algorithm=fixed-point",
                "work_precision.scheme.0.elements=[4, 4]", "work_precision.scheme.0.dt=[1, 1e-3]"});
     const StudyResult result = run_study(scene);
-    const SchemeRuns& scheme = result.work_precision->schemes[0];
-    BOOST_TEST((scheme.runs[0].status == RunStatus::failed));
+    const SchemeRuns& scheme = result.get<WorkPrecisionResult>()->schemes[0];
+    BOOST_TEST((scheme.runs[0].status == RungStatus::failed));
     BOOST_TEST(scheme.runs[0].reason.find("would not contract") != std::string::npos);
     BOOST_TEST(!scheme.timings[0]);
-    BOOST_TEST((scheme.runs[1].status == RunStatus::ok));
+    BOOST_TEST((scheme.runs[1].status == RungStatus::ok));
     BOOST_TEST(scheme.timings[1].has_value());
     BOOST_TEST(result.failed());
 }
@@ -275,8 +281,8 @@ BOOST_AUTO_TEST_CASE(a_scene_with_timed_runs_alone_leaves_out_neither_heat_nor_b
         run_study(scene_of(good, {"beam.alpha=0", "work_precision.norms=[\"theta_L2L2\"]"}));
     for (const auto& part : result.left_out)
         BOOST_TEST(!part.starts_with("deflection"), part);
-    BOOST_TEST(!result.ladder);
-    BOOST_TEST(!result.orders);
+    BOOST_TEST(!result.get<LadderResult>());
+    BOOST_TEST(!result.get<OrdersResult>());
 }
 
 BOOST_AUTO_TEST_CASE(errors_to_reach_are_powers_of_ten_and_the_targets_from_large_to_small) {

@@ -1,6 +1,4 @@
-#include "studies/ladder/grid.hpp"
-
-#include "studies/reference/reference_solution.hpp"
+#include "studies/grid/grid.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -10,8 +8,10 @@ namespace tvbeam {
 
 namespace {
 
-std::optional<CorollaryConstants> corollary_constants(const std::vector<Refinement>& squares) {
-    CorollaryConstants constants;
+std::optional<TheoremConstants> constants_of(const std::string& theorem,
+                                             const std::vector<Refinement>& squares) {
+    TheoremConstants constants;
+    constants.theorem = theorem;
     double finest_width = 0.0;
     bool first = true;
     for (const auto& record : squares) {
@@ -30,8 +30,9 @@ std::optional<CorollaryConstants> corollary_constants(const std::vector<Refineme
     return first ? std::nullopt : std::optional(constants);
 }
 
-TwoTermOptions fit_options(const Scene& scene, std::span<const Refinement> records) {
-    auto reference = reference_widths(scene);
+TwoTermOptions fit_options(const std::optional<ReferenceBlock>& against,
+                           std::span<const Refinement> records) {
+    auto reference = against ? against->widths() : std::nullopt;
     // A step that is the reference's may be smaller by rounding.
     if (reference)
         for (const auto& record : records)
@@ -41,24 +42,28 @@ TwoTermOptions fit_options(const Scene& scene, std::span<const Refinement> recor
 
 } // namespace
 
-const TwoTermModel* OrdersResult::model_of(const Norm& norm) const {
+const TwoTermModel* OrdersResult::model_of(const Measure& norm) const {
     const auto found = std::find_if(norms.begin(), norms.end(), [&](const NormOrders& orders) {
         return orders.norm == norm.root();
     });
     return found != norms.end() && found->fit.holds() ? &found->fit.model : nullptr;
 }
 
-OrdersResult run_orders(const Scene& scene, const OrdersBlock& block, const ProblemData& data,
+Series series_of(const OrdersBlock& block, const Method& method) {
+    return {"orders", block.final_time, method, block.norms, block.grid};
+}
+
+OrdersResult run_orders(const OrdersBlock& block, const Method& method, const StudiedSolver& solver,
                         const Execution& execution) {
     OrdersResult result;
-    result.runs =
-        run_rungs("orders", scene, block.norms, block.final_time, block.grid, data, execution);
+    result.runs = run_series(series_of(block, method), solver.run, execution);
     for (std::size_t k = 0; k < block.norms.size(); ++k) {
-        const Norm& norm = block.norms[k];
+        const Measure& norm = block.norms[k];
         const auto roots = root_records_of(result.runs, k, norm);
-        result.norms.push_back({norm.root(), fit_two_term(roots, fit_options(scene, roots))});
-        if (norm.name == "corollary")
-            result.corollary = corollary_constants(records_of(result.runs, k));
+        result.norms.push_back(
+            {norm.root(), fit_two_term(roots, fit_options(solver.reference, roots))});
+        if (!norm.theorem.empty())
+            result.corollary = constants_of(norm.theorem, records_of(result.runs, k));
     }
     return result;
 }

@@ -1,7 +1,8 @@
-#include "studies/ladder/round_off_remark.hpp"
+#include "studies/runs/round_off_remark.hpp"
 
 #include "core/round_off.hpp"
 #include "core/space/linear_elements.hpp"
+#include "studies/runs/beam_runs.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -29,25 +30,24 @@ double curvature_size(const ProblemData& data, double final_time) {
 
 } // namespace
 
-std::string round_off_remark(const Scene& scene, const ProblemData& data, double final_time,
-                             const std::vector<RungResult>& rungs, const Norm& norm,
-                             std::size_t k) {
-    // A computed solution is not known at the times asked for here.
-    if (scene.scheme.algorithm != Algorithm::fixed_point || !data.exact ||
-        data.exact->elements != 0 || norm.root() != "u_LinfH2semi")
+std::string round_off_remark(const Beam& beam, const ProblemData& data, const Series& series,
+                             const std::vector<RungResult>& rungs, std::size_t k) {
+    const Measure& measure = series.measures[k];
+    if (scheme_of(series.method).algorithm != Algorithm::fixed_point || !data.exact ||
+        measure.root() != "u_LinfH2semi")
         return {};
-    const double size = curvature_size(data, final_time);
+    const double size = curvature_size(data, series.final_time);
     for (const auto& rung : rungs) {
         if (rung.errors.empty())
             continue;
-        const double error = norm.squared ? std::sqrt(rung.errors[k]) : rung.errors[k];
-        const double floor = size * hermite_floor(rung.rung.elements, scene.beam.zeta, rung.rung.dt,
-                                                  rung.rung.steps);
+        const double error = measure.squared ? std::sqrt(rung.errors[k]) : rung.errors[k];
+        const double floor =
+            size * hermite_floor(rung.rung.elements, beam.zeta, rung.rung.dt, rung.rung.steps);
         if (within * floor <= error / 2.0)
             continue;
         std::ostringstream text;
         text.precision(2);
-        text << norm.name << ": from s = " << rung.rung.elements
+        text << measure.name << ": from s = " << rung.rung.elements
              << " on, the round-off of the Hermite form, which grows like h^-4, may exceed the "
                 "discretisation error: "
              << floor << ", within a factor of " << within << ", is predicted of an error of "

@@ -20,9 +20,6 @@ std::string shortest(double value);
 /// scientific.
 std::string with_prefix(double value);
 
-/// What a text of these functions, without a prefix, says; whatever the locale.
-double number_of(const std::string& text);
-
 /// Fixed notation; nothing for a missing value.
 std::string fixed(std::optional<double> value, int decimals);
 

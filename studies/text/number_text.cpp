@@ -1,4 +1,4 @@
-#include "reports/document/number_text.hpp"
+#include "studies/text/number_text.hpp"
 
 #include <fmt/format.h>
 

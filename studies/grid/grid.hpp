@@ -1,7 +1,9 @@
 #pragma once
 
+#include "studies/grid/orders_block.hpp"
 #include "studies/orders/two_term_fit.hpp"
-#include "studies/runs/rung.hpp"
+#include "studies/runs/execution.hpp"
+#include "studies/runs/studied_solver.hpp"
 
 #include <optional>
 #include <string>
@@ -15,8 +17,9 @@ struct NormOrders {
     TwoTermFit fit;
 };
 
-/// The constants C of Corollary 2.2 over the grid: corollary ≤ C (h² + Δt²).
-struct CorollaryConstants {
+/// The constants C of a theorem (Measure::theorem) over the grid: error ≤ C (h² + Δt²).
+struct TheoremConstants {
+    std::string theorem; ///< e.g. "Corollary 2.2"
     double least = 0.0;
     double greatest = 0.0;
     double finest = 0.0; ///< of the run with the smallest h² + Δt²
@@ -26,16 +29,19 @@ struct CorollaryConstants {
 struct OrdersResult {
     std::vector<RungResult> runs;
     std::vector<NormOrders> norms;
-    std::optional<CorollaryConstants>
-        corollary; ///< if `corollary` was asked for and some run has an error
+    /// If a measure that a theorem bounds was asked for and some run has an error.
+    std::optional<TheoremConstants> corollary;
 
     /// The model of a norm, or of the root of a squared one; null when the grid has none that
     /// holds.
-    [[nodiscard]] const TwoTermModel* model_of(const Norm& norm) const;
+    [[nodiscard]] const TwoTermModel* model_of(const Measure& norm) const;
 };
 
+/// The runs that the block asks for.
+Series series_of(const OrdersBlock& block, const Method& method);
+
 /// Runs the grid and fits the model to each norm.
-OrdersResult run_orders(const Scene& scene, const OrdersBlock& block, const ProblemData& data,
+OrdersResult run_orders(const OrdersBlock& block, const Method& method, const StudiedSolver& solver,
                         const Execution& execution = {});
 
 } // namespace tvbeam

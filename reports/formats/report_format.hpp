@@ -1,0 +1,58 @@
+#pragma once
+
+#include "reports/document/document.hpp"
+#include "reports/plots/gnuplot.hpp"
+#include "reports/plots/plot.hpp"
+#include "studies/study.hpp"
+#include "studies/table_rows.hpp"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace tvbeam {
+
+/// What formats are written from.
+struct ReportContents {
+    const StudyResult& result;
+    const Document& document;
+    const std::vector<Plot>& plots; ///< none where no format that is wanted shows them
+    const DrawnPlots& drawn;
+};
+
+struct NamedText {
+    std::string name; ///< of a file within the directory
+    std::string text;
+};
+
+/// A kind of file that a result can be written to.
+class ReportFormat {
+public:
+    virtual ~ReportFormat() = default;
+
+    [[nodiscard]] virtual std::string name() const = 0; ///< by which [report] asks for it
+    [[nodiscard]] virtual bool shows_plots() const { return false; }
+
+    /// Files that it writes whatever the result, one at least in every directory it writes to; none
+    /// if their names depend on the result.
+    [[nodiscard]] virtual std::vector<std::string> certain_files() const { return {}; }
+    [[nodiscard]] virtual std::vector<NamedText> write(const ReportContents& contents) const = 0;
+
+    /// Files in a directory that an earlier result has left and that would be taken for a part of
+    /// this one: known by their first lines, so that files of another origin stay.
+    [[nodiscard]] virtual std::vector<std::filesystem::path>
+    earlier_files(const std::filesystem::path& /*directory*/) const {
+        return {};
+    }
+};
+
+/// Every format, in the order in which files are written.
+const RowsOf<ReportFormat>& report_formats();
+
+/// Their names.
+std::vector<std::string> report_format_names();
+
+/// The first line of a file; empty where it cannot be read.
+std::string first_line(const std::filesystem::path& file);
+
+} // namespace tvbeam

@@ -1,0 +1,99 @@
+#include "reports/document/orders_section.hpp"
+#include "reports/studies/run_fields.hpp"
+#include "reports/studies/study_report.hpp"
+#include "studies/gates/expectation.hpp"
+#include "studies/grid/grid.hpp"
+#include "studies/table_row.hpp"
+
+#include <nlohmann/json.hpp>
+
+namespace tvbeam {
+
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+Json json_of(const OrdersResult& orders, const OrdersBlock& block) {
+    Json norms = Json::object();
+    for (const auto& [norm, fit] : orders.norms) {
+        if (!fit.holds()) {
+            norms[norm] = {{"status", "failed"}, {"reason", fit.failure}};
+            continue;
+        }
+        Json rejected = Json::array();
+        for (const auto& record : fit.rejected) {
+            const Rung& rung = orders.runs[record.record].rung;
+            rejected.push_back(
+                {{"elements", rung.elements}, {"dt", rung.dt}, {"reason", record.reason}});
+        }
+        norms[norm] = {{"status", "ok"},
+                       {"p", fit.model.p},
+                       {"p_se", fit.p_se},
+                       {"p_uncertainty", fit.p_uncertainty()},
+                       {"p_determined", fit.p_determined()},
+                       {"q", fit.model.q},
+                       {"q_se", fit.q_se},
+                       {"q_uncertainty", fit.q_uncertainty()},
+                       {"q_determined", fit.q_determined()},
+                       {"a", fit.model.a},
+                       {"b", fit.model.b},
+                       {"rho", fit.model.rho},
+                       {"rho_se", fit.rho_se},
+                       {"rms", fit.rms},
+                       {"used", fit.used.size()},
+                       {"rejected", std::move(rejected)}};
+    }
+    Json runs = Json::array();
+    for (const auto& run : orders.runs) {
+        Json entry = run_json(run);
+        entry["errors"] = errors_json(run, block.norms);
+        runs.push_back(std::move(entry));
+    }
+    Json json{
+        {"final_time", block.final_time}, {"norms", std::move(norms)}, {"runs", std::move(runs)}};
+    if (orders.corollary)
+        json["corollary_constant"] = {{"least", orders.corollary->least},
+                                      {"greatest", orders.corollary->greatest},
+                                      {"finest", orders.corollary->finest}};
+    return json;
+}
+
+std::string grid_csv(const OrdersResult& orders, const std::vector<Measure>& norms) {
+    std::string text = "elements,h,dt,steps,status";
+    for (const auto& norm : norms)
+        text += "," + norm.name;
+    text += ",seconds,reason\n";
+    for (const auto& run : orders.runs) {
+        text += run_fields(run);
+        for (std::size_t k = 0; k < norms.size(); ++k)
+            text += number_field(error_of(run, k));
+        text += cost_fields(run);
+    }
+    return text;
+}
+
+} // namespace
+
+struct OrdersReport final : StudyReport {
+    std::string study() const override { return "orders"; }
+    std::vector<Section> sections(const StudyResult& result) const override {
+        return {orders_section(*result.get<OrdersResult>())};
+    }
+    Json json(const StudyResult& result) const override {
+        return json_of(*result.get<OrdersResult>(), *result.scene.get<OrdersBlock>());
+    }
+    std::vector<StudyCsv> csvs(const StudyResult& result) const override {
+        return {{study(),
+                 grid_csv(*result.get<OrdersResult>(), result.scene.get<OrdersBlock>()->norms)}};
+    }
+    std::vector<Plot> plots(const StudyResult& result) const override {
+        return error_surface_plots(result);
+    }
+    std::vector<std::pair<std::string, std::string>> csv_heads() const override {
+        return {{study(), run_columns}};
+    }
+};
+
+template std::unique_ptr<const StudyReport> make_row<StudyReport, OrdersReport>();
+
+} // namespace tvbeam

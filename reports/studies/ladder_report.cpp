@@ -1,0 +1,116 @@
+#include "reports/document/ladder_section.hpp"
+#include "reports/studies/run_fields.hpp"
+#include "reports/studies/study_report.hpp"
+#include "studies/gates/expectation.hpp"
+#include "studies/ladder/ladder.hpp"
+#include "studies/runs/beam_runs.hpp"
+#include "studies/table_row.hpp"
+
+#include <nlohmann/json.hpp>
+
+namespace tvbeam {
+
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+Json json_of(const LadderResult& ladder, const LadderBlock& block) {
+    Json rungs = Json::array();
+    for (std::size_t i = 0; i < ladder.rungs.size(); ++i) {
+        Json entry = run_json(ladder.rungs[i]);
+        entry["errors"] = errors_json(ladder.rungs[i], block.norms);
+        Json orders = Json::object();
+        Json printed = Json::object();
+        Json predicted = Json::object();
+        Json verdict = Json::object();
+        Json reason = Json::object();
+        for (const auto& norm : ladder.norms) {
+            const std::string& name = norm.norm.name;
+            orders[name] = number_json(norm.orders[i]);
+            if (block.printed && block.printed->figures.contains(name))
+                printed[name] = block.printed->figures.at(name)[i];
+            if (!norm.predictions.empty())
+                predicted[name] = number_json(norm.predictions[i]);
+            verdict[name] = name_of(norm.verdicts[i].verdict);
+            reason[name] = norm.verdicts[i].reason;
+        }
+        entry["orders"] = std::move(orders);
+        if (!printed.empty())
+            entry["printed"] = std::move(printed);
+        if (!predicted.empty())
+            entry["predicted"] = std::move(predicted);
+        entry["verdict"] = std::move(verdict);
+        entry["verdict_reason"] = std::move(reason);
+        entry["counters"] = counters_json(ladder.rungs[i]);
+        rungs.push_back(std::move(entry));
+    }
+    Json json{{"final_time", block.final_time}, {"rungs", std::move(rungs)}};
+    if (block.printed)
+        json["printed_source"] = block.printed->source;
+    Json remarks = Json::array();
+    if (!ladder.reference_remark.empty())
+        remarks.push_back(ladder.reference_remark);
+    for (const auto& norm : ladder.norms)
+        for (const auto& remark : norm.remarks)
+            remarks.push_back(remark);
+    json["remarks"] = std::move(remarks);
+    return json;
+}
+
+std::string ladder_csv(const LadderResult& ladder, const std::optional<PrintedFigures>& printed) {
+    const auto has_figures = [&](const std::string& norm) {
+        return printed && printed->figures.contains(norm);
+    };
+    std::string text = "elements,h,dt,steps,status";
+    for (const auto& norm : ladder.norms) {
+        const std::string& name = norm.norm.name;
+        text += "," + name;
+        if (has_figures(name))
+            text += "," + name + "_printed";
+        text += "," + name + "_order";
+        if (!norm.predictions.empty())
+            text += "," + name + "_predicted";
+    }
+    text += ",seconds,reason\n";
+    for (std::size_t i = 0; i < ladder.rungs.size(); ++i) {
+        text += run_fields(ladder.rungs[i]);
+        for (std::size_t k = 0; k < ladder.norms.size(); ++k) {
+            const LadderNorm& norm = ladder.norms[k];
+            text += number_field(error_of(ladder.rungs[i], k));
+            if (has_figures(norm.norm.name))
+                text += number_field(printed->figures.at(norm.norm.name)[i]);
+            text += number_field(norm.orders[i]);
+            if (!norm.predictions.empty())
+                text += number_field(norm.predictions[i]);
+        }
+        text += cost_fields(ladder.rungs[i]);
+    }
+    return text;
+}
+
+} // namespace
+
+struct LadderReport final : StudyReport {
+    std::string study() const override { return "ladder"; }
+    std::vector<Section> sections(const StudyResult& result) const override {
+        return {ladder_section(*result.get<LadderResult>(), *result.scene.get<LadderBlock>(),
+                               method_of(result.scene.scheme))};
+    }
+    Json json(const StudyResult& result) const override {
+        return json_of(*result.get<LadderResult>(), *result.scene.get<LadderBlock>());
+    }
+    std::vector<StudyCsv> csvs(const StudyResult& result) const override {
+        return {{study(), ladder_csv(*result.get<LadderResult>(),
+                                     result.scene.get<LadderBlock>()->printed)}};
+    }
+    std::vector<Plot> plots(const StudyResult& result) const override {
+        return convergence_plots(result);
+    }
+    std::vector<std::pair<std::string, std::string>> csv_heads() const override {
+        return {{study(), run_columns}};
+    }
+};
+
+template std::unique_ptr<const StudyReport> make_row<StudyReport, LadderReport>();
+
+} // namespace tvbeam

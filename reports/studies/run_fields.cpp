@@ -1,0 +1,69 @@
+#include "reports/studies/run_fields.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+
+namespace tvbeam {
+
+using Json = nlohmann::ordered_json;
+
+Json run_json(const RungResult& run) {
+    Json json{{"elements", run.rung.elements},
+              {"dt", run.rung.dt},
+              {"steps", run.rung.steps},
+              {"status", name_of(run.status)}};
+    if (!run.reason.empty())
+        json["reason"] = run.reason;
+    json["seconds"] = run.seconds;
+    json["iterations"] = run.count("fixed_point_iterations");
+    return json;
+}
+
+Json errors_json(const RungResult& run, const std::vector<Measure>& measures) {
+    Json errors = Json::object();
+    for (std::size_t k = 0; k < measures.size(); ++k)
+        errors[measures[k].name] = run.errors.empty() ? Json() : Json(run.errors[k]);
+    return errors;
+}
+
+Json counters_json(const RungResult& run) {
+    Json counters = Json::object();
+    for (const auto& [name, value] : run.counters)
+        counters[name] = value;
+    return counters;
+}
+
+Json number_json(std::optional<double> value) {
+    return value && std::isfinite(*value) ? Json(*value) : Json();
+}
+
+std::string quoted(const std::string& field) {
+    if (field.find_first_of(",\"\n\r") == std::string::npos)
+        return field;
+    std::string text = "\"";
+    for (const char c : field)
+        text += c == '"' ? std::string("\"\"") : std::string(1, c);
+    return text + "\"";
+}
+
+std::string run_fields(const RungResult& run) {
+    return fmt::format("{},{},{},{},{}", run.rung.elements,
+                       1.0 / static_cast<double>(run.rung.elements), run.rung.dt, run.rung.steps,
+                       name_of(run.status));
+}
+
+std::string number_field(std::optional<double> value) {
+    return value ? fmt::format(",{}", *value) : ",";
+}
+
+std::string finite_field(std::optional<double> value) {
+    return number_field(value && std::isfinite(*value) ? value : std::nullopt);
+}
+
+std::string cost_fields(const RungResult& run) {
+    return fmt::format(",{},{}\n", run.seconds, quoted(run.reason));
+}
+
+} // namespace tvbeam

@@ -1,0 +1,35 @@
+#pragma once
+
+#include "studies/runs/run.hpp"
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace tvbeam {
+
+/// What every run of a study says of itself in JSON; and its errors by name, its counters.
+nlohmann::ordered_json run_json(const RungResult& run);
+nlohmann::ordered_json errors_json(const RungResult& run, const std::vector<Measure>& measures);
+nlohmann::ordered_json counters_json(const RungResult& run);
+
+/// A number, or null where there is none or it is not finite.
+nlohmann::ordered_json number_json(std::optional<double> value);
+
+/// A field as RFC 4180 has it.
+std::string quoted(const std::string& field);
+
+/// The first columns of a run, without a comma at the end; their names.
+std::string run_fields(const RungResult& run);
+inline constexpr const char* run_columns = "elements,h,dt,steps,status";
+
+/// A comma and a number, or nothing where there is none; finite_field: or it is not finite.
+std::string number_field(std::optional<double> value);
+std::string finite_field(std::optional<double> value);
+
+/// The last columns of a run, seconds and reason.
+std::string cost_fields(const RungResult& run);
+
+} // namespace tvbeam

@@ -1,0 +1,193 @@
+#include "reports/document/stress_section.hpp"
+#include "reports/studies/run_fields.hpp"
+#include "reports/studies/study_report.hpp"
+#include "studies/stress/stress.hpp"
+#include "studies/table_row.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+
+namespace tvbeam {
+
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+Json stop(double value) {
+    return std::isfinite(value) ? Json(value) : Json(value < 0.0 ? "-inf" : "inf");
+}
+
+Json json_of(const StressParameters& p) {
+    return {{"alpha", p.alpha},
+            {"zeta", p.zeta},
+            {"dt", p.dt},
+            {"elements", p.elements},
+            {"steps", p.steps},
+            {"stops", {stop(p.stops.lower), stop(p.stops.upper)}},
+            {"load", p.load},
+            {"initial", name_of(p.initial)},
+            {"seed", p.seed},
+            {"time", p.time},
+            {"thermal_mass", name_of(p.thermal_mass)},
+            {"algorithm", name_of(p.algorithm)}};
+}
+
+Json json_of(const StressChecks& checks) {
+    Json json{{"energy", number_json(checks.energy)},
+              {"heat_residual", number_json(checks.heat_residual)},
+              {"beam_residual", number_json(checks.beam_residual)},
+              {"penetration", number_json(checks.penetration)},
+              {"wrong_sign", number_json(checks.wrong_sign)},
+              {"complementarity", number_json(checks.complementarity)},
+              {"path", number_json(checks.path)},
+              {"path_limit", number_json(checks.path_limit)}};
+    if (!checks.path)
+        json["path_skipped"] = checks.path_skipped;
+    json["error"] = number_json(checks.error);
+    if (!checks.error)
+        json["error_skipped"] = checks.error_skipped;
+    return json;
+}
+
+Json json_of(const StressCase& one) {
+    Json json{{"parameters", json_of(one.parameters)}, {"outcome", name_of(one.outcome)}};
+    json["reason"] = one.reason.empty() ? Json() : Json(one.reason);
+    json["checks"] = one.checks ? json_of(*one.checks) : Json();
+    json["seconds"] = one.seconds;
+    return json;
+}
+
+Json json_of(const ContractionMap& map) {
+    Json points = Json::array();
+    for (Eigen::Index i = 0; i < map.predicted.rows(); ++i)
+        for (Eigen::Index j = 0; j < map.predicted.cols(); ++j)
+            points.push_back({{"alpha", map.block.alpha[static_cast<std::size_t>(j)]},
+                              {"dt", map.block.dt[static_cast<std::size_t>(i)]},
+                              {"predicted", number_json(map.predicted(i, j))},
+                              {"measured", number_json(map.measured(i, j))}});
+    return {{"zeta", map.block.zeta},
+            {"elements", map.block.elements},
+            {"refused", map.refused()},
+            {"points", std::move(points)}};
+}
+
+Json json_of(const RoundOffTable& table) {
+    Json rows = Json::array();
+    for (const auto& row : table.rows) {
+        rows.push_back({{"elements", row.elements},
+                        {"moment", number_json(row.moment.value)},
+                        {"sine", number_json(row.sine)},
+                        {"hermite", number_json(row.hermite.value)},
+                        {"hermite_predicted", number_json(row.hermite_predicted)},
+                        {"discretisation_error", number_json(row.discretisation_error)}});
+        if (!row.moment.reason.empty())
+            rows.back()["moment_stopped"] = row.moment.reason;
+        if (!row.hermite.reason.empty())
+            rows.back()["hermite_stopped"] = row.hermite.reason;
+        if (!row.remark.empty())
+            rows.back()["remark"] = row.remark;
+    }
+    return rows;
+}
+
+Json json_of(const StressResult& result) {
+    Json cases = Json::array();
+    for (const auto& one : result.cases)
+        cases.push_back(json_of(one));
+    Json json{{"certified", result.count(Outcome::certified)},
+              {"refused", result.count(Outcome::refused)},
+              {"stopped", result.count(Outcome::stopped)},
+              {"failed", result.count(Outcome::failed)},
+              {"cases", std::move(cases)}};
+    if (result.contraction)
+        json["contraction"] = json_of(*result.contraction);
+    if (result.roundoff)
+        json["roundoff"] = json_of(*result.roundoff);
+    return json;
+}
+
+std::string stress_csv(const StressResult& result) {
+    std::string text = "alpha,zeta,dt,elements,steps,g1,g2,load,initial,seed,time,thermal_mass,"
+                       "algorithm,outcome,energy,heat_residual,beam_residual,penetration,"
+                       "wrong_sign,complementarity,path,error,seconds,reason\n";
+    for (const auto& one : result.cases) {
+        const StressParameters& p = one.parameters;
+        text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{}", p.alpha, p.zeta, p.dt,
+                            p.elements, p.steps, p.stops.lower, p.stops.upper, p.load,
+                            name_of(p.initial), p.seed, p.time, name_of(p.thermal_mass),
+                            name_of(p.algorithm), name_of(one.outcome));
+        const auto check = [&](double StressChecks::*member) {
+            return finite_field(one.checks ? std::optional((*one.checks).*member) : std::nullopt);
+        };
+        text += check(&StressChecks::energy) + check(&StressChecks::heat_residual) +
+                check(&StressChecks::beam_residual) + check(&StressChecks::penetration) +
+                check(&StressChecks::wrong_sign) + check(&StressChecks::complementarity) +
+                finite_field(one.checks ? one.checks->path : std::nullopt) +
+                finite_field(one.checks ? one.checks->error : std::nullopt);
+        text += fmt::format(",{},{}\n", one.seconds, quoted(one.reason));
+    }
+    return text;
+}
+
+std::string contraction_csv(const ContractionMap& map) {
+    std::string text = "alpha,dt,predicted,measured\n";
+    for (Eigen::Index i = 0; i < map.predicted.rows(); ++i)
+        for (Eigen::Index j = 0; j < map.predicted.cols(); ++j)
+            text +=
+                fmt::format("{},{}{}{}\n", map.block.alpha[static_cast<std::size_t>(j)],
+                            map.block.dt[static_cast<std::size_t>(i)],
+                            finite_field(map.predicted(i, j)), finite_field(map.measured(i, j)));
+    return text;
+}
+
+std::string round_off_csv(const RoundOffTable& table) {
+    std::string text = "elements,moment,sine,hermite,hermite_predicted,discretisation_error,"
+                       "remark\n";
+    for (const auto& row : table.rows)
+        text += fmt::format("{}{}{}{}{}{},{}\n", row.elements, finite_field(row.moment.value),
+                            finite_field(row.sine), finite_field(row.hermite.value),
+                            finite_field(row.hermite_predicted),
+                            finite_field(row.discretisation_error), quoted(row.remark));
+    return text;
+}
+
+} // namespace
+
+struct StressReport final : StudyReport {
+    std::string study() const override { return "stress"; }
+    std::vector<Section> sections(const StudyResult& result) const override {
+        return stress_sections(*result.get<StressResult>());
+    }
+    Json json(const StudyResult& result) const override {
+        return json_of(*result.get<StressResult>());
+    }
+    std::vector<StudyCsv> csvs(const StudyResult& result) const override {
+        const StressResult& stress = *result.get<StressResult>();
+        std::vector<StudyCsv> all;
+        if (!stress.cases.empty())
+            all.push_back({study(), stress_csv(stress)});
+        if (stress.contraction)
+            all.push_back({"contraction", contraction_csv(*stress.contraction)});
+        if (stress.roundoff)
+            all.push_back({"roundoff", round_off_csv(*stress.roundoff)});
+        return all;
+    }
+    std::vector<Plot> plots(const StudyResult& result) const override {
+        std::vector<Plot> all;
+        for (const auto& plots : {stress_plots, contraction_plots, round_off_plots})
+            for (auto& plot : plots(result))
+                all.push_back(std::move(plot));
+        return all;
+    }
+    std::vector<std::pair<std::string, std::string>> csv_heads() const override {
+        return {{study(), "alpha,zeta,dt,elements,steps,"},
+                {"contraction", "alpha,dt,predicted,"},
+                {"roundoff", "elements,moment,sine,"}};
+    }
+};
+
+template std::unique_ptr<const StudyReport> make_row<StudyReport, StressReport>();
+
+} // namespace tvbeam

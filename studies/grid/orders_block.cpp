@@ -1,0 +1,32 @@
+#include "studies/grid/orders_block.hpp"
+
+#include "studies/scene/toml_reader.hpp"
+
+namespace tvbeam {
+
+OrdersBlock read_orders(TableReader& table, const SolverKeys& keys) {
+    OrdersBlock orders;
+    orders.final_time = read_final_time(table);
+    const auto elements = read_elements(table);
+    const auto dt = table.numbers("dt");
+    if (!dt || dt->empty())
+        throw table.error("dt", " is missing or empty; give the steps that every mesh "
+                                "is run with, e.g. [1e-2, 5e-3, 2.5e-3]");
+    for (std::size_t j = 0; j < dt->size(); ++j)
+        for (const std::int64_t s : elements)
+            orders.grid.push_back({s, steps_of(table, j, orders.final_time, (*dt)[j]), (*dt)[j]});
+    orders.norms = read_norms(table, keys);
+    if (orders.norms.empty())
+        throw table.error("norms", " is missing or empty; name the norms whose orders are wanted");
+    for (std::size_t i = 0; i < orders.norms.size(); ++i)
+        if (orders.norms[i].name != orders.norms[i].root())
+            throw table.error("norms",
+                              " names the square '" + orders.norms[i].name +
+                                  "'; the model is one of the norm itself: write " +
+                                  orders.norms[i].root(),
+                              i);
+    table.finish();
+    return orders;
+}
+
+} // namespace tvbeam

@@ -1,0 +1,37 @@
+#include "studies/ladder/ladder_block.hpp"
+
+#include "studies/scene/toml_reader.hpp"
+
+namespace tvbeam {
+
+namespace {
+
+PrintedFigures read_printed(TableReader table, const LadderBlock& ladder, const SolverKeys& keys) {
+    PrintedFigures printed;
+    printed.source = table.text("source").value_or("printed");
+    printed.figures = read_by_measure(
+        table, keys, ladder.norms, [&](const std::string& name, const std::vector<double>& list) {
+            if (list.size() != ladder.rungs.size())
+                throw table.error(name, " has " + std::to_string(list.size()) + " figures for " +
+                                            std::to_string(ladder.rungs.size()) +
+                                            " rungs; give one a rung, or none: --set " +
+                                            table.full("").substr(0, table.full("").size() - 1) +
+                                            "={}");
+        });
+    return printed;
+}
+
+} // namespace
+
+LadderBlock read_ladder(TableReader& table, const SolverKeys& keys) {
+    LadderBlock ladder;
+    ladder.final_time = read_final_time(table);
+    ladder.rungs = read_rungs(table, ladder.final_time);
+    ladder.norms = read_norms(table, keys);
+    if (auto printed = table.table("printed"))
+        ladder.printed = read_printed(*std::move(printed), ladder, keys);
+    table.finish();
+    return ladder;
+}
+
+} // namespace tvbeam

@@ -1,0 +1,129 @@
+#include "studies/ladder/ladder.hpp"
+#include "studies/scene/scene.hpp"
+#include "studies/scene/toml_reader.hpp"
+#include "studies/study.hpp"
+#include "studies/table_row.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tvbeam {
+
+namespace {
+
+/// The orders that may judge the ladder: the constants of a model are those of its final time.
+const OrdersResult* orders_beside(const LadderBlock& block, const StudyResult& all) {
+    const auto* orders = all.scene.get<OrdersBlock>();
+    return orders != nullptr && orders->final_time == block.final_time ? all.get<OrdersResult>()
+                                                                       : nullptr;
+}
+
+/// Rungs finer in h or dt than every run of the grid: there a prediction is one.
+bool beyond(const Rung& rung, const std::vector<RungResult>& grid) {
+    return std::all_of(grid.begin(), grid.end(), [&](const RungResult& run) {
+        return rung.elements > run.rung.elements || rung.dt < run.rung.dt;
+    });
+}
+
+/// ratios = [lo, hi], or one such pair a rung: of the errors to the printed figures.
+void expect_ratios(TableReader& table, const Series& series, std::size_t k,
+                   const std::optional<PrintedFigures>& printed,
+                   std::vector<Expectation>& expectations) {
+    const auto bands = table.bands("ratios");
+    if (!bands)
+        return;
+    const std::string& norm = series.measures[k].name;
+    if (!printed || !printed->figures.contains(norm))
+        throw table.error("ratios", " compares with printed figures, but "
+                                    "ladder.printed has none for " +
+                                        norm);
+    const std::size_t rungs = series.rungs.size();
+    if (bands->size() != 1 && bands->size() != rungs)
+        throw table.error("ratios", " has " + std::to_string(bands->size()) + " bands for " +
+                                        std::to_string(rungs) +
+                                        " rungs; give one for all, or one a rung");
+    for (std::size_t row = 0; row < rungs; ++row) {
+        const auto& band = (*bands)[bands->size() == 1 ? 0 : row];
+        const double figure = printed->figures.at(norm)[row];
+        expectations.push_back({band.lowest, band.highest, table.place("ratios"),
+                                [series, k, row, figure](const StudyResult& result) {
+                                    const auto& run = result.get<LadderResult>()->rungs[row];
+                                    const auto error = error_of(run, k);
+                                    return std::vector{row_metric(
+                                        series, run, k, "ratio to the printed figure",
+                                        error ? std::optional(*error / figure) : std::nullopt)};
+                                }});
+    }
+}
+
+/// Error over prediction of the two-term model, both of the norm itself, of every rung finer than
+/// the grid.
+std::vector<Metric> predicted_metrics(const Series& series, std::size_t k,
+                                      const StudyResult& result) {
+    const LadderResult& ladder = *result.get<LadderResult>();
+    const LadderNorm& norm = ladder.norms[k];
+    std::vector<Metric> metrics;
+    for (std::size_t row = 0; row < norm.predictions.size(); ++row) {
+        const RungResult& run = ladder.rungs[row];
+        if (!beyond(run.rung, result.get<OrdersResult>()->runs))
+            continue;
+        auto ratio = error_of(run, k);
+        if (ratio)
+            *ratio /= *norm.predictions[row];
+        if (ratio && norm.norm.squared)
+            ratio = std::sqrt(*ratio);
+        metrics.push_back(
+            row_metric(series, run, k, "ratio to the two-term model's prediction", ratio));
+    }
+    if (metrics.empty())
+        metrics.push_back({"ladder." + norm.norm.name + ": prediction", std::nullopt,
+                           norm.predictions.empty()
+                               ? "no two-term model: [orders] is missing, has another final_time, "
+                                 "or its fit failed"
+                               : "no rung is finer than the grid of [orders]"});
+    return metrics;
+}
+
+} // namespace
+
+/// The block [ladder].
+struct LadderStudy final : KindOf<LadderBlock, LadderResult> {
+    std::string name() const override { return "ladder"; }
+    bool measures() const override { return true; }
+
+    std::any read(TableReader& table, const SolverKeys& keys) const override {
+        return read_ladder(table, keys);
+    }
+    std::vector<Series> series(const std::any& block, const Method& own) const override {
+        return {series_of(block_in(block), own)};
+    }
+    std::any run(const std::any& block, const StudyContext& context) const override {
+        return LadderResult{.rungs = run_series(series_of(block_in(block), context.method),
+                                                context.solver.run, context.execution),
+                            .norms = {},
+                            .reference_remark = {}};
+    }
+    void conclude(const std::any& block, std::any& record, const StudyResult& all,
+                  const StudyContext& context) const override {
+        record = analyse_ladder(series_of(block_in(block), context.method), record_in(record).rungs,
+                                context.solver, orders_beside(block_in(block), all));
+    }
+    Runs runs(const std::any& record) const override { return {&record_in(record).rungs}; }
+
+    void expect(TableReader& table, const std::any& block,
+                std::vector<Expectation>& expectations) const override {
+        const Series series = series_of(block_in(block), {});
+        for_each_measure(table, block_in(block).norms, [&](TableReader& norm, std::size_t k) {
+            expect_orders(norm, series, k, expectations);
+            expect_ratios(norm, series, k, block_in(block).printed, expectations);
+            expect_errors(norm, series, k, expectations);
+            expect_band(norm, "predicted", expectations, [series, k](const StudyResult& result) {
+                return predicted_metrics(series, k, result);
+            });
+        });
+    }
+};
+
+template std::unique_ptr<const StudyKind> make_row<StudyKind, LadderStudy>();
+
+} // namespace tvbeam

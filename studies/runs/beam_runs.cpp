@@ -1,0 +1,114 @@
+#include "studies/runs/beam_runs.hpp"
+
+#include "core/run.hpp"
+#include "studies/runs/round_off_remark.hpp"
+#include "studies/scene/scene.hpp"
+#include "studies/text/number_text.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <chrono>
+#include <stdexcept>
+
+namespace tvbeam {
+
+namespace {
+
+/// Of the fixed point over the direct algorithm: its iterations, and the solves with B.
+constexpr double iterated = 20.0;
+
+std::string time_scheme_text(const TimeScheme& scheme) {
+    if (scheme.name == "euler")
+        return "implicit Euler";
+    std::string text = scheme.name;
+    std::transform(text.begin(), text.end(), text.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+    return text;
+}
+
+std::vector<Count> named(const Counters& counters) {
+    return {{"steps", counters.steps},
+            {"sine_steps", counters.sine_steps},
+            {"heat_solves", counters.heat_solves},
+            {"beam_solves", counters.beam_solves},
+            {"coupling_updates", counters.coupling_updates},
+            {"load_updates", counters.load_updates},
+            {"source_evaluations", counters.source_evaluations},
+            {"tip_evaluations", counters.tip_evaluations},
+            {"contact_steps", counters.contact_steps},
+            {"fixed_point_iterations", counters.fixed_point_iterations},
+            {"norm_evaluations", counters.norm_evaluations},
+            {"doubles_allocated", counters.doubles_allocated}};
+}
+
+RungStatus status_of(RunStatus status) {
+    return status == RunStatus::ok       ? RungStatus::ok
+           : status == RunStatus::failed ? RungStatus::failed
+                                         : RungStatus::interrupted;
+}
+
+} // namespace
+
+Method method_of(const Scheme& scheme) {
+    const bool direct = scheme.algorithm == Algorithm::direct;
+    const bool lumped = scheme.thermal_mass == ThermalMass::lumped;
+    return {.scheme = scheme,
+            .name =
+                scheme.time.name + ", " + name_of(scheme.algorithm) + (lumped ? ", lumped" : ""),
+            .words = (direct ? "direct algorithm"
+                             : "fixed-point algorithm, tolerance " + shortest(scheme.tolerance)) +
+                     ", " + time_scheme_text(scheme.time) + ", " + name_of(scheme.thermal_mass) +
+                     " heat mass matrix",
+            .cost = static_cast<double>(scheme.time.stages.size()) * (direct ? 1.0 : iterated),
+            .iterations = direct ? "" : "fixed_point_iterations"};
+}
+
+const Scheme& scheme_of(const Method& method) {
+    return std::any_cast<const Scheme&>(method.scheme);
+}
+
+Measure measure_of(const Norm& norm) {
+    return {norm.name, norm.squared, norm.words, norm.theorem};
+}
+
+std::vector<Norm> norms_of(const std::vector<Measure>& measures) {
+    std::vector<Norm> norms;
+    for (const auto& measure : measures) {
+        const auto norm = Norm::named(measure.name);
+        if (!norm)
+            throw std::out_of_range("the beam has no norm " + measure.name);
+        norms.push_back(*norm);
+    }
+    return norms;
+}
+
+RungResult rung_result(const Rung& rung, const RunResult& run, double seconds) {
+    return {rung, status_of(run.status), run.reason, seconds, named(run.counters), run.errors};
+}
+
+StudiedSolver beam_runs(const Scene& scene, const ProblemData& data, const ProblemData& measured) {
+    const auto run = [&scene, &measured](const RunTask& task) {
+        const auto start = std::chrono::steady_clock::now();
+        const RunResult run = tvbeam::run({.beam = scene.beam,
+                                           .mesh = scene.mesh.with(task.rung.elements),
+                                           .scheme = scheme_of(task.method),
+                                           .final_time = task.final_time,
+                                           .steps = task.rung.steps,
+                                           .norms = norms_of(task.measures),
+                                           .advance = task.advance},
+                                          measured);
+        const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+        RungResult result = rung_result(task.rung, run, elapsed.count());
+        // What the norms show of the reference against itself is the rounding of its evaluation.
+        if (scene.reference && scene.reference->is(task.rung))
+            std::fill(result.errors.begin(), result.errors.end(), 0.0);
+        return result;
+    };
+    const auto remark = [&scene, &data](const Series& series, const std::vector<RungResult>& runs,
+                                        std::size_t k) {
+        return round_off_remark(scene.beam, data, series, runs, k);
+    };
+    return {.run = run, .reference = scene.reference, .remark = remark};
+}
+
+} // namespace tvbeam

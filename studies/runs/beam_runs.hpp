@@ -1,0 +1,32 @@
+#pragma once
+
+#include "core/norms/norms.hpp"
+#include "core/problem.hpp"
+#include "core/scheme.hpp"
+#include "studies/runs/studied_solver.hpp"
+
+#include <vector>
+
+namespace tvbeam {
+
+struct RunResult;
+struct Scene;
+
+/// A scheme of the beam as a method, and back. Throws std::bad_any_cast for a method of another
+/// solver.
+Method method_of(const Scheme& scheme);
+const Scheme& scheme_of(const Method& method);
+
+/// Norms as measures, and back. Throws std::out_of_range for a measure that is no norm.
+Measure measure_of(const Norm& norm);
+std::vector<Norm> norms_of(const std::vector<Measure>& measures);
+
+/// A run of the beam as a study has it.
+RungResult rung_result(const Rung& rung, const RunResult& run, double seconds);
+
+/// The beam of a scene as a solver under study: core/run.hpp on the scene's meshes. data: the
+/// scene's problem; measured: the same with what errors are measured against for its exact
+/// solution. All three must outlive the result.
+StudiedSolver beam_runs(const Scene& scene, const ProblemData& data, const ProblemData& measured);
+
+} // namespace tvbeam

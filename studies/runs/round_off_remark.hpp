@@ -1,0 +1,19 @@
+#pragma once
+
+#include "core/problem.hpp"
+#include "studies/runs/run.hpp"
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace tvbeam {
+
+/// A sentence where ten times the Hermite form's predicted round-off (core/round_off.hpp), the
+/// factor within which the prediction holds, exceeds half of an error in the curvature; empty where
+/// it does not, where no exact solution says how large the curvature is, and for the direct
+/// algorithm. k: the norm's place among the measures of the series.
+std::string round_off_remark(const Beam& beam, const ProblemData& data, const Series& series,
+                             const std::vector<RungResult>& rungs, std::size_t k);
+
+} // namespace tvbeam

@@ -1,0 +1,68 @@
+#include "studies/runs/run.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace tvbeam {
+
+std::string Measure::root() const {
+    constexpr std::string_view suffix = "_sq";
+    return name.ends_with(suffix) ? name.substr(0, name.size() - suffix.size()) : name;
+}
+
+double work_of(const Method& method, const Rung& rung) {
+    return static_cast<double>(rung.elements) * static_cast<double>(rung.steps) * method.cost;
+}
+
+std::string name_of(RungStatus status) {
+    switch (status) {
+    case RungStatus::ok:
+        return "ok";
+    case RungStatus::failed:
+        return "failed";
+    default:
+        return "interrupted";
+    }
+}
+
+std::int64_t RungResult::count(std::string_view name) const {
+    const auto found = std::find_if(counters.begin(), counters.end(),
+                                    [&](const Count& count) { return count.name == name; });
+    return found == counters.end() ? 0 : found->value;
+}
+
+double longest_time(const std::vector<Series>& all) {
+    double longest = 0.0;
+    for (const auto& series : all)
+        longest = std::max(longest, series.final_time);
+    return longest;
+}
+
+std::vector<Refinement> records_of(const std::vector<RungResult>& rungs, std::size_t k) {
+    std::vector<Refinement> records;
+    records.reserve(rungs.size());
+    for (const auto& rung : rungs)
+        records.push_back({.h = 1.0 / static_cast<double>(rung.rung.elements),
+                           .dt = rung.rung.dt,
+                           .error = rung.errors.empty() ? std::numeric_limits<double>::quiet_NaN()
+                                                        : rung.errors[k],
+                           .seconds = rung.seconds});
+    return records;
+}
+
+std::vector<Refinement> root_records_of(const std::vector<RungResult>& rungs, std::size_t k,
+                                        const Measure& measure) {
+    auto records = records_of(rungs, k);
+    if (measure.squared)
+        for (auto& record : records)
+            record.error = std::sqrt(record.error);
+    return records;
+}
+
+bool any_failed(const std::vector<RungResult>& rungs) {
+    return std::any_of(rungs.begin(), rungs.end(),
+                       [](const RungResult& rung) { return rung.status != RungStatus::ok; });
+}
+
+} // namespace tvbeam

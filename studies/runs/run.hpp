@@ -1,0 +1,106 @@
+#pragma once
+
+#include "studies/orders/observed_order.hpp"
+
+#include <any>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace tvbeam {
+
+/// One level of a refinement: s elements, h = 1/s, and N steps of length dt. On a mesh that is not
+/// uniform h is the mean length, to which those of a family of meshes are in proportion.
+struct Rung {
+    std::int64_t elements = 0;
+    std::int64_t steps = 0;
+    double dt = 0.0; ///< as the scene gives it; steps · dt = final_time to rounding
+};
+
+/// What a run measures: the norm of an error, or its square.
+struct Measure {
+    std::string name;     ///< e.g. "theta_L2L2_sq"
+    bool squared = false; ///< a square, which has twice the order
+    std::string words;    ///< for display, e.g. "temperature in L²(0,T; L²), squared"
+    std::string theorem;  ///< by which it is at most C (h² + Δt²); empty: none
+
+    /// The name of the norm itself, without `_sq`.
+    [[nodiscard]] std::string root() const;
+};
+
+/// One way of solving the problem, as its solver names and describes it.
+struct Method {
+    std::any scheme;        ///< what the solver knows it by: of the beam a Scheme
+    std::string name;       ///< e.g. "bdf2, direct, lumped"
+    std::string words;      ///< e.g. "direct algorithm, BDF2, lumped heat mass matrix"
+    double cost = 1.0;      ///< of an element and a step, in those of the solver's cheapest method
+    std::string iterations; ///< the counter of its iterations; empty: it does not iterate
+};
+
+/// What a run of the method costs, about: elements times steps times cost.
+double work_of(const Method& method, const Rung& rung);
+
+/// How a run ended.
+enum class RungStatus { ok, failed, interrupted };
+
+std::string name_of(RungStatus status); ///< "ok", "failed", "interrupted"
+
+/// What a run did, so many times.
+struct Count {
+    std::string name; ///< e.g. "heat_solves"
+    std::int64_t value = 0;
+};
+
+/// What one run of a study gave.
+struct RungResult {
+    Rung rung;
+    RungStatus status = RungStatus::ok;
+    std::string reason = {}; ///< why it failed; empty when ok
+    double seconds = 0.0;    ///< wall clock, measuring included
+    std::vector<Count> counters = {};
+    std::vector<double> errors = {}; ///< one a measure; empty when failed
+
+    /// A counter by its name; 0 where the solver has none of it.
+    [[nodiscard]] std::int64_t count(std::string_view name) const;
+};
+
+/// One run that a study wants.
+struct RunTask {
+    const Rung& rung;
+    double final_time;
+    const Method& method;
+    const std::vector<Measure>& measures; ///< empty: nothing is measured
+    /// Told at the start, and then every few steps, how many more have been made; false: the run
+    /// ends.
+    std::function<bool(std::int64_t steps)> advance;
+};
+
+/// A run is a call. It is made by the beam (beam_runs.hpp), or by any other solver; several threads
+/// may call at a time. A run that fails says so in its result and does not throw.
+using RunCall = std::function<RungResult(const RunTask&)>;
+
+/// Runs of one method that belong together: a ladder, or a grid.
+struct Series {
+    std::string study; ///< by which its runs are kept, e.g. "ladder", "work_precision.BDF2"
+    double final_time = 0.0;
+    Method method;
+    std::vector<Measure> measures;
+    std::vector<Rung> rungs;
+};
+
+/// To which the longest of the series runs; 0 without any.
+double longest_time(const std::vector<Series>& all);
+
+/// The runs as records for an order analysis of measure k; a failed run has a NaN error.
+std::vector<Refinement> records_of(const std::vector<RungResult>& rungs, std::size_t k);
+
+/// The same with the root of every error: what the two-term model wants of a square.
+std::vector<Refinement> root_records_of(const std::vector<RungResult>& rungs, std::size_t k,
+                                        const Measure& measure);
+
+/// Whether some run failed.
+bool any_failed(const std::vector<RungResult>& rungs);
+
+} // namespace tvbeam

@@ -1,0 +1,106 @@
+// Ladder, grid and work-precision know no solver: a run is a call, here of a function whose error
+// is known exactly.
+
+#include "studies/grid/grid.hpp"
+#include "studies/ladder/ladder.hpp"
+#include "studies/work_precision/work_precision.hpp"
+
+#include <boost/test/unit_test.hpp>
+
+#include <atomic>
+#include <cmath>
+
+using namespace tvbeam;
+
+namespace {
+
+const std::vector<Measure> norms{{"L2", false, "the error in L²", ""},
+                                 {"L2_sq", true, "the error in L², squared", ""}};
+
+/// e = 3h² + 2Δt of the method "first"; the other's is a tenth of it.
+RungResult made_up(const RunTask& task) {
+    RungResult result;
+    result.rung = task.rung;
+    const double h = 1.0 / static_cast<double>(task.rung.elements);
+    const double error = (3.0 * h * h + 2.0 * task.rung.dt) *
+                         (std::any_cast<std::string>(task.method.scheme) == "first" ? 1.0 : 0.1);
+    if (!task.advance(0) || !task.advance(task.rung.steps)) {
+        result.status = RungStatus::interrupted;
+        return result;
+    }
+    result.seconds = 1e-3;
+    result.counters = {{"calls", 1}};
+    for (const auto& measure : task.measures)
+        result.errors.push_back(measure.squared ? error * error : error);
+    return result;
+}
+
+Method method(const std::string& name) {
+    return {.scheme = name, .name = name, .words = "made up", .cost = 1.0, .iterations = ""};
+}
+
+std::vector<Rung> levels(const std::vector<std::int64_t>& elements) {
+    std::vector<Rung> rungs;
+    for (const auto s : elements)
+        rungs.push_back({s, s * s, 1.0 / static_cast<double>(s * s)});
+    return rungs;
+}
+
+} // namespace
+
+BOOST_AUTO_TEST_SUITE(any_solver)
+
+BOOST_AUTO_TEST_CASE(a_ladder_of_calls_shows_the_order_of_what_is_called) {
+    // Δt = h²: e = 5h².
+    const LadderBlock block{
+        .final_time = 1.0, .rungs = levels({4, 8, 16}), .norms = norms, .printed = {}};
+    const LadderResult ladder = run_ladder(block, method("first"), {.run = made_up});
+    BOOST_REQUIRE(ladder.rungs.size() == 3U);
+    for (std::size_t i = 1; i < 3; ++i) {
+        BOOST_TEST(*ladder.norms[0].orders[i] == 2.0, boost::test_tools::tolerance(1e-12));
+        BOOST_TEST(*ladder.norms[1].orders[i] == 4.0, boost::test_tools::tolerance(1e-12));
+        BOOST_TEST(int(ladder.norms[0].verdicts[i].verdict == Verdict::asymptotic));
+        BOOST_TEST(ladder.rungs[i].count("calls") == 1);
+    }
+}
+
+BOOST_AUTO_TEST_CASE(a_grid_of_calls_has_the_orders_and_constants_of_what_is_called) {
+    OrdersBlock block{.final_time = 1.0, .grid = {}, .norms = {norms[0]}};
+    for (const std::int64_t steps : {10, 20, 40, 80})
+        for (const std::int64_t s : {4, 8, 16, 32})
+            block.grid.push_back({s, steps, 1.0 / static_cast<double>(steps)});
+    for (const int jobs : {1, 3}) {
+        const OrdersResult grid =
+            run_orders(block, method("first"), {.run = made_up}, {.jobs = jobs});
+        const TwoTermModel* model = grid.model_of(norms[1]);
+        BOOST_REQUIRE(model != nullptr);
+        BOOST_TEST(model->p == 2.0, boost::test_tools::tolerance(1e-6));
+        BOOST_TEST(model->q == 1.0, boost::test_tools::tolerance(1e-6));
+        BOOST_TEST(model->a == 3.0, boost::test_tools::tolerance(1e-6));
+        BOOST_TEST(model->b == 2.0, boost::test_tools::tolerance(1e-6));
+    }
+}
+
+BOOST_AUTO_TEST_CASE(a_race_of_calls_gives_each_scheme_its_own_errors) {
+    WorkPrecisionBlock block;
+    block.final_time = 1.0;
+    block.norms = {norms[0]};
+    block.runs = 2;
+    block.schemes = {{"first", method("first"), levels({4, 8})},
+                     {"second", method("second"), levels({4, 8})}};
+    const WorkPrecisionResult race = run_work_precision(block, made_up);
+    BOOST_REQUIRE(race.schemes.size() == 2U);
+    for (std::size_t i = 0; i < 2; ++i) {
+        BOOST_TEST(race.schemes[0].runs[i].errors.at(0) / race.schemes[1].runs[i].errors.at(0) ==
+                       10.0,
+                   boost::test_tools::tolerance(1e-12));
+        BOOST_TEST(race.schemes[0].timings[i]->runs == 2);
+    }
+}
+
+BOOST_AUTO_TEST_CASE(the_size_of_the_largest_run_is_no_negative_number) {
+    const Rung largest{most_elements, static_cast<std::int64_t>(most_steps), 1e-12};
+    BOOST_TEST(node_steps(largest) == 10'000'000'000'000'000'000ULL);
+}
+
+BOOST_AUTO_TEST_SUITE_END()
