@@ -82,6 +82,7 @@ StudyResult run_study(const Scene& scene, ProblemData data, const Execution& exe
     StudyResult result{.scene = scene,
                        .left_out = {},
                        .remarks = {},
+                       .law_distance = data.exact ? data.exact->law_distance : 0.0,
                        .reference = {},
                        .orders = {},
                        .ladder = {},
