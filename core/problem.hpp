@@ -67,6 +67,9 @@ struct ExactSolution {
     Field u_xx;    ///< curvature
     std::optional<Eigen::Index>
         stress; ///< amplitude of the contact stress σ̃(t); none: zero at all times
+    /// Of a solution of rigid stops on a beam with penalised ones: by how much it misses their law,
+    /// at most. Errors stall there. Unit: length.
+    double law_distance = 0.0;
 
     /// A computed solution: its fields are polynomials of degree ≤ 5 on each of so many equal
     /// elements, a multiple of those of any mesh that it is compared on. 0: smooth on [0, 1].

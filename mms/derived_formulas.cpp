@@ -70,8 +70,9 @@ ex at_start(const ex& expression, const SourceText& source) {
 
 } // namespace
 
-std::vector<DerivedFormula> derived_formulas(const Solution& solution) {
-    const SolutionExpressions expressions = expressions_of(solution);
+std::vector<DerivedFormula> derived_formulas(const Solution& solution, bool penalised_stops) {
+    SolutionExpressions expressions = expressions_of(solution);
+    const GiNaC::realsymbol sigma("sigma");
     std::vector<DerivedFormula> formulas;
     const auto add = [&formulas](const std::string& symbol, const Interval& interval,
                                  const ex& formula) {
@@ -84,7 +85,10 @@ std::vector<DerivedFormula> derived_formulas(const Solution& solution) {
         std::any_of(expressions.phases.begin(), expressions.phases.end(),
                     [&s](const PhaseExpressions& phase) { return depends_on(phase.sigma, s.x); });
     for (std::size_t i = 0; i < expressions.phases.size(); ++i) {
-        const PhaseExpressions& phase = expressions.phases[i];
+        PhaseExpressions& phase = expressions.phases[i];
+        const bool by_law = penalised_stops && !solution.phases[i].sigma;
+        if (by_law)
+            phase.sigma = sigma;
         const Interval interval = interval_of(phase, i == 0, i + 1 == expressions.phases.size());
         const DerivedPhase derived = derive(phase, solution.phases[i], s.alpha, s.zeta);
         add("f", interval, derived.heat_source);
@@ -92,6 +96,10 @@ std::vector<DerivedFormula> derived_formulas(const Solution& solution) {
         if (driven)
             add("q", interval, derived.body_force);
         add("m", interval, derived.end_moment);
+        if (by_law)
+            formulas.push_back({"sigma", interval.text, interval.latex,
+                                "-(max(u(1,t) - g2, 0) - max(g1 - u(1,t), 0))/epsilon",
+                                "-\\frac{(u(1,t) - g_2)^+ - (g_1 - u(1,t))^+}{\\varepsilon}"});
     }
     const Interval at_zero{"t = 0", "t = 0"};
     add("theta0", at_zero,

@@ -9,7 +9,7 @@ namespace tvbeam {
 
 /// A formula derived from a solution, with the beam's symbols and the parameters left as symbols.
 struct DerivedFormula {
-    std::string symbol;   ///< "f", "G", "q", "m", "theta0" or "u0"
+    std::string symbol;   ///< "f", "G", "q", "m", "sigma", "theta0" or "u0"
     std::string interval; ///< the times it holds for, e.g. "0 <= t <= sqrt(2)" or "t > sqrt(2)";
                           ///< "t >= 0": always; "t = 0" for the last two
     std::string interval_latex; ///< the same in LaTeX's mathematical mode
@@ -22,9 +22,13 @@ struct DerivedFormula {
 ///     f = θ̃_t − θ̃_xx − α u_xxt,   G = σ̃ + u_xxx + ζ u_xxxt + α θ̃_x,   q = σ̃_x,
 ///     m = u_xx(1,t) + ζ u_xxt(1,t),   theta0 = θ̃(x,0),   u0 = u(x,0)
 ///
+/// Where the stops are penalised and σ̃ is not given, it stands as `sigma` in G, and its law behind:
+/// sigma(1,t) = −((u(1,t) − g2)⁺ − (g1 − u(1,t))⁺)/ε, a text that does not read back.
+///
 /// f, G, q and m once for each phase, in the order of the phases, q if it is not zero in all of
 /// them; then theta0 and u0 of the first phase. The same text in every run. Throws InputError where
 /// an expression is too large to be differentiated.
-std::vector<DerivedFormula> derived_formulas(const Solution& solution);
+std::vector<DerivedFormula> derived_formulas(const Solution& solution,
+                                             bool penalised_stops = false);
 
 } // namespace tvbeam

@@ -1,5 +1,6 @@
 #include "mms/differentiated_problem.hpp"
 
+#include "core/contact/contact.hpp"
 #include "mms/admissible/admissibility.hpp"
 
 #include <algorithm>
@@ -62,10 +63,20 @@ Amplitudes end_values(const DifferentiatedSolution& solution, double zeta) {
     };
 }
 
+/// σ̃, where it is not given and the stops are penalised, is what their law makes of u(1,t).
+DifferentiatedSolution with_stress(DifferentiatedSolution solution, const Stops& stops) {
+    if (stops.epsilon > 0.0 && !solution.sigma)
+        solution.sigma = [u = solution.u, stops](double, double t) -> StressAt {
+            return {tvbeam::contact_stress(stops, u(1.0, t).value, 0.0), 0.0};
+        };
+    return solution;
+}
+
 } // namespace
 
-ProblemData differentiated_problem(const DifferentiatedSolution& solution, const Beam& beam,
+ProblemData differentiated_problem(const DifferentiatedSolution& given, const Beam& beam,
                                    double final_time) {
+    const DifferentiatedSolution solution = with_stress(given, beam.stops);
     const auto theta = solution.theta;
     const auto u = solution.u;
     const auto sigma = solution.sigma;
@@ -95,7 +106,7 @@ ProblemData differentiated_problem(const DifferentiatedSolution& solution, const
         problem.exact->stress = 1;
     problem.theta_initial = problem.exact->theta;
     problem.curvature_initial = problem.exact->u_xx;
-    require_admissible(problem, solution.name, beam, final_time);
+    problem.exact->law_distance = require_admissible(problem, solution.name, beam, final_time);
     return problem;
 }
 

@@ -1,5 +1,7 @@
 #include "mms/expected_orders.hpp"
 
+#include "mms/admissible/admissibility_check.hpp"
+#include "mms/admissible/sampled_rules.hpp"
 #include "mms/expression/algebra.hpp"
 #include "mms/expression/piecewise_tape.hpp"
 #include "mms/expression/symbols.hpp"
@@ -8,6 +10,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 namespace tvbeam {
 
@@ -33,24 +37,33 @@ bool vanishes(const DerivedSolution& derived, ex DerivedPhase::*member, const Gi
     });
 }
 
+/// θ̃_t and u_xxt in every phase, over x.
+PiecewiseTape rates(const DerivedSolution& derived) {
+    return {
+        derived, [](const DerivedPhase& phase) {
+            return std::vector<ex>{phase.theta_terms[0], derivative(phase.u_xx, model_symbols().t)};
+        }};
+}
+
 std::vector<Switch> switches(const DerivedSolution& derived, double final_time) {
-    const PiecewiseTape tape(derived, [](const DerivedPhase& phase) {
-        return std::vector<ex>{phase.theta_terms[0], derivative(phase.u_xx, model_symbols().t),
-                               phase.contact_stress};
-    });
+    const PiecewiseTape tape = rates(derived);
     const ArrayXd x = sample_points(0.0, 1.0);
+    // A jump is one beside what the rate is at any time: beside its own terms at the switch, which
+    // may cancel there, round-off would be one.
+    ArrayXd sizes = ArrayXd::Zero(2);
+    for (const double t : sample_points(0.0, final_time))
+        sizes = sizes.max(tape.at(x, t).abs().rowwise().maxCoeff());
     std::vector<Switch> result;
     for (const PhaseExpressions& phase : derived.phases) {
         if (!(phase.end_value < final_time))
             break;
         const Eigen::ArrayXXd before = tape.at(x, phase.end_value);
         const Eigen::ArrayXXd after = tape.at(x, phase.end_value, true);
-        const ArrayXd sizes = before.abs().max(after.abs()).rowwise().maxCoeff();
         const ArrayXd jumps = (after - before).abs().rowwise().maxCoeff();
         const auto jump = [&](Eigen::Index row) {
             return jumps(row) > jump_tolerance * sizes(row) ? jumps(row) : 0.0;
         };
-        result.push_back({phase.end_value, jump(0), jump(1), jump(2)});
+        result.push_back({phase.end_value, jump(0), jump(1)});
     }
     return result;
 }
@@ -60,44 +73,218 @@ bool jumps(const std::vector<Switch>& switches, double Switch::*jump) {
                        [jump](const Switch& change) { return change.*jump > 0.0; });
 }
 
-std::vector<ExpectedOrder> orders(const ExpectedOrders& known, const Beam& beam) {
-    const bool coupled = beam.alpha != 0.0;
-    const bool theta_kink = jumps(known.switches, &Switch::theta_t_jump);
-    const bool u_kink = jumps(known.switches, &Switch::u_xxt_jump);
-    const bool jump = jumps(known.switches, &Switch::stress_jump);
-    const auto of_theta = [&](double order) {
-        return known.theta_is_exact ? std::nullopt : std::optional(order);
-    };
-    const auto of_u = [&](double alone) -> std::optional<double> {
-        const bool through_theta = coupled && !known.theta_is_exact;
-        if (known.u_is_exact && !through_theta)
-            return std::nullopt;
-        return through_theta ? 2.0 : alone;
-    };
-    using Order = std::optional<double>;
-    const auto if_any = [](bool has_error, double order) {
-        return has_error ? Order(order) : std::nullopt;
-    };
-    const auto second = [&](bool own_kink) {
-        return own_kink || (coupled && (theta_kink || u_kink)) ? 1.0 : 2.0;
-    };
-    const Order theta_first = if_any(known.theta_has_time_error, 1.0);
-    const Order theta_second = if_any(known.theta_has_time_error, second(theta_kink));
-    const Order u_first = if_any(known.u_has_time_error, 1.0);
-    const Order u_second = if_any(known.u_has_time_error, second(u_kink));
-    const Order of_stress = if_any(coupled && !known.theta_is_exact, 2.0);
-    std::vector<ExpectedOrder> result = {
-        {"theta_L2L2", of_theta(2.0), theta_first, theta_second},
-        {"theta_L2H1", of_theta(1.0), theta_first, theta_second},
-        {"u_LinfH2semi", of_u(2.0), u_first, u_second},
-        {"u_LinfH1", of_u(coupled ? 2.0 : 3.0), u_first, u_second},
-        {"u_LinfL2", of_u(coupled ? 2.0 : 4.0), u_first, u_second},
-    };
-    if (beam.stops.exist())
-        result.push_back({"sigma_L2", of_stress,
-                          jump ? if_any(known.u_has_time_error, 0.5) : u_first,
-                          jump ? if_any(known.u_has_time_error, 0.5) : u_second});
-    return result;
+/// How far the tip goes beyond a penalised stop, or stays clear of it, where it is farthest.
+void seek_farthest_tip(const DerivedSolution& derived, const Stops& stops, double final_time,
+                       ExpectedOrders& result) {
+    const PiecewiseTape tape(derived,
+                             [](const DerivedPhase& phase) { return std::vector<ex>{phase.u}; });
+    double size = 0.0;
+    double farthest = -std::numeric_limits<double>::infinity();
+    double farthest_at = 0.0;
+    for (const double t : ArrayXd::LinSpaced(time_points, 0.0, final_time)) {
+        const double tip = tape.at(ArrayXd::Ones(1), t)(0, 0);
+        const double beyond = std::max(tip - stops.upper, stops.lower - tip);
+        size = std::max(size, std::abs(tip));
+        if (beyond > farthest) {
+            farthest = beyond;
+            farthest_at = t;
+        }
+    }
+    result.is_in_stops = farthest > jump_tolerance * size;
+    if (std::abs(farthest) <= jump_tolerance * size)
+        result.contact.touch = farthest_at;
+}
+
+constexpr Forecast no_error{};
+constexpr Forecast unknown{Forecast::Kind::unknown, 0.0, 0.0};
+
+Forecast between(double least, double greatest) {
+    return {Forecast::Kind::between, least, greatest};
+}
+Forecast exactly(double order) {
+    return between(order, order);
+}
+Forecast doubled(const Forecast& order) {
+    return {order.kind, 2.0 * order.least, 2.0 * order.greatest};
+}
+
+/// Of the sum of two errors.
+Forecast slower(const Forecast& a, const Forecast& b) {
+    if (!a.has_error() || !b.has_error())
+        return a.has_error() ? a : b;
+    if (!a.is_known() || !b.is_known())
+        return unknown;
+    return between(std::min(a.least, b.least), std::min(a.greatest, b.greatest));
+}
+
+enum class Method { euler, bdf2, sdirk2 };
+
+/// Every norm's orders, once what is known of the solution is.
+class Orders {
+public:
+    Orders(const ExpectedOrders& known, const Beam& beam)
+        : known_(known), beam_(beam), coupled_(beam.alpha != 0.0) {}
+
+    [[nodiscard]] std::vector<ExpectedOrder> all() const {
+        const auto row = [&](const std::string& norm, const Forecast& in_h, const auto& in_dt) {
+            return ExpectedOrder{norm, in_h, in_dt(Method::euler), in_dt(Method::bdf2),
+                                 in_dt(Method::sdirk2)};
+        };
+        const auto theta = [&](Method method) { return theta_in_time(method); };
+        const auto u = [&](Method method) { return u_in_time(method, always); };
+        const auto both = [&](Method method) { return doubled(slower(theta(method), u(method))); };
+        const Forecast corollary = doubled(slower(theta_in_space(2.0), u_in_space(2.0)));
+        std::vector<ExpectedOrder> result = {
+            row("theta_L2L2", theta_in_space(2.0), theta),
+            row("theta_LinfL2", theta_in_space(2.0), theta),
+            row("theta_L2H1", theta_in_space(1.0), theta),
+            row("u_LinfH2", u_in_space(2.0), u),
+            row("u_LinfH2semi", u_in_space(2.0), u),
+            row("u_L2H2", u_in_space(2.0), u),
+            row("u_LinfH1", u_in_space(coupled_ ? 2.0 : 3.0), u),
+            row("u_LinfL2", u_in_space(coupled_ ? 2.0 : 4.0), u),
+            row("corollary", corollary, both),
+        };
+        if (beam_.stops.exist())
+            result.push_back(row("sigma_L2", stress_in_space(),
+                                 [&](Method method) { return stress_in_time(method); }));
+        if (known_.law_distance > 0.0)
+            for (ExpectedOrder& order : result)
+                order.in_h = order.euler = order.bdf2 = order.sdirk2 = unknown;
+        return result;
+    }
+
+private:
+    static constexpr double always = std::numeric_limits<double>::infinity();
+
+    [[nodiscard]] Forecast theta_in_space(double order) const {
+        return known_.theta_is_exact ? no_error : exactly(order);
+    }
+
+    [[nodiscard]] Forecast u_in_space(double alone) const {
+        const bool through_theta = coupled_ && !known_.theta_is_exact;
+        if (known_.u_is_exact && !through_theta)
+            return no_error;
+        return exactly(through_theta ? 2.0 : alone);
+    }
+
+    /// Of what has jumps of its own, `own`, or through the coupling, up to the time `until`.
+    [[nodiscard]] Forecast in_time(Method method, double Switch::*own, double until) const {
+        if (method == Method::euler)
+            return exactly(1.0);
+        const bool kink =
+            std::any_of(known_.switches.begin(), known_.switches.end(), [&](const Switch& change) {
+                return change.t <= until &&
+                       (change.*own > 0.0 ||
+                        (coupled_ && (change.theta_t_jump > 0.0 || change.u_xxt_jump > 0.0)));
+            });
+        if (!kink)
+            return exactly(2.0);
+        return between(1.0, 2.0);
+    }
+
+    [[nodiscard]] Forecast theta_in_time(Method method) const {
+        return known_.theta_has_time_error ? in_time(method, &Switch::theta_t_jump, always)
+                                           : no_error;
+    }
+    [[nodiscard]] Forecast u_in_time(Method method, double until) const {
+        return known_.u_has_time_error ? in_time(method, &Switch::u_xxt_jump, until) : no_error;
+    }
+
+    /// j of the header: the least and the greatest, infinite where a function is flat.
+    static std::pair<double, double> powers(const ContactOnset& onset) {
+        const double early = onset.approach ? *onset.approach - 1.0 : always;
+        const double late = onset.force ? *onset.force : always;
+        return std::minmax(early, late);
+    }
+    static double share(double j) {
+        return std::isinf(j) ? 1.0 : (2.0 * j + 1.0) / (2.0 * j + 2.0);
+    }
+
+    [[nodiscard]] Forecast stress_in_space() const {
+        if (!coupled_ || known_.theta_is_exact)
+            return no_error;
+        return of_stress(exactly(2.0), [&](const ContactOnset& onset) {
+            return between(2.0 * share(powers(onset).first), 2.0);
+        });
+    }
+
+    [[nodiscard]] Forecast stress_in_time(Method method) const {
+        if (!known_.u_has_time_error)
+            return no_error;
+        // A jump at the end of the last contact comes too late for the stress.
+        const double pressed = known_.contact.pressed_until
+                                   ? std::nextafter(*known_.contact.pressed_until, 0.0)
+                                   : always;
+        return of_stress(u_in_time(method, pressed), [&](const ContactOnset& onset) {
+            const Forecast p = u_in_time(method, onset.t);
+            const auto order = [](double of_u, double j) {
+                return std::max(of_u - 0.5, of_u * share(j));
+            };
+            const auto [least, greatest] = powers(onset);
+            return between(order(p.least, least), order(p.greatest, greatest));
+        });
+    }
+
+    /// pressed: the order while the tip is pressed; at: what an onset leaves of it.
+    template <typename AtOnset>
+    [[nodiscard]] Forecast of_stress(const Forecast& pressed, const AtOnset& at) const {
+        if (beam_.stops.epsilon > 0.0)
+            return known_.is_in_stops ? pressed : known_.contact.touch ? unknown : no_error;
+        if (known_.contact.touch)
+            return unknown;
+        if (!known_.contact.pressed_until)
+            return no_error;
+        Forecast result = pressed;
+        if (beam_.zeta > 0.0)
+            for (const ContactOnset& onset : known_.contact.onsets)
+                result = slower(result, at(onset));
+        return result;
+    }
+
+    const ExpectedOrders& known_;
+    const Beam& beam_;
+    bool coupled_;
+};
+
+std::string power_text(const std::string& base, std::optional<int> power) {
+    if (!power)
+        return "flatter than any power of " + base;
+    return *power == 0 ? std::string("with a jump")
+                       : "like " + base + (*power == 1 ? "" : "^" + std::to_string(*power));
+}
+
+void add_contact_reasons(const ExpectedOrders& known, const Beam& beam,
+                         std::vector<std::string>& text) {
+    if (known.law_distance > 0.0) {
+        text.push_back("The solution is one of rigid stops. Penalised ones with epsilon = " +
+                       number_text(beam.stops.epsilon) + " would let its tip pass by up to " +
+                       number_text(known.law_distance) +
+                       ": errors do not fall to zero, and how they come to a halt is not known.");
+        return;
+    }
+    if (known.contact.touch)
+        text.push_back("at t = " + number_text(*known.contact.touch) +
+                       " the tip is on a stop without a force. What is computed may press there, "
+                       "or stay clear of it: the order of sigma_L2 is not known.");
+    else if (beam.stops.exist() && !known.is_in_stops && !known.contact.pressed_until)
+        text.emplace_back("The tip never reaches a stop: sigma is zero, and so is its error once "
+                          "the error of u(1,t) is less than the distance.");
+    if (beam.zeta == 0.0)
+        return;
+    // A step answers to a force with the compliance Δt/(3ζ), beside which ε must be large.
+    if (known.is_in_stops)
+        text.push_back("The penalised stops answer to u(1,t) at once, and sigma has its order, for "
+                       "steps below 3*zeta*epsilon = " +
+                       number_text(3.0 * beam.zeta * beam.stops.epsilon) +
+                       "; with greater ones sigma_L2 behaves as at rigid stops.");
+    for (const ContactOnset& onset : known.contact.onsets)
+        text.push_back(
+            "at t = " + number_text(onset.t) + " a contact begins: the tip comes up " +
+            power_text("s", onset.approach) + ", s the time to it, and the force begins " +
+            power_text("s", onset.force) +
+            ". A run is there too early or too late by its error of u(1,t), and sigma_L2 "
+            "loses a part of the order to that; its orders scatter from row to row.");
 }
 
 std::vector<std::string> reasons(const ExpectedOrders& known, const Beam& beam) {
@@ -126,25 +313,16 @@ std::vector<std::string> reasons(const ExpectedOrders& known, const Beam& beam) 
                                            : "u_xx is linear in t, and alpha = 0: no scheme has a "
                                              "time error in u, and no order in dt is visible "
                                              "there.");
-    for (const Switch& change : known.switches) {
-        const std::string at = "at t = " + number_text(change.t) + " ";
+    for (const Switch& change : known.switches)
         if (change.theta_t_jump > 0.0 || change.u_xxt_jump > 0.0)
-            text.push_back(at +
+            text.push_back("at t = " + number_text(change.t) + " " +
                            (change.theta_t_jump > 0.0
                                 ? "theta_t jumps by up to " + number_text(change.theta_t_jump)
                                 : "u_xxt jumps by up to " + number_text(change.u_xxt_jump)) +
-                           ": BDF2 has the order 1 in dt, SDIRK2 too unless the time is a time "
-                           "level.");
-        else
-            text.push_back(at +
-                           "one formula follows another without a jump of theta_t or u_xxt. A run "
-                           "finds a change of contact at an instant of its own, which can take up "
-                           "to one half from the order 2 in norms with a maximum over time.");
-        if (change.stress_jump > 0.0)
-            text.push_back(at + "sigma jumps by " + number_text(change.stress_jump) +
-                           ", at an instant that a run knows to one step: sigma_L2 has the order "
-                           "1/2 in dt.");
-    }
+                           ": BDF2 has the order 1 in dt, and more only where the time is the "
+                           "middle of a step; SDIRK2 has 1 unless the time is a time level, where "
+                           "it has 2. Norms with a maximum over time show it late.");
+    add_contact_reasons(known, beam, text);
     return text;
 }
 
@@ -152,12 +330,19 @@ std::vector<std::string> reasons(const ExpectedOrders& known, const Beam& beam) 
 
 ExpectedOrders expected_orders(const Solution& solution, const Beam& beam, double final_time) {
     const DerivedSolution derived = derive_on(solution, beam);
+    require_final_time(final_time);
+    const double law_distance = check_admissible(solution, derived, beam, final_time);
     return located(solution.phases.front().u, "the solution", [&] {
         const ModelSymbols& s = model_symbols();
         ExpectedOrders result;
         result.theta_is_exact = vanishes(derived, &DerivedPhase::theta_x, s.x, 1);
         result.u_is_exact = vanishes(derived, &DerivedPhase::u_xx, s.x, 2);
         result.switches = switches(derived, final_time);
+        result.law_distance = law_distance;
+        if (beam.stops.epsilon > 0.0)
+            seek_farthest_tip(derived, beam.stops, final_time, result);
+        else if (beam.stops.exist())
+            result.contact = contact_history(derived, beam.stops, final_time);
         const bool theta_is_linear = vanishes(derived, &DerivedPhase::theta, s.t, 2) &&
                                      !jumps(result.switches, &Switch::theta_t_jump);
         const bool u_is_linear = vanishes(derived, &DerivedPhase::u_xx, s.t, 2) &&
@@ -166,7 +351,7 @@ ExpectedOrders expected_orders(const Solution& solution, const Beam& beam, doubl
         result.theta_has_time_error = !theta_is_linear || (coupled && !u_is_linear);
         result.u_has_time_error =
             coupled ? result.theta_has_time_error : beam.zeta != 0.0 && !u_is_linear;
-        result.orders = orders(result, beam);
+        result.orders = Orders(result, beam).all();
         result.reasons = reasons(result, beam);
         return result;
     });

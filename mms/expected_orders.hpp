@@ -1,6 +1,7 @@
 #pragma once
 
 #include "core/problem.hpp"
+#include "mms/contact_history.hpp"
 #include "mms/solution.hpp"
 
 #include <optional>
@@ -10,20 +11,33 @@
 namespace tvbeam {
 
 /// A time at which a solution passes from one formula to the next, and by how much what the schemes
-/// difference or measure jumps there.
+/// difference jumps there; a jump that is 1e-9 of the largest size of what jumps is none.
 struct Switch {
     double t = 0.0;
     double theta_t_jump = 0.0; ///< largest over x
     double u_xxt_jump = 0.0;   ///< largest over x
-    double stress_jump = 0.0;
+};
+
+/// The order of one error, as far as theory says it.
+struct Forecast {
+    enum class Kind {
+        no_error, ///< there is no error of this kind
+        between,  ///< least ≤ order ≤ greatest
+        unknown   ///< there may be an error, of an order that is not known
+    };
+    Kind kind = Kind::no_error;
+    double least = 0.0;
+    double greatest = 0.0;
+
+    [[nodiscard]] bool has_error() const { return kind != Kind::no_error; }
+    [[nodiscard]] bool is_known() const { return kind == Kind::between; }
 };
 
 /// The orders that a norm's error shows once the asymptotic range is reached.
 struct ExpectedOrder {
     std::string norm;
-    std::optional<double> in_h;  ///< none: the spaces hold the solution, no error in h is there
-    std::optional<double> euler; ///< in dt; none: no scheme has a time error
-    std::optional<double> of_second_order; ///< in dt, by BDF2 and SDIRK2; none: the same
+    Forecast in_h;
+    Forecast euler, bdf2, sdirk2; ///< in dt
 };
 
 /// What is to be expected of a solution on a beam before it is run.
@@ -33,6 +47,9 @@ struct ExpectedOrders {
     bool theta_has_time_error = true;
     bool u_has_time_error = true;
     std::vector<Switch> switches; ///< those before final_time
+    ContactHistory contact;       ///< at rigid stops; at penalised ones touch alone
+    double law_distance = 0.0;    ///< ExactSolution::law_distance
+    bool is_in_stops = false;     ///< penalised stops: the tip passes one
     std::vector<ExpectedOrder> orders;
     std::vector<std::string> reasons; ///< in sentences, why an order is not 2 in h, 1 or 2 in dt
 };
@@ -46,8 +63,26 @@ struct ExpectedOrders {
 /// - in dt: that of the scheme; none where what is differenced is linear in time, for every scheme
 ///   is exact then: θ̃ and u_xx in the heat equation, where α = 0 θ̃ alone; in the beam equation
 ///   u_xx, and where ζ = 0 nothing. The coupling passes the errors on. Where θ̃_t or u_xxt jumps
-///   within a step, and for BDF2 also one step behind, the error of that step is of order 1; where
-///   the contact stress jumps, its norm has the order 1/2.
+///   at the part s of a step, the defect is of order 1: for BDF2, which looks one step behind, the
+///   sum over the steps is (s − 1/2)Δt times the jump; SDIRK2 has none at a level. What of the jump
+///   is along 1 − x a stop may take away. So the order is 1 to 2.
+/// - of the stress at rigid stops: as long as the tip is pressed and has been from t = 0 on, the
+///   order p of u. When a contact begins, the computed tip has an error e = O(Δt^p) and comes to
+///   the stop too early or too late by τ. Too early: the gap ~ τ^m is e, and the stop takes away a
+///   velocity that is still ~ τ^(m−1). Too late: the missing force pushes the tip on by e, ∫ τ^k ~
+///   e. Either way λ is wrong by ~ τ^j over a time τ = Δt^(p/(j+1)), with j = m − 1 or j = k, and
+///   if that is less than a step by ~ e/Δt over one step. In L² over time that is the order
+///
+///       max(p − 1/2, p (2j + 1)/(2j + 2)),
+///
+///   and between its values for both j, as the sign of e decides. In h likewise with p = 2 and no
+///   step to end it. Without viscosity the tip answers to the force at once: p. A tip that touches
+///   a stop without a force leaves the order open; one that touches none has no error.
+/// - of the stress at penalised stops: that of u, as it is a Lipschitz function of u(1,t), once Δt
+///   is below 3ζε; with greater steps as at rigid stops. The errors of a solution of rigid stops
+///   stall, in an unknown way, at the distance of the two laws.
+///
+/// Throws InputError as manufactured_problem does.
 ExpectedOrders expected_orders(const Solution& solution, const Beam& beam, double final_time);
 
 } // namespace tvbeam

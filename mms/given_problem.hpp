@@ -10,8 +10,8 @@ namespace tvbeam {
 /// The data of a problem without known solution, as expressions in x, t (not in the initial data),
 /// pi and the beam's symbols alpha, zeta, g1, g2, theta_A. What is left out is zero.
 struct GivenData {
-    std::optional<SourceText> theta0;      ///< θ̃(x,0)
-    std::optional<SourceText> u0;          ///< u(x,0); u0(0) = u0'(0) = 0 and g1 ≤ u0(1) ≤ g2
+    std::optional<SourceText> theta0; ///< θ̃(x,0)
+    std::optional<SourceText> u0; ///< u(x,0); u0(0) = u0'(0) = 0; with rigid stops g1 ≤ u0(1) ≤ g2
     std::optional<SourceText> heat_source; ///< f(x,t) of (1)
     std::optional<SourceText> body_force;  ///< q(x,t) of (2)
 };

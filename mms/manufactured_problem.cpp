@@ -60,9 +60,11 @@ ProblemData built(const DerivedSolution& solution, double final_time) {
 ProblemData manufactured_problem(const Solution& solution, const Beam& beam, double final_time) {
     require_final_time(final_time);
     const DerivedSolution derived = derive_on(solution, beam);
-    check_admissible(solution, derived, beam, final_time);
+    const double law_distance = check_admissible(solution, derived, beam, final_time);
     try {
-        return built(derived, final_time);
+        ProblemData problem = built(derived, final_time);
+        problem.exact->law_distance = law_distance;
+        return problem;
     } catch (const AlgebraError& error) {
         throw InputError(solution.phases.front().theta.begin(),
                          std::string("the solution cannot be evaluated: ") + error.what());

@@ -16,7 +16,7 @@ struct SolutionPhase {
     std::optional<SourceText> until; ///< a time: an expression of constants and parameters
     SourceText theta;                ///< θ̃(x,t)
     SourceText u;                    ///< u(x,t)
-    std::optional<SourceText> sigma; ///< σ̃(x,t), at x = 1 the contact stress; absent: zero
+    std::optional<SourceText> sigma; ///< σ̃(x,t), at x = 1 the contact stress; may be absent
 };
 
 /// A named number of a solution, its value an expression of constants.
@@ -36,7 +36,8 @@ struct SolutionParameter {
 ///     [[phase]]
 ///     until = "sqrt(2)"                 # in every phase but the last; positive and increasing
 ///     u     = "…"
-///     sigma = "…"                       # σ̃(x,t); 0 where it is left out
+///     sigma = "…"                       # σ̃(x,t); where it is left out 0, and where the stops of
+///                                       # the beam are penalised what their law makes of u(1,t)
 ///
 /// sigma is the stress σ̃ of (2), (3): at x = 1 it is the contact stress of (7), (8), and where it
 /// depends on x a body force q = σ̃_x drives the beam.

@@ -4,7 +4,9 @@
 #include "mms/expression/expression_parser.hpp"
 #include "mms/expression/numeric_value.hpp"
 #include "mms/expression/symbols.hpp"
+#include "mms/text/error_text.hpp"
 
+#include <cmath>
 #include <limits>
 #include <sstream>
 #include <string>
@@ -45,6 +47,20 @@ ex on_beam(const ex& expression, const GiNaC::exmap& values, const SourceText& s
         throw InputError(source.begin(),
                          what + " has no value with this beam's numbers: " + error.what());
     }
+}
+
+/// σ̃(1,t) = −((u − g2)⁺ − (g1 − u)⁺)/ε, with y⁺ = y·step(y).
+ex penalised_stress(const ex& u, const Stops& stops) {
+    const ex tip = substituted(u, {{model_symbols().x, 1}});
+    ex stress = 0;
+    const auto add = [&](const ex& excess, int sign) {
+        stress += sign * excess * GiNaC::step(excess) / exact_rational(stops.epsilon);
+    };
+    if (std::isfinite(stops.upper))
+        add(tip - exact_rational(stops.upper), -1);
+    if (std::isfinite(stops.lower))
+        add(exact_rational(stops.lower) - tip, 1);
+    return stress;
 }
 
 } // namespace
@@ -99,6 +115,9 @@ SolutionExpressions expressions_on(const Solution& solution, const Beam& beam) {
         if (source.sigma) {
             require_stops_in_use(*source.sigma, beam);
             phase.sigma = on_beam(phase.sigma, values, *source.sigma, "sigma");
+        } else if (beam.stops.epsilon > 0.0) {
+            phase.sigma = located(source.u, "u at x = 1",
+                                  [&] { return penalised_stress(phase.u, beam.stops); });
         }
     }
     return result;

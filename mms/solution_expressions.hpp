@@ -31,8 +31,9 @@ struct SolutionExpressions {
 SolutionExpressions expressions_of(const Solution& solution);
 
 /// The same with the parameters' and the beam's values in the place of their symbols; only x and t
-/// are left. Throws InputError further where a stop is named that the beam does not have, and where
-/// an expression has no value.
+/// are left. Where stops are penalised, a σ̃ that is not given is the law's: −((u(1,t) − g2)⁺ −
+/// (g1 − u(1,t))⁺)/ε. Throws InputError further where a stop is named that the beam does not have,
+/// and where an expression has no value.
 SolutionExpressions expressions_on(const Solution& solution, const Beam& beam);
 
 } // namespace tvbeam

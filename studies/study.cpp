@@ -76,7 +76,8 @@ std::vector<const ByKind::Entry*> in_running_order(const Scene& scene, const Met
 StudyResult run_study(const Scene& scene, const ProblemData& data, const Execution& execution) {
     require_runnable(scene, data);
     execution.expect(work_of(scene));
-    StudyResult result{.scene = scene};
+    StudyResult result{.scene = scene,
+                       .law_distance = data.exact ? data.exact->law_distance : 0.0};
     const Method own = method_of(scene.scheme);
     // What errors are measured against; others look at times that a reference does not know.
     ProblemData measured = data;

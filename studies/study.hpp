@@ -21,6 +21,7 @@ struct StudyResult {
     Scene scene;
     std::vector<std::string> left_out = {};        ///< parts that the scene does not need, in words
     std::vector<std::string> remarks = {};         ///< on all studies, in sentences
+    double law_distance = 0.0;                     ///< ExactSolution::law_distance
     std::optional<ReferenceResult> reference = {}; ///< if errors are measured against one
     ByKind records = {};
 

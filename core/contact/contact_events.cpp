@@ -24,36 +24,50 @@ double ContactEvents::Levels::reaches(double target, double lowest, double highe
 }
 
 ContactEvents::ContactEvents(const Stops& stops, double tip, double round_off)
-    : stops_(stops), round_off_(round_off) {
+    : stops_(stops), round_off_(round_off),
+      beyond_(stops.epsilon > 0.0 ? std::max({0.0, tip - stops.upper, stops.lower - tip}) : 0.0) {
     free_.push(0.0, tip);
 }
 
+bool ContactEvents::starts_on(Stop stop) const {
+    if (free_.count != 1 || free_.t[0] != 0.0)
+        return false;
+    const double gap =
+        stop == Stop::lower ? stops_.lower - free_.value[0] : free_.value[0] - stops_.upper;
+    const double scale = std::abs(stop == Stop::lower ? stops_.lower : stops_.upper);
+    return stops_.epsilon > 0.0 ? gap >= -round_off_ * scale : std::abs(gap) <= round_off_ * scale;
+}
+
 void ContactEvents::add(double t, double tip, double stress) {
-    if (stops_.epsilon == 0.0)
-        beyond_ = std::max({beyond_, tip - stops_.upper, stops_.lower - tip});
+    const double beyond = std::max({0.0, tip - stops_.upper, stops_.lower - tip});
+    beyond_ = std::max(beyond_, beyond);
     const bool pressed = pressed_.count > 0;
     const bool presses = stress != 0.0;
     const bool changes_sides = pressed && presses && stress * pressed_.value[0] < 0.0;
     if (pressed && (!presses || changes_sides)) {
         events_.push_back({Kind::release, pressed_.value[0] > 0.0 ? Stop::lower : Stop::upper,
-                           pressed_.reaches(0.0, before_, t)});
+                           pressed_.reaches(0.0, before_, t), events_[onset_].beyond});
         pressed_ = {};
         free_ = {};
     }
     if (presses) {
-        if (pressed_.count == 0) {
-            const Stop stop = stress > 0.0 ? Stop::lower : Stop::upper;
-            const double gap = stop == Stop::lower ? stops_.lower : stops_.upper;
-            const bool starts_there = free_.count == 1 && free_.t[0] == 0.0 &&
-                                      std::abs(free_.value[0] - gap) <= round_off_ * std::abs(gap);
-            events_.push_back(
-                {Kind::onset, stop, starts_there ? 0.0 : free_.reaches(gap, before_, t)});
-        }
+        if (pressed_.count == 0)
+            begin_contact(t, stress > 0.0 ? Stop::lower : Stop::upper);
+        events_[onset_].beyond = std::max(events_[onset_].beyond, beyond);
         pressed_.push(t, stress);
     } else {
         free_.push(t, tip);
     }
     before_ = t;
+}
+
+void ContactEvents::begin_contact(double t, Stop stop) {
+    const double gap = stop == Stop::lower ? stops_.lower : stops_.upper;
+    onset_ = events_.size();
+    if (starts_on(stop))
+        events_.push_back({Kind::onset, stop, 0.0, beyond_});
+    else
+        events_.push_back({Kind::onset, stop, free_.reaches(gap, before_, t), 0.0});
 }
 
 } // namespace tvbeam

@@ -3,6 +3,7 @@
 #include "core/problem.hpp"
 
 #include <array>
+#include <cstddef>
 #include <vector>
 
 namespace tvbeam {
@@ -14,6 +15,9 @@ struct ContactEvent {
     Kind kind = Kind::onset;
     Stop stop = Stop::lower;
     double t = 0.0; ///< within the step in which the regime changed, its end included
+    /// By how far the tip passes the stop at most in the contact that begins or ends here; of one
+    /// that lasts to the end of the run, up to there. Unit: length.
+    double beyond = 0.0;
 };
 
 /// Finds the changes between free tip and contact along a run, and when they happened within their
@@ -29,7 +33,7 @@ struct ContactEvent {
 class ContactEvents {
 public:
     /// At the state of t = 0. round_off: of the tip there, relative; one as near to a stop starts
-    /// on it.
+    /// on it, and so does one that is in a penalised stop.
     ContactEvents(const Stops& stops, double tip, double round_off = 1e-12);
 
     /// The level after those before; stress: λ, which says on which stop the tip is (8).
@@ -37,11 +41,13 @@ public:
 
     [[nodiscard]] const std::vector<ContactEvent>& events() const { return events_; }
 
-    /// By how far the tip has passed a rigid stop at most; 0 when it never has. Of penalised stops,
-    /// which yield, always 0. Unit: length.
+    /// By how far the tip has passed a stop at most; 0 when it never has. Of rigid stops this is an
+    /// error, round-off; of penalised ones it is what they yield, ε|λ|. Unit: length.
     [[nodiscard]] double beyond_stops() const { return beyond_; }
 
 private:
+    using Stop = ContactEvent::Stop;
+
     /// The two last levels of a regime, the later one first.
     struct Levels {
         int count = 0;
@@ -52,11 +58,17 @@ private:
         [[nodiscard]] double reaches(double target, double lowest, double highest) const;
     };
 
+    /// Whether the tip is on the stop, or in it, at t = 0 and no level came before this one.
+    [[nodiscard]] bool starts_on(Stop stop) const;
+    /// Notes an onset in the step that ends at t.
+    void begin_contact(double t, Stop stop);
+
     Stops stops_;
     double round_off_;
-    Levels free_;         // tips of the free levels since the last contact
-    Levels pressed_;      // stresses since the last onset
-    double before_ = 0.0; // t of the level before
+    Levels free_;           // tips of the free levels since the last contact
+    Levels pressed_;        // stresses since the last onset
+    double before_ = 0.0;   // t of the level before
+    std::size_t onset_ = 0; // index of the last onset's event
     std::vector<ContactEvent> events_;
     double beyond_ = 0.0;
 };

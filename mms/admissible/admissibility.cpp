@@ -37,7 +37,7 @@ public:
                        double final_time)
         : solution_(solution), derived_(derived), beam_(beam), final_time_(final_time) {}
 
-    void run() {
+    double run() {
         // Finite first: no comparison below can be trusted with a NaN.
         for (std::size_t i = 0; i < phase_count(); ++i)
             require_finite(i);
@@ -48,6 +48,7 @@ public:
             if (i + 1 < phase_count())
                 require_continuity(i);
         }
+        return contact.law_distance();
     }
 
 private:
@@ -238,14 +239,14 @@ void require_final_time(double final_time) {
                                  "; it must be positive and finite");
 }
 
-void check_admissible(const Solution& solution, const DerivedSolution& derived, const Beam& beam,
-                      double final_time) {
-    AdmissibilityCheck(solution, derived, beam, final_time).run();
+double check_admissible(const Solution& solution, const DerivedSolution& derived, const Beam& beam,
+                        double final_time) {
+    return AdmissibilityCheck(solution, derived, beam, final_time).run();
 }
 
-void require_admissible(const Solution& solution, const Beam& beam, double final_time) {
+double require_admissible(const Solution& solution, const Beam& beam, double final_time) {
     require_final_time(final_time);
-    check_admissible(solution, derive_on(solution, beam), beam, final_time);
+    return check_admissible(solution, derive_on(solution, beam), beam, final_time);
 }
 
 } // namespace tvbeam

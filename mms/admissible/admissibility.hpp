@@ -15,18 +15,21 @@ namespace tvbeam {
 ///     (7)(8)    σ̃(1,t) = 0 where g1 < u(1,t) < g2 (always, without stops); ≥ 0 at g1, ≤ 0 at g2
 ///     (10)      θ̃(0,t) = θ_A, θ̃(1,t) = 0
 ///
+/// with penalised stops, in place of (6)–(8), either their law (contact_rules.hpp) or, as the
+/// solution of rigid stops that they approach, (6)–(8) as they stand;
+///
 /// further that θ̃, u and u_xx do not jump between phases, and that θ̃, u, σ̃ and what is derived from
 /// them are finite on a grid of [0,1] × [0, final_time]. An equality holds if it does symbolically,
 /// or else at every sampled time to 1e-12 of the largest value of θ̃ (or u, or σ̃) on the grid;
 /// inequalities are sampled, with the same tolerance.
 ///
 /// Throws InputError at the expression at fault; it names the equation, the time, the value and a
-/// repair.
-void require_admissible(const Solution& solution, const Beam& beam, double final_time);
+/// repair. Returns ContactRules::law_distance.
+double require_admissible(const Solution& solution, const Beam& beam, double final_time);
 
 /// The same for a problem with an exact solution that no text describes; all of it is sampled, and
 /// jumps are looked for between the times of a grid. Errors begin with `name` in place of a file.
-void require_admissible(const ProblemData& problem, const std::string& name, const Beam& beam,
-                        double final_time);
+double require_admissible(const ProblemData& problem, const std::string& name, const Beam& beam,
+                          double final_time);
 
 } // namespace tvbeam

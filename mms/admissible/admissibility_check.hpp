@@ -7,8 +7,8 @@ namespace tvbeam {
 
 /// require_admissible (admissibility.hpp) for a solution that is derived already. `solution` gives
 /// the places.
-void check_admissible(const Solution& solution, const DerivedSolution& derived, const Beam& beam,
-                      double final_time);
+double check_admissible(const Solution& solution, const DerivedSolution& derived, const Beam& beam,
+                        double final_time);
 
 /// Throws InputError unless final_time is positive and finite.
 void require_final_time(double final_time);

@@ -1,5 +1,6 @@
 #include "mms/admissible/contact_rules.hpp"
 
+#include "core/contact/contact.hpp"
 #include "mms/admissible/repair.hpp"
 #include "mms/admissible/sampled_rules.hpp"
 #include "mms/text/error_text.hpp"
@@ -16,7 +17,33 @@ using Eigen::Index;
 ContactRules::ContactRules(const Beam& beam, std::vector<ContactPhase> phases, double u_scale,
                            double sigma_scale)
     : stops_(beam.stops), phases_(std::move(phases)), tip_tolerance_(relative_tolerance * u_scale),
-      stress_tolerance_(relative_tolerance * sigma_scale) {}
+      stress_tolerance_(relative_tolerance * sigma_scale),
+      law_tolerance_(relative_tolerance * (u_scale + stops_.epsilon * sigma_scale)) {
+    if (stops_.epsilon == 0.0)
+        return;
+    for (const ContactPhase& phase : phases_) {
+        const Eigen::ArrayXXd values = phase.ends(phase.times);
+        for (Index k = 0; k < phase.times.size(); ++k)
+            law_distance_ = std::max(law_distance_, law_distance(values(0, k), values(1, k)));
+    }
+    rigid_ = law_distance_ > law_tolerance_ && is_of_rigid_stops();
+}
+
+/// In lengths: by how much the tip is off the place that the stress gives it, and the stop that
+/// yields to it. What a run makes of it does not grow as ε falls.
+double ContactRules::law_distance(double tip, double stress) const {
+    return stops_.epsilon * std::abs(stress - contact_stress(stops_, tip, 0.0));
+}
+
+bool ContactRules::is_of_rigid_stops() const {
+    try {
+        for (std::size_t i = 0; i < phases_.size(); ++i)
+            require_rigid(i);
+    } catch (const InputError&) {
+        return false;
+    }
+    return true;
+}
 
 bool ContactRules::at_lower(double tip) const {
     return tip <= stops_.lower + tip_tolerance_;
@@ -27,6 +54,34 @@ bool ContactRules::at_upper(double tip) const {
 }
 
 void ContactRules::require(std::size_t index) const {
+    if (rigid_)
+        require_rigid(index);
+    else
+        require_law(phases_[index]);
+}
+
+void ContactRules::require_law(const ContactPhase& phase) const {
+    const Eigen::ArrayXXd values = phase.ends(phase.times);
+    for (Index k = 0; k < phase.times.size(); ++k) {
+        const double tip = values(0, k);
+        const double stress = values(1, k);
+        if (law_distance(tip, stress) <= law_tolerance_)
+            continue;
+        const bool above = tip > stops_.upper;
+        const bool below = tip < stops_.lower;
+        throw InputError(phase.sigma.value_or(phase.u),
+                         "(7)(8) of penalised stops: sigma(1,t) is " + number_text(stress) +
+                             " at t = " + number_text(phase.times(k)) + ", where u(1,t) is " +
+                             number_text(tip) + "; it must be " +
+                             (above   ? "-(u(1,t) - g2)/epsilon = "
+                              : below ? "(g1 - u(1,t))/epsilon = "
+                                      : "0 between the stops, ") +
+                             number_text(contact_stress(stops_, tip, 0.0)) +
+                             ": leave sigma out, and it is what the law makes of u(1,t)");
+    }
+}
+
+void ContactRules::require_rigid(std::size_t index) const {
     const ContactPhase& phase = phases_[index];
     const Eigen::ArrayXXd values = phase.ends(phase.times);
     for (Index k = 0; k < phase.times.size(); ++k) {

@@ -27,6 +27,12 @@ struct ContactPhase {
 ///
 ///     (6)       g1 ≤ u(1,t) ≤ g2
 ///     (7)(8)    σ̃(1,t) = 0 where g1 < u(1,t) < g2 (always, without stops); ≥ 0 at g1, ≤ 0 at g2
+///
+/// Where the stops are penalised, either their law at all times, u(1,t) free,
+///
+///     ε σ̃(1,t) = −((u(1,t) − g2)⁺ − (g1 − u(1,t))⁺)
+///
+/// or the rules above at all times: a solution of rigid stops, which penalised ones approach.
 class ContactRules {
 public:
     /// The scales are the largest |u| and |σ̃|; what is relative_tolerance of them counts as zero.
@@ -37,7 +43,15 @@ public:
     /// time, the value and a repair.
     void require(std::size_t index) const;
 
+    /// Of a solution of rigid stops on penalised ones: the greatest |ε σ̃ + (u − g2)⁺ − (g1 − u)⁺|
+    /// at x = 1, by which it misses their law; else 0. Unit: length.
+    [[nodiscard]] double law_distance() const { return rigid_ ? law_distance_ : 0.0; }
+
 private:
+    [[nodiscard]] double law_distance(double tip, double stress) const;
+    [[nodiscard]] bool is_of_rigid_stops() const;
+    void require_rigid(std::size_t index) const;
+    void require_law(const ContactPhase& phase) const;
     [[nodiscard]] bool at_lower(double tip) const;
     [[nodiscard]] bool at_upper(double tip) const;
     void require_between_stops(const ContactPhase& phase, double t, double tip) const;
@@ -50,6 +64,9 @@ private:
     std::vector<ContactPhase> phases_;
     double tip_tolerance_;
     double stress_tolerance_;
+    double law_tolerance_;
+    double law_distance_ = 0.0; // the greatest over all sampled times; rigid stops: not looked at
+    bool rigid_ = true;         // the rules of rigid stops hold, or are to
 };
 
 } // namespace tvbeam

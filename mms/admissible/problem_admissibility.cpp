@@ -23,7 +23,7 @@ public:
         : problem_(problem), exact_(*problem.exact), place_{name}, beam_(beam),
           final_time_(final_time) {}
 
-    void run() {
+    double run() {
         // Finite first: no comparison below can be trusted with a NaN.
         theta_scale_ = largest(exact_.theta, "theta");
         u_scale_ = largest(exact_.u, "u");
@@ -37,10 +37,12 @@ public:
         largest(problem_.couple_load, "G of (3)");
         largest(problem_.moment_load, "the integral of G of (3)");
         require_end_values();
-        ContactRules(beam_, {contact()}, u_scale_, sigma_scale_).require(0);
+        const ContactRules rules(beam_, {contact()}, u_scale_, sigma_scale_);
+        rules.require(0);
         require_continuity(exact_.theta, theta_scale_, "(1): theta");
         // As u(0,t) = u_x(0,t) = 0, no jump of u is without one of u_xx.
         require_continuity(exact_.u_xx, u_xx_scale_, "(3): u_xx");
+        return rules.law_distance();
     }
 
 private:
@@ -174,10 +176,10 @@ private:
 
 } // namespace
 
-void require_admissible(const ProblemData& problem, const std::string& name, const Beam& beam,
-                        double final_time) {
+double require_admissible(const ProblemData& problem, const std::string& name, const Beam& beam,
+                          double final_time) {
     require_final_time(final_time);
-    ProblemAdmissibilityCheck(problem, name, beam, final_time).run();
+    return ProblemAdmissibilityCheck(problem, name, beam, final_time).run();
 }
 
 } // namespace tvbeam

@@ -83,6 +83,8 @@ void Tape::run(const Instruction& instruction, Eigen::ArrayXXd& registers, Eigen
         return each(a, c, size, [](double v) { return std::exp(v); });
     case Operation::Log:
         return each(a, c, size, [](double v) { return std::log(v); });
+    case Operation::Step: // as GiNaC's: 1/2 at 0
+        return each(a, c, size, [](double v) { return v > 0.0 ? 1.0 : v < 0.0 ? 0.0 : v + 0.5; });
     }
 }
 

@@ -47,6 +47,7 @@ private:
         Tanh,
         Exp,
         Log,
+        Step,
     };
 
     struct Instruction {

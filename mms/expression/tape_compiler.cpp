@@ -202,7 +202,7 @@ private:
             {"sin", Operation::Sin},   {"cos", Operation::Cos},   {"tan", Operation::Tan},
             {"asin", Operation::Asin}, {"acos", Operation::Acos}, {"atan", Operation::Atan},
             {"sinh", Operation::Sinh}, {"cosh", Operation::Cosh}, {"tanh", Operation::Tanh},
-            {"exp", Operation::Exp},   {"log", Operation::Log}};
+            {"exp", Operation::Exp},   {"log", Operation::Log},   {"step", Operation::Step}};
         const auto found = operations.find(node.name);
         if (found == operations.end())
             throw AlgebraError("the function " + node.name + " cannot be evaluated");

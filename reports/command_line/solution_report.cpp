@@ -28,6 +28,8 @@ std::string beam_text(const SolutionSetting& setting) {
     text += beam.stops.exist() ? fmt::format(", stops [{}, {}]", shortest(beam.stops.lower),
                                              shortest(beam.stops.upper))
                                : ", no stops";
+    if (beam.stops.epsilon > 0.0)
+        text += ", penalised with epsilon = " + shortest(beam.stops.epsilon);
     return fmt::format("On {} ({}), up to t = {}:", setting.origin, text,
                        shortest(setting.final_time));
 }
@@ -91,20 +93,29 @@ std::string time_table(const SolutionSetting& setting) {
 }
 
 std::string orders_table(const ExpectedOrders& expected) {
-    const auto order = [](std::optional<double> value) {
-        return value ? fmt::format("{:g}", *value) : std::string("-");
+    const auto order = [](const Forecast& forecast) -> std::string {
+        if (!forecast.has_error())
+            return "-";
+        if (!forecast.is_known())
+            return "not known";
+        const auto text = [](double value) { return fmt::format("{:.3g}", value); };
+        return forecast.least == forecast.greatest
+                   ? text(forecast.least)
+                   : text(forecast.least) + " to " + text(forecast.greatest);
     };
     Table::Column norm{"norm", {}};
     Table::Column in_h{"in h", {}};
     Table::Column euler{"in dt: euler", {}};
-    Table::Column second{"bdf2, sdirk2", {}};
+    Table::Column bdf2{"bdf2", {}};
+    Table::Column sdirk2{"sdirk2", {}};
     for (const ExpectedOrder& row : expected.orders) {
         norm.cells.push_back(row.norm);
         in_h.cells.push_back(order(row.in_h));
         euler.cells.push_back(order(row.euler));
-        second.cells.push_back(order(row.of_second_order));
+        bdf2.cells.push_back(order(row.bdf2));
+        sdirk2.cells.push_back(order(row.sdirk2));
     }
-    std::string text = text_table({"", {"", {norm}}, {{"", {in_h, euler, second}}}});
+    std::string text = text_table({"", {"", {norm}}, {{"", {in_h, euler, bdf2, sdirk2}}}});
     if (!expected.reasons.empty())
         text += "\n";
     for (const auto& reason : expected.reasons)

@@ -251,8 +251,10 @@ int analyse_command(const std::string& file, const std::string& error_column) {
 int derive_command(const std::string& name, bool latex) {
     const SolutionSetting setting = solution_setting(name);
     const Solution& solution = setting.solution;
-    write_standard_output(formula_report(solution, derived_formulas(solution), latex) +
-                          (latex ? "" : solution_report(setting)));
+    write_standard_output(
+        formula_report(solution, derived_formulas(solution, setting.beam.stops.epsilon > 0.0),
+                       latex) +
+        (latex ? "" : solution_report(setting)));
     return done;
 }
 

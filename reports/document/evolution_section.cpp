@@ -50,9 +50,11 @@ Table probe_table(const EvolutionResult& result) {
     return {"What the probes range over.", key, groups};
 }
 
-Table event_table(const std::vector<ContactEvent>& events) {
+Table event_table(const std::vector<ContactEvent>& events, bool yields) {
     Table::Group key{"", {{"t", {}}}};
     Table::Group what{"", {{"contact", {}}, {"stop", {}}}};
+    if (yields)
+        what.columns.push_back({"beyond", {}});
     for (std::size_t i = 0; i < events.size(); ++i) {
         if (events.size() > shown_events && i >= shown_events / 2 &&
             i < events.size() - shown_events / 2)
@@ -60,8 +62,13 @@ Table event_table(const std::vector<ContactEvent>& events) {
         key.columns[0].cells.push_back(time_text(events[i].t));
         what.columns[0].cells.push_back(name_of(events[i].kind));
         what.columns[1].cells.push_back(name_of(events[i].stop));
+        if (yields)
+            what.columns[2].cells.push_back(scientific(events[i].beyond, 2));
     }
-    return {"The tip meets a stop (onset) and leaves it (release).", key, {what}};
+    return {std::string("The tip meets a stop (onset) and leaves it (release)") +
+                (yields ? "; beyond: how far it passes the stop in that contact." : "."),
+            key,
+            {what}};
 }
 
 /// What never happened is said of a whole run only.
@@ -73,15 +80,16 @@ void add_contact(Section& section, const EvolutionResult& result, const Stops& s
     if (result.events.empty())
         section.blocks.emplace_back(Finding{"The tip never presses on a stop."});
     else
-        section.blocks.emplace_back(event_table(result.events));
+        section.blocks.emplace_back(event_table(result.events, stops.epsilon > 0.0));
     if (result.events.size() > shown_events)
         section.blocks.emplace_back(Paragraph{fmt::format("of {} events the first and the last {}",
                                                           result.events.size(), shown_events / 2)});
-    if (whole && stops.epsilon == 0.0)
-        section.blocks.emplace_back(Finding{
-            result.beyond_stops > 0.0
-                ? "The tip passes a stop by " + scientific(result.beyond_stops, 1) + " at most."
-                : "The tip never passes a stop, to the last digit."});
+    if (whole)
+        section.blocks.emplace_back(
+            Finding{result.beyond_stops > 0.0
+                        ? "The tip passes a stop by " + scientific(result.beyond_stops, 1) +
+                              " at most" + (stops.epsilon > 0.0 ? ": the stops yield." : ".")
+                        : "The tip never passes a stop, to the last digit."});
 }
 
 Table period_table(const EvolutionResult& result) {

@@ -14,28 +14,13 @@ std::string order_text(double size, double order, bool determined, double uncert
     return determined ? fixed(order, 3) + " ± " + fixed(uncertainty, 3) : "not determined";
 }
 
-const char* cause(Rejection why) {
-    switch (why) {
-    case Rejection::failed:
-        return "no error";
-    case Rejection::exact:
-        return "the error is zero";
-    case Rejection::rounding_floor:
-        return "at the rounding floor";
-    case Rejection::pre_asymptotic:
-        return "too coarse for the model";
-    case Rejection::outlier:
-        break;
-    }
-    return "out of line with their neighbours";
-}
-
 /// The runs that a fit leaves out, a sentence a cause.
 std::vector<Block> rejections(const std::string& norm, const TwoTermFit& fit,
                               const std::vector<RungResult>& runs) {
     std::vector<Block> sentences;
-    for (const Rejection why : {Rejection::failed, Rejection::exact, Rejection::rounding_floor,
-                                Rejection::pre_asymptotic, Rejection::outlier}) {
+    for (const Rejection why :
+         {Rejection::failed, Rejection::exact, Rejection::floor, Rejection::pre_asymptotic,
+          Rejection::too_fine, Rejection::outlier}) {
         std::string named;
         for (const auto& rejected : fit.rejected)
             if (rejected.why == why) {
@@ -45,7 +30,7 @@ std::vector<Block> rejections(const std::string& norm, const TwoTermFit& fit,
             }
         if (!named.empty())
             sentences.emplace_back(Paragraph{
-                fmt::format("{}: not fitted, {}: (s, dt) = {}", norm, cause(why), named)});
+                fmt::format("{}: not fitted, {}: (s, dt) = {}", norm, words_for(why), named)});
     }
     return sentences;
 }

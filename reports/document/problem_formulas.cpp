@@ -8,7 +8,7 @@ namespace tvbeam {
 
 namespace {
 
-std::vector<Formula> formulas_of(const Solution& solution) {
+std::vector<Formula> formulas_of(const Solution& solution, const Beam& beam) {
     std::vector<Formula> formulas;
     std::string begin;
     for (const auto& phase : solution.phases) {
@@ -26,12 +26,12 @@ std::vector<Formula> formulas_of(const Solution& solution) {
     }
     for (const auto& parameter : solution.parameters)
         formulas.push_back({parameter.name, "", parameter.value.text()});
-    for (const auto& derived : derived_formulas(solution))
+    for (const auto& derived : derived_formulas(solution, beam.stops.epsilon > 0.0))
         formulas.push_back({derived.symbol, derived.interval, derived.text});
     return formulas;
 }
 
-std::vector<Formula> formulas_of(const GivenData& data) {
+std::vector<Formula> formulas_of(const GivenData& data, const Beam& /*beam*/) {
     std::vector<Formula> formulas;
     const auto add = [&formulas](const char* symbol, const char* interval,
                                  const std::optional<SourceText>& text) {
@@ -48,7 +48,8 @@ std::vector<Formula> formulas_of(const GivenData& data) {
 } // namespace
 
 std::vector<Formula> problem_formulas(const Scene& scene) {
-    return std::visit([](const auto& problem) { return formulas_of(problem); }, scene.problem);
+    return std::visit([&](const auto& problem) { return formulas_of(problem, scene.beam); },
+                      scene.problem);
 }
 
 } // namespace tvbeam

@@ -16,7 +16,7 @@ std::string stop_text(double value) {
     return std::isfinite(value) ? shortest(value) : "none";
 }
 
-std::string problem_line(const Scene& scene) {
+std::string problem_line(const Scene& scene, double law_distance) {
     const auto* solution = std::get_if<Solution>(&scene.problem);
     std::string line =
         (solution != nullptr ? "solution " + solution->name : std::string("given data")) +
@@ -28,9 +28,10 @@ std::string problem_line(const Scene& scene) {
                 stop_text(scene.beam.stops.upper);
     if (scene.beam.stops.epsilon != 0.0)
         line += ", penalised with epsilon = " + shortest(scene.beam.stops.epsilon) +
-                (scene.has_exact_solution()
-                     ? " (a solution that presses on a stop is one of rigid stops: its errors "
-                       "then hold what the stop yields)"
+                (law_distance > 0.0
+                     ? " (the solution is one of rigid stops; these would let its tip pass by up "
+                       "to " +
+                           scientific(law_distance, 1) + ", and errors do not fall to zero)"
                      : "");
     if (!scene.mesh.nodes.empty())
         line += "; nodes of every mesh: " + std::to_string(scene.mesh.nodes.size());
@@ -119,7 +120,7 @@ Document result_document(const StudyResult& result) {
         document.head.emplace_back("INTERRUPTED: what stands here is what had finished");
     // A stress study has problems of its own.
     if (scene.poses_problem())
-        document.head.push_back(problem_line(scene));
+        document.head.push_back(problem_line(scene, result.law_distance));
     if (has_own_scheme(result))
         document.head.push_back(method_of(scene.scheme).words + basis_words(result));
     if (result.reference)

@@ -41,6 +41,8 @@ std::string json_report(const StudyResult& result) {
               {"left_out", result.left_out},
               {"remarks", result.remarks},
               {"interrupted", result.interrupted()}};
+    if (result.law_distance > 0.0)
+        json["law_distance"] = result.law_distance;
     if (result.reference)
         json["reference"] = json_of(*result.reference, *result.scene.reference);
     for (const auto* report : reports_of(result))

@@ -30,10 +30,58 @@ std::string of_square(const Measure& norm, double order) {
     return norm.squared ? " (the square of order " + order_text(order) + ")" : "";
 }
 
+/// Orders within this of each other are one.
+constexpr double steady = 0.15;
+
+/// The orders of a ladder, and the first that leaves those before it.
+struct Sequence {
+    std::vector<Observed>::const_iterator first, leaves, end;
+};
+
+/// A dip of the error: its order is above a level into it, and below that out of it.
+bool dips(const Sequence& orders, double level) {
+    const auto into = std::find_if(orders.first, orders.end, [&](const Observed& seen) {
+        return seen.order > level + steady;
+    });
+    return std::any_of(into, orders.end,
+                       [&](const Observed& seen) { return seen.order < level - steady; });
+}
+
+/// The orders from the first that leaves on, in words: up or down, and how they end. Why is said
+/// only where the orders themselves show it; explained: a model says it already.
+std::string departure(const Norm& norm, std::span<const Refinement> roots, const Sequence& orders,
+                      bool explained) {
+    const double power = norm.squared ? 2.0 : 1.0;
+    const auto at = [&](const Observed& seen) {
+        return order_text(power * seen.order) + " at " + rung_name(roots, roots[seen.rung]);
+    };
+    const auto [least, greatest] = std::minmax_element(
+        orders.leaves, orders.end, [](const auto& a, const auto& b) { return a.order < b.order; });
+    const double before = orders.first->order;
+    const Observed& last = *(orders.end - 1);
+    const bool rises = greatest->order > before + steady;
+    const Observed& extreme = rises ? *greatest : *least;
+    std::string text = (rises ? "; then it rises, to " : "; then it falls, to ") + at(extreme);
+    if (last.rung != extreme.rung)
+        text += "; " + at(last);
+    if (!rises && last.order <= 0.0)
+        return text + ": the error no longer shrinks.";
+    if (explained)
+        return text + ".";
+    const bool settles = orders.end - orders.leaves >= 2 && last.order > 0.0 &&
+                         std::abs(last.order - (orders.end - 2)->order) <= steady;
+    if (dips(orders, settles ? last.order : before))
+        return text + ", as where two terms of the error cancel.";
+    if (settles && std::abs(last.order - extreme.order) <= steady)
+        return text + (rises ? ", where it settles: the rungs before it are too coarse to show it."
+                             : ", as where a term of lower order takes over.");
+    return text +
+           "; why is not known: " + (settles ? "it settles elsewhere." : "it has not settled.");
+}
+
 /// What the orders do. Why they do it is guessed where no model says it.
 std::string from_pairs(const Measure& norm, std::span<const Refinement> roots,
                        const std::vector<Observed>& known, bool explained) {
-    const double steady = 0.15;
     const double power = norm.squared ? 2.0 : 1.0;
     const auto less = [](const Observed& a, const Observed& b) { return a.order < b.order; };
     const double first = known.front().order;
@@ -47,23 +95,7 @@ std::string from_pairs(const Measure& norm, std::span<const Refinement> roots,
     text += of_square(norm, first) + " up to " + rung_name(roots, roots[(leaves - 1)->rung]);
     if (leaves == known.end())
         return text + ".";
-    const auto& last = known.back();
-    const auto peak = std::max_element(leaves, known.end(), less);
-    if (peak->order > first + steady) {
-        text += "; then it rises, to " + order_text(power * peak->order) + " at " +
-                rung_name(roots, roots[peak->rung]);
-        if (!explained)
-            text += ", as where two terms of the error cancel";
-        if (last.rung != peak->rung)
-            text +=
-                "; " + order_text(power * last.order) + " at " + rung_name(roots, roots[last.rung]);
-        return text + ".";
-    }
-    text += "; then it falls, to " + order_text(power * last.order) + " at " +
-            rung_name(roots, roots[last.rung]);
-    if (last.order <= 0.0)
-        return text + ": the error no longer shrinks.";
-    return text + (explained ? "." : ", as where a term of lower order takes over.");
+    return text + departure(norm, roots, {known.begin(), leaves, known.end()}, explained);
 }
 
 /// Orders along a ladder exist only where every step refines by the same ratio.

@@ -34,11 +34,12 @@ std::vector<std::size_t> usable(std::span<const Refinement> records,
     for (std::size_t i = 0; i < records.size(); ++i) {
         const auto& record = records[i];
         if (!is_positive(record.h) || !is_positive(record.dt))
-            rejected.push_back({i, Rejection::failed, "h or dt is missing or not positive"});
+            rejected.push_back(
+                {i, Rejection::failed, "no error: h or dt is missing or not positive"});
         else if (record.error == 0)
             rejected.push_back({i, Rejection::exact, "the error is zero and has no logarithm"});
         else if (!is_positive(record.error))
-            rejected.push_back({i, Rejection::failed, "the error is not a positive number"});
+            rejected.push_back({i, Rejection::failed, "no error: it is not a positive number"});
         else
             result.push_back(i);
     }
@@ -157,30 +158,58 @@ double drift(double size, double order, const std::optional<double>& with_next) 
     return size > 0 && with_next ? std::abs(order - *with_next) : 0.0;
 }
 
-RejectedRecord explain(std::span<const Refinement> records, const TwoTermFit& fit, std::size_t i) {
+double modelled(const TwoTermFit& fit, const TwoTermOptions& options, const Refinement& record) {
+    return error_against(options.reference.value_or(Refinement{}), fit.model, record.h, record.dt);
+}
+
+/// Errors within this of each other are one.
+constexpr double error_stays = 1.1;
+
+/// Does refinement that the model answers to leave the error where it was? Seen against any record
+/// that is coarser.
+bool stays(std::span<const Refinement> records, const TwoTermFit& fit,
+           const TwoTermOptions& options, const Refinement& record) {
+    constexpr double model_shrinks = 2.0;
+    return std::any_of(records.begin(), records.end(), [&](const Refinement& coarser) {
+        return is_positive(coarser.error) && coarser.h >= record.h && coarser.dt >= record.dt &&
+               modelled(fit, options, coarser) >= model_shrinks * modelled(fit, options, record) &&
+               coarser.error <= error_stays * record.error;
+    });
+}
+
+/// At the height of a record whose error stays.
+bool is_at_floor(std::span<const Refinement> records, const TwoTermFit& fit,
+                 const TwoTermOptions& options, const Refinement& record) {
+    return std::any_of(records.begin(), records.end(), [&](const Refinement& other) {
+        return is_positive(other.error) && other.error <= error_stays * record.error &&
+               record.error <= error_stays * other.error && stays(records, fit, options, other);
+    });
+}
+
+RejectedRecord explain(std::span<const Refinement> records, const TwoTermFit& fit,
+                       const TwoTermOptions& options, std::size_t i) {
     double least = std::numeric_limits<double>::infinity();
     double coarsest_h = 0;
     double coarsest_dt = 0;
     for (const auto k : fit.used) {
-        least = std::min(least, fit.model.error(records[k].h, records[k].dt));
+        least = std::min(least, modelled(fit, options, records[k]));
         coarsest_h = std::max(coarsest_h, records[k].h);
         coarsest_dt = std::max(coarsest_dt, records[k].dt);
     }
     const auto& record = records[i];
-    const double predicted = fit.model.error(record.h, record.dt);
+    const double predicted = modelled(fit, options, record);
     const double factor = record.error / predicted;
-    // Near a floor the model falls below all that it was fitted to, or nearly.
+    // Where the model is smallest: below all that it was fitted to, or nearly.
     constexpr double nearly = 1.5;
-    if (factor > 1 && predicted <= nearly * least)
-        return {i, Rejection::rounding_floor,
-                with_number("the error stays %.3g times above the model where that is smallest",
-                            factor)};
-    if (record.h >= coarsest_h || record.dt >= coarsest_dt)
-        return {i, Rejection::pre_asymptotic,
-                with_number("too coarse: the error is %.4g times the model's", factor)};
-    return {i, Rejection::outlier,
-            with_number("out of line with its neighbours: the error is %.4g times the model's",
-                        factor)};
+    const bool above_least = factor > 1 && predicted <= nearly * least;
+    Rejection why = Rejection::outlier;
+    if (above_least && is_at_floor(records, fit, options, record))
+        why = Rejection::floor;
+    else if (record.h >= coarsest_h || record.dt >= coarsest_dt)
+        why = Rejection::pre_asymptotic;
+    else if (above_least)
+        why = Rejection::too_fine;
+    return {i, why, words_for(why) + with_number(": the error is %.4g times the model's", factor)};
 }
 
 /// ln e − ln model for every record, against the reference where there is one.
@@ -188,9 +217,9 @@ std::vector<double> residuals_of(std::span<const Refinement> records, const TwoT
                                  const TwoTermOptions& options) {
     std::vector<double> residuals;
     for (const auto& record : records) {
-        const double modelled =
+        const double of_model =
             error_against(options.reference.value_or(Refinement{}), model, record.h, record.dt);
-        residuals.push_back(std::log(record.error) - std::log(modelled));
+        residuals.push_back(std::log(record.error) - std::log(of_model));
         if (!std::isfinite(residuals.back()))
             residuals.back() = std::numeric_limits<double>::quiet_NaN();
     }
@@ -240,6 +269,24 @@ bool determined(double order, double uncertainty, double rms, const Influence& o
 }
 
 } // namespace
+
+const char* words_for(Rejection why) {
+    switch (why) {
+    case Rejection::failed:
+        return "no error";
+    case Rejection::exact:
+        return "the error is zero";
+    case Rejection::floor:
+        return "at a floor, where refinement takes nothing from the error";
+    case Rejection::pre_asymptotic:
+        return "too coarse for the model";
+    case Rejection::too_fine:
+        return "too fine for the model, which coarser runs gave: the error shrinks more slowly";
+    case Rejection::outlier:
+        break;
+    }
+    return "out of line with their neighbours";
+}
 
 bool TwoTermFit::p_determined() const {
     return determined(model.p, p_uncertainty(), rms, {change_by_h, share_of_h},
@@ -294,7 +341,7 @@ TwoTermFit fit_two_term(std::span<const Refinement> records, const TwoTermOption
     fit.residuals = residuals_of(records, fit.model, options);
     for (const auto i : chosen)
         if (!std::binary_search(fit.used.begin(), fit.used.end(), i))
-            fit.rejected.push_back(explain(records, fit, i));
+            fit.rejected.push_back(explain(records, fit, options, i));
     std::sort(fit.rejected.begin(), fit.rejected.end(),
               [](const auto& left, const auto& right) { return left.record < right.record; });
     return fit;

@@ -31,12 +31,22 @@
 
 namespace tvbeam {
 
-enum class Rejection { failed, exact, rounding_floor, pre_asymptotic, outlier };
+enum class Rejection {
+    failed,
+    exact,
+    floor,          ///< a coarser record has no greater error, where the model shrinks
+    pre_asymptotic, ///< as coarse as the coarsest record used, or coarser
+    too_fine,       ///< the model is smallest there, and the error shrinks more slowly
+    outlier         ///< none of these: among the records used, and not in line
+};
+
+/// The reason in words, as of several records: "no error", "too coarse for the model", …
+const char* words_for(Rejection why);
 
 struct RejectedRecord {
     std::size_t record = 0;
     Rejection why = Rejection::failed;
-    std::string reason; ///< a short sentence
+    std::string reason; ///< words_for(why), and the figures of this record
 };
 
 struct TwoTermOptions {

@@ -6,6 +6,7 @@
 #include "mms/manufactured_problem.hpp"
 #include "studies/scene/shipped.hpp"
 #include "tests/marching.hpp"
+#include "tests/suited_beam.hpp"
 
 #include <Eigen/Dense>
 #include <boost/test/data/monomorphic.hpp>
@@ -69,6 +70,7 @@ BOOST_DATA_TEST_CASE(moment_form_equals_hermite_form,
                      name, time, mass, elements) {
     Beam beam = paper_beam;
     beam.theta_A = name == "heated-end" ? 0.7 : 0.0;
+    beam.stops.epsilon = epsilon_for(name);
     const ProblemData problem =
         manufactured_problem(read_solution(find_file(Shipped::solution, name)), beam, 2.0);
     const Difference largest =

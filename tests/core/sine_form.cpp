@@ -6,6 +6,7 @@
 #include "mms/manufactured_problem.hpp"
 #include "studies/scene/shipped.hpp"
 #include "tests/marching.hpp"
+#include "tests/suited_beam.hpp"
 
 #include <boost/test/data/monomorphic.hpp>
 #include <boost/test/data/test_case.hpp>
@@ -116,7 +117,7 @@ BOOST_DATA_TEST_CASE(errors_are_those_of_the_nodal_form,
     const Beam beam{.alpha = 0.4,
                     .zeta = 0.1,
                     .theta_A = name == "heated-end" ? 0.7 : 0.0,
-                    .stops = {-0.02, 0.1}};
+                    .stops = {-0.02, 0.1, epsilon_for(name)}};
     const ProblemData problem =
         manufactured_problem(read_solution(find_file(Shipped::solution, name)), beam, 2.0);
     const auto norms = norms_of(sine_norms);

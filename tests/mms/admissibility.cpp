@@ -275,6 +275,42 @@ std::vector<std::string> shipped() {
 
 BOOST_AUTO_TEST_SUITE(mms_admissibility)
 
+// Penalised stops, ε = 1/10, and a tip of 3/20 at most: the law makes −1/2 of it.
+BOOST_AUTO_TEST_CASE(a_penalised_solution_obeys_the_law_of_its_stops) {
+    const Beam beam{0.017, 0.1, 0.0, {-0.02, 0.1, 0.1}};
+    const std::string u = "x^2*3/20*t/2";
+    const auto require = [&](const std::string& text) {
+        return require_admissible(parse_solution(text, "my.toml"), beam, 2.0);
+    };
+    // σ by the law, or given and equal to it.
+    BOOST_TEST(require("theta = 0\nu = '" + u + "'\n") == 0.0);
+    BOOST_TEST(require("theta = 0\n[[phase]]\nuntil = '4/3'\nu = '" + u +
+                       "'\nsigma = 0\n[[phase]]\nu = '" + u + "'\nsigma = '-(3/40*t - g2)*10'\n") ==
+               0.0);
+    const auto refused = [&](const std::string& sigma, const std::vector<std::string>& parts) {
+        BOOST_CHECK_EXCEPTION(
+            require("theta = 0\nu = '" + u + "'\nsigma = '" + sigma + "'\n"), InputError,
+            [&](const InputError& error) {
+                const std::string what = error.what();
+                BOOST_TEST_INFO(what);
+                BOOST_TEST(what.find("my.toml:3:10: (7)(8) of penalised stops: sigma(1,t) is") ==
+                           0U);
+                for (const auto& part : parts)
+                    BOOST_TEST(what.find(part) != std::string::npos, part);
+                return true;
+            });
+    };
+    // Twice the law, the other sign, a force between the stops.
+    refused("0", {"it must be -(u(1,t) - g2)/epsilon", "leave sigma out"});
+    refused("3/4*t - 1", {"it must be 0 between the stops"});
+    // The solution of rigid stops is accepted, and its distance from the law told: the tip stays at
+    // g2 under a force of up to 2, for which the stop would yield by 1/5.
+    BOOST_TEST(require("theta = 0\nu = 'x^2*g2'\nsigma = '-t'\n") == 0.2,
+               boost::test_tools::tolerance(1e-12));
+    // Neither the one nor the other.
+    BOOST_CHECK_THROW(require("theta = 0\nu = 'x^2*g2'\nsigma = 't'\n"), InputError);
+}
+
 BOOST_DATA_TEST_CASE(a_broken_rule_is_named_with_equation_time_and_place, data::make(cases)) {
     const Solution parsed = parse_solution(sample.document, "my.toml");
     if (sample.message.empty()) {

@@ -173,6 +173,20 @@ Point force_driven(const X& x, const T& t, const Beam& beam) {
             stress};
 }
 
+/// The tip, 1/2 (g1 + g2) + 3/4 (g2 − g1) sin 3t, and the law of the stops.
+Point penalised_stops(const X& x, const T& t, const Beam& beam) {
+    const auto [g1, g2, epsilon] = beam.stops;
+    const double width = g2 - g1;
+    const Jet tip = 0.5 * (g1 + g2) + 0.75 * width * sin(3.0 * t) + 0.0 * x;
+    const Jet stress = tip > g2   ? Jet((g2 - tip) / epsilon)
+                       : tip < g1 ? Jet((g1 - tip) / epsilon)
+                                  : Jet(0.0 * tip);
+    return {cos(t) * (sin(pi * x) + sin(2.0 * pi * x) / 3.0),
+            tip * (3.0 * x * x - x * x * x) / 2.0 +
+                width / 4.0 * x * x * (1.0 - x) * (1.0 - x) * cos(t),
+            stress};
+}
+
 const std::map<std::string, Formula> counterparts = {
     {"copetti-fernandez-2011", copetti_fernandez},
     {"cubic-deflection", cubic_deflection},
@@ -183,6 +197,7 @@ const std::map<std::string, Formula> counterparts = {
     {"heated-end", heated_end},
     {"impact", impact},
     {"moving-front", moving_front},
+    {"penalised-stops", penalised_stops},
     {"pressed-front", pressed_front},
     {"pressed-on-g1", pressed_on_g1},
     {"released-from-g2", released_from_g2},

@@ -107,7 +107,8 @@ BOOST_AUTO_TEST_CASE(what_the_beam_does_not_have_leaves_no_terms) {
 }
 
 BOOST_DATA_TEST_CASE(profiles_and_amplitudes_are_finite_and_distinct, data::make(shipped())) {
-    const ProblemData problem = manufactured_problem(read_solution(sample), papers_beam, 2.0);
+    const Solution solution = read_solution(sample);
+    const ProblemData problem = manufactured_problem(solution, suited(papers_beam, solution), 2.0);
     const ArrayXd x = ArrayXd::LinSpaced(50, 0.0, 1.0);
     for (std::size_t i = 0; i < problem.profiles.size(); ++i) {
         const ArrayXd values = problem.profiles[i](x);

@@ -350,9 +350,31 @@ BOOST_AUTO_TEST_CASE(records_on_a_rounding_floor_are_rejected_as_such) {
     const auto fit = fit_two_term(records);
     BOOST_TEST(static_cast<int>(fit.rejected.size()) == hidden);
     for (const auto& rejected : fit.rejected)
-        BOOST_TEST(rejects(fit, rejected.record, Rejection::rounding_floor), rejected.reason);
+        BOOST_TEST(rejects(fit, rejected.record, Rejection::floor), rejected.reason);
     BOOST_TEST(std::abs(fit.model.p - 2) < 1e-6);
     BOOST_TEST(std::abs(fit.model.rho + 0.92) < 1e-6);
+}
+
+// Terms of the orders 1 and 2 in h and dt: the model fits the coarse runs with orders between, and
+// the fine ones, whose errors are still 1e-1 and shrink, are on no floor.
+BOOST_AUTO_TEST_CASE(records_that_shrink_more_slowly_than_the_model_are_on_no_floor) {
+    std::vector<Refinement> records;
+    for (const double h : {1.0 / 4, 1.0 / 8, 1.0 / 16, 1.0 / 32, 1.0 / 64})
+        for (const double dt : {0.1, 0.05, 0.025, 0.0125, 0.00625}) {
+            const double in_space = 2.374725462895293 * h * (1.0 + 10.0 * h);
+            const double in_time = 6.675896860464434 * dt * (1.0 + 10.0 * dt);
+            records.push_back(
+                {.h = h,
+                 .dt = dt,
+                 .error = std::sqrt(in_space * in_space + in_space * in_time + in_time * in_time)});
+        }
+    const auto fit = fit_two_term(records);
+    BOOST_REQUIRE(!fit.rejected.empty());
+    for (const auto& rejected : fit.rejected) {
+        BOOST_TEST(!rejects(fit, rejected.record, Rejection::floor), rejected.reason);
+        // One reason, in a sentence of several records and in that of this one.
+        BOOST_TEST(rejected.reason.find(words_for(rejected.why)) == 0U, rejected.reason);
+    }
 }
 
 // On the coarsest mesh the error is twice the model's: five of 25 records, all pre-asymptotic.

@@ -296,11 +296,49 @@ BOOST_AUTO_TEST_CASE(an_event_lies_in_the_step_in_which_the_regime_changed) {
     }
 }
 
-BOOST_AUTO_TEST_CASE(a_penalised_stop_yields_and_is_not_passed) {
-    ContactEvents contact({.lower = -1.0, .upper = 0.5, .epsilon = 0.1}, 0.0);
-    contact.add(1.0, 0.6, -1.0);
-    BOOST_TEST(contact.beyond_stops() == 0.0);
-    BOOST_TEST(contact.events().size() == 1U);
+// Into g2 by 1/8 and 1/4, out, and into g1 by 1/2: how far is said of the run, and of each contact.
+BOOST_AUTO_TEST_CASE(how_far_the_tip_passes_penalised_stops_is_said) {
+    ContactEvents contact({.lower = -1.0, .upper = 0.5, .epsilon = 0.125}, 0.0);
+    contact.add(1.0, 0.625, -1.0);
+    contact.add(2.0, 0.75, -2.0);
+    contact.add(3.0, 0.0, 0.0);
+    contact.add(4.0, -1.5, 4.0);
+    contact.add(5.0, -1.25, 2.0);
+    BOOST_TEST(contact.beyond_stops() == 0.5);
+    const auto& events = contact.events();
+    BOOST_REQUIRE(events.size() == 3U);
+    BOOST_TEST(events[0].beyond == 0.25);
+    BOOST_TEST(events[1].beyond == 0.25);
+    BOOST_TEST(events[2].beyond == 0.5);
+}
+
+// At t = 0 a tip may be in a stop that yields, and is in contact then.
+BOOST_AUTO_TEST_CASE(a_tip_that_starts_in_a_penalised_stop_has_its_onset_at_zero) {
+    ContactEvents contact({.lower = -1.0, .upper = 0.5, .epsilon = 0.1}, 0.75);
+    contact.add(1.0, 0.625, -1.25);
+    BOOST_REQUIRE(contact.events().size() == 1U);
+    BOOST_TEST(contact.events()[0].t == 0.0);
+    BOOST_TEST(contact.events()[0].beyond == 0.25);
+    BOOST_TEST(contact.beyond_stops() == 0.25);
+}
+
+// The tip is 1/40 + 9/80 sin 3t: 3/80 beyond either stop at its turning points.
+BOOST_AUTO_TEST_CASE(a_run_tells_how_far_its_tip_passes_penalised_stops) {
+    const EvolutionResult result =
+        evolution_of("solution = 'penalised-stops'\n[beam]\nalpha = 0.4\nzeta = 0.15\n"
+                     "stops = [-0.05, 0.1]\ncontact = {law = 'penalty', epsilon = 0.05}\n"
+                     "[scheme]\ntime = 'sdirk2'\n[evolution]\nfinal_time = 2.0\nelements = 40\n"
+                     "dt = 0.005\nprobes = ['u@1', 'stress']\n");
+    BOOST_TEST(result.beyond_stops == 3.0 / 80.0, boost::test_tools::tolerance(1e-2));
+    BOOST_REQUIRE(result.events.size() == 4U); // into g2, out, into g1, out
+    const double into_g2 = std::asin(2.0 / 3.0) / 3.0;
+    BOOST_TEST(result.events[0].t == into_g2, boost::test_tools::tolerance(1e-2));
+    BOOST_TEST(result.events[1].t == std::numbers::pi / 3.0 - into_g2,
+               boost::test_tools::tolerance(1e-2));
+    BOOST_TEST(result.events[2].t == std::numbers::pi / 3.0 + into_g2,
+               boost::test_tools::tolerance(1e-2));
+    for (const auto& event : result.events)
+        BOOST_TEST(event.beyond == 3.0 / 80.0, boost::test_tools::tolerance(1e-2));
 }
 
 // The Hermite form solves for the initial deflection, with the round-off that grows like h⁻⁴: 9e-12

@@ -70,6 +70,7 @@ std::vector<double> orders(Scene scene, const Rung& coarse, const Rung& fine) {
         ladder.norms.push_back(measure_of(*Norm::named(name)));
     scene.blocks.set(ladder);
     scene.blocks.remove<OrdersBlock>();
+    scene.blocks.remove<EvolutionBlock>();
     const StudyResult result = run_study(scene);
     std::vector<double> found;
     for (std::size_t k = 0; k < norms.size(); ++k) {
@@ -158,6 +159,13 @@ BOOST_DATA_TEST_CASE(space_error_has_order_two,
     check_orders(orders(scene, at(coarse), at(2 * coarse)), 2.0, solution, scheme, Refined::mesh);
 }
 
+/// A mesh for orders in time. The tip that is computed goes into yielding stops, and u_xxt of it
+/// has kinks there, at instants and with sizes that differ from the exact ones, which have none, by
+/// the error of space: a finer mesh keeps them out of sight.
+std::int64_t elements_in_time(const std::string& solution, std::int64_t usual, std::int64_t fine) {
+    return solution == "penalised-stops" ? fine : usual;
+}
+
 // On one mesh, against a run with much smaller steps: the space error is in both and drops out. An
 // order q seen against the step dt/r is too high by (2^q − 1) r^(−q)/ln 2: 0.01 for q = 1 and
 // r = 128, 0.004 for q = 2 and r = 32.
@@ -168,7 +176,7 @@ BOOST_DATA_TEST_CASE(time_error_has_the_order_of_the_scheme,
     const int order = scene.scheme.time.order;
     constexpr std::int64_t coarse = 256;
     const std::int64_t finest = coarse * (order == 1 ? 128 : 32);
-    constexpr std::int64_t elements = 32;
+    const std::int64_t elements = elements_in_time(solution, 32, 512);
     scene.reference = ReferenceBlock{.elements = elements, .dt = rung(scene, elements, finest).dt};
     check_orders(orders(scene, rung(scene, elements, coarse), rung(scene, elements, 2 * coarse)),
                  order, solution, scheme, Refined::step);
@@ -216,7 +224,7 @@ std::vector<std::string> solutions_on_graded_meshes() {
 BOOST_DATA_TEST_CASE(time_error_on_a_graded_mesh_has_the_order_of_the_scheme,
                      data::make(solutions_on_graded_meshes()), solution) {
     Scene scene = scene_of(solution);
-    const Mesh mesh = MeshFamily{1.5, {}}.with(32);
+    const Mesh mesh = MeshFamily{1.5, {}}.with(elements_in_time(solution, 32, 128));
     const ProblemData problem = problem_of(scene, scene.get<LadderBlock>()->final_time);
     for (const auto& scheme : schemes()) {
         scene.scheme.time = TimeScheme::named(scheme);
@@ -248,7 +256,7 @@ BOOST_DATA_TEST_CASE(where_no_order_in_h_is_forecast_no_mesh_matters, data::make
             std::find_if(expected.orders.begin(), expected.orders.end(),
                          [&](const ExpectedOrder& order) { return order.norm == norms[k]; });
         BOOST_REQUIRE(forecast != expected.orders.end());
-        if (forecast->in_h)
+        if (forecast->in_h.has_error())
             BOOST_TEST(found[k] > 1.5, norms[k] << ": " << found[k]);
         else
             BOOST_TEST(std::abs(found[k]) < 0.05, norms[k] << ": " << found[k]);

@@ -1,0 +1,181 @@
+#include "mms/contact_history.hpp"
+
+#include "mms/admissible/sampled_rules.hpp"
+#include "mms/expression/algebra.hpp"
+#include "mms/expression/piecewise_tape.hpp"
+#include "mms/expression/symbols.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+namespace tvbeam {
+
+using Eigen::ArrayXd;
+using Eigen::ArrayXXd;
+using Eigen::Index;
+using GiNaC::ex;
+
+namespace {
+
+constexpr double nothing = 1e-9; ///< of the greatest size of a thing
+constexpr int highest_power = 6;
+
+/// A formula in t and its derivatives, the highest one of the order highest_power.
+void append_with_derivatives(std::vector<ex>& rows, ex formula) {
+    for (int order = 0; order <= highest_power; ++order) {
+        rows.push_back(formula);
+        if (order < highest_power)
+            formula = derivative(formula, model_symbols().t);
+    }
+}
+
+enum class Contact { none, rest, force };
+
+class History {
+public:
+    History(const DerivedSolution& solution, const Stops& stops, double final_time)
+        : stops_(stops), tape_(solution, [](const DerivedPhase& phase) {
+              std::vector<ex> rows;
+              append_with_derivatives(rows, substituted(phase.u, {{model_symbols().x, 1}}));
+              append_with_derivatives(rows, phase.contact_stress);
+              return rows;
+          }) {
+        for (const PhaseExpressions& phase : solution.phases)
+            if (phase.begin_value < final_time)
+                phases_.push_back({phase.begin_value, std::min(phase.end_value, final_time)});
+        for (const Interval& phase : phases_)
+            for (const double t : samples(phase)) {
+                tip_size_ = std::max(tip_size_, std::abs(tip(phase, t)));
+                force_size_ = std::max(force_size_, std::abs(value(phase, t, force_row)));
+            }
+    }
+
+    ContactHistory run() {
+        for (const Interval& phase : phases_)
+            contacts_.push_back(contact_of(phase));
+        for (std::size_t i = 0; i < phases_.size(); ++i) {
+            if (contacts_[i] == Contact::force)
+                result_.pressed_until = phases_[i].end;
+            else
+                seek_touch(i);
+            if (i > 0 && contacts_[i] == Contact::force && contacts_[i - 1] != Contact::force)
+                result_.onsets.push_back(
+                    {phases_[i].begin, power(phases_[i - 1], phases_[i].begin, 0, 1, tip_size_),
+                     power(phases_[i], phases_[i].begin, force_row, 0, force_size_)});
+        }
+        return result_;
+    }
+
+private:
+    struct Interval {
+        double begin, end;
+    };
+    static constexpr Index force_row = highest_power + 1;
+
+    static ArrayXd samples(const Interval& phase) {
+        return ArrayXd::LinSpaced(time_points, phase.begin, phase.end);
+    }
+
+    /// A time that begins a phase is read in it.
+    [[nodiscard]] double value(const Interval& phase, double t, Index row) const {
+        return tape_.at(ArrayXd::Zero(1), t, t == phase.begin)(row, 0);
+    }
+    [[nodiscard]] double tip(const Interval& phase, double t) const { return value(phase, t, 0); }
+
+    /// Distance of the tip from the nearer stop; of an admissible solution ≥ 0.
+    [[nodiscard]] double gap(const Interval& phase, double t) const {
+        const double u = tip(phase, t);
+        return std::min(stops_.upper - u, u - stops_.lower);
+    }
+    [[nodiscard]] bool is_on_stop(const Interval& phase, double t) const {
+        return gap(phase, t) <= nothing * tip_size_;
+    }
+
+    [[nodiscard]] Contact contact_of(const Interval& phase) const {
+        const ArrayXd times = samples(phase);
+        const auto presses = [&](double t) {
+            return std::abs(value(phase, t, force_row)) > nothing * force_size_;
+        };
+        if (std::any_of(times.begin(), times.end(), presses))
+            return Contact::force;
+        const bool rests =
+            std::all_of(times.begin(), times.end(), [&](double t) { return is_on_stop(phase, t); });
+        return rests ? Contact::rest : Contact::none;
+    }
+
+    /// An end of a phase without a force is a touch unless a force ends or begins there.
+    void seek_touch(std::size_t i) {
+        if (result_.touch)
+            return;
+        const Interval& phase = phases_[i];
+        const auto forced = [&](std::size_t k) { return contacts_[k] == Contact::force; };
+        const bool after_force = i > 0 && forced(i - 1);
+        const bool before_force = i + 1 < phases_.size() && forced(i + 1);
+        if (contacts_[i] == Contact::rest)
+            result_.touch = phase.begin;
+        else if (!after_force && is_on_stop(phase, phase.begin))
+            result_.touch = phase.begin;
+        else if (!before_force && is_on_stop(phase, phase.end))
+            result_.touch = phase.end;
+        else
+            result_.touch = touch_inside(phase);
+    }
+
+    /// Where the gap has a minimum that is nothing, at a distance from both ends.
+    [[nodiscard]] std::optional<double> touch_inside(const Interval& phase) const {
+        const ArrayXd times = samples(phase);
+        const ArrayXd gaps = times.unaryExpr([&](double t) { return gap(phase, t); });
+        for (Index k = 1; k + 1 < times.size(); ++k) {
+            if (gaps(k) > gaps(k - 1) || gaps(k) > gaps(k + 1))
+                continue;
+            double left = times(k - 1);
+            double right = times(k + 1);
+            constexpr int thirds = 80;
+            for (int step = 0; step < thirds; ++step) {
+                const double third = (right - left) / 3.0;
+                if (gap(phase, left + third) < gap(phase, right - third))
+                    right -= third;
+                else
+                    left += third;
+            }
+            const double nearest = 0.5 * (left + right);
+            if (is_on_stop(phase, nearest) && nearest > times(1) &&
+                nearest < times(times.size() - 2))
+                return nearest;
+        }
+        return std::nullopt;
+    }
+
+    /// The first power, from `least` on, with which a function leaves its value, or zero, at t: its
+    /// derivative times the length of the phase is something.
+    [[nodiscard]] std::optional<int> power(const Interval& phase, double t, Index row, int least,
+                                           double size) const {
+        const double length = phase.end - phase.begin;
+        const ArrayXXd values = tape_.at(ArrayXd::Zero(1), t, t == phase.begin);
+        double factor = least == 0 ? 1.0 : length;
+        for (int n = least; n <= highest_power; ++n) {
+            if (std::abs(values(row + n, 0)) * factor > nothing * size)
+                return n;
+            factor *= length / (n + 1);
+        }
+        return std::nullopt;
+    }
+
+    Stops stops_;
+    PiecewiseTape tape_;
+    std::vector<Interval> phases_;
+    std::vector<Contact> contacts_;
+    double tip_size_ = 0.0;
+    double force_size_ = 0.0;
+    ContactHistory result_;
+};
+
+} // namespace
+
+ContactHistory contact_history(const DerivedSolution& solution, const Stops& stops,
+                               double final_time) {
+    return History(solution, stops, final_time).run();
+}
+
+} // namespace tvbeam

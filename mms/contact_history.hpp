@@ -1,0 +1,34 @@
+#pragma once
+
+#include "core/problem.hpp"
+#include "mms/derivation.hpp"
+
+#include <optional>
+#include <vector>
+
+namespace tvbeam {
+
+/// A time at which an exact solution begins to press on a stop.
+struct ContactOnset {
+    double t = 0.0;
+    /// m ≥ 1: the tip comes up like (t_onset − t)^m; none: flatter than any power looked for
+    std::optional<int> approach;
+    /// k ≥ 0: the force begins like (t − t_onset)^k, with k = 0 by a jump; none: as above
+    std::optional<int> force;
+};
+
+/// What an exact solution does at rigid stops on [0, final_time].
+struct ContactHistory {
+    std::vector<ContactOnset> onsets;    ///< those after t = 0
+    std::optional<double> pressed_until; ///< the end of the last phase with a force; none: no force
+    /// The first time at which the tip is on a stop without a force while none begins or ends.
+    std::optional<double> touch;
+};
+
+/// Sampled at 257 times a phase, and between them where the tip is nearest to a stop; what is 1e-9
+/// of the greatest size of u(1,t), or of σ̃(1,t), counts as nothing. Throws AlgebraError where a
+/// derivative in time cannot be made.
+ContactHistory contact_history(const DerivedSolution& solution, const Stops& stops,
+                               double final_time);
+
+} // namespace tvbeam

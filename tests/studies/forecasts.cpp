@@ -1,0 +1,213 @@
+// The orders that `derive` forecasts, against runs: every shipped solution and a family of contacts
+// of our own, by every time scheme.
+
+#include "core/run.hpp"
+#include "mms/expected_orders.hpp"
+#include "mms/manufactured_problem.hpp"
+#include "studies/orders/convergence_fit.hpp"
+#include "studies/scene/shipped.hpp"
+#include "studies/scene/solution_setting.hpp"
+
+#include <boost/test/data/monomorphic.hpp>
+#include <boost/test/data/test_case.hpp>
+#include <boost/test/unit_test.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+using namespace tvbeam;
+namespace data = boost::unit_test::data;
+
+namespace {
+
+/// The norms that a march in the sine basis measures: fast enough for meshes on which the error of
+/// time stands alone.
+const std::vector<std::string> norm_names{"theta_L2L2", "theta_LinfL2", "u_LinfH2semi", "sigma_L2"};
+
+struct Problem {
+    Solution solution;
+    Beam beam;
+    double final_time;
+};
+
+Forecast in_dt(const ExpectedOrder& order, const std::string& scheme) {
+    return scheme == "euler" ? order.euler : scheme == "bdf2" ? order.bdf2 : order.sdirk2;
+}
+
+std::vector<double> errors(const Problem& problem, const ProblemData& data,
+                           const std::string& scheme, std::int64_t elements, std::int64_t steps) {
+    std::vector<Norm> norms;
+    for (const auto& name : norm_names)
+        norms.push_back(*Norm::named(name));
+    const RunResult result = run({problem.beam,
+                                  Mesh::uniform(elements),
+                                  Scheme{.time = TimeScheme::named(scheme)},
+                                  problem.final_time,
+                                  steps,
+                                  norms,
+                                  {}},
+                                 data);
+    BOOST_REQUIRE_MESSAGE(result.status == RunStatus::ok, result.reason);
+    return result.errors;
+}
+
+/// In each list the times at which phases end, multiples of T/16 and T/3, lie at one fraction of a
+/// step for all counts: an error that depends on the fraction then has an order.
+const std::vector<std::int64_t> of_sixteenths{66, 98, 130, 194, 258, 370, 514, 722};
+const std::vector<std::int64_t> of_thirds{64, 91, 130, 181, 256, 361, 511, 724};
+/// Where a rate jumps, the largest error over time is at first another one than in the end.
+const std::vector<std::int64_t> fine_of_thirds{1024, 1450, 2050, 2896};
+
+/// What remains of a norm when the steps are small: the error of space. A record shows the order of
+/// time where it is this many times as large.
+constexpr double clear_of_space = 10.0;
+
+/// How far a least-squares slope over the counts may be off, from steps that are not small enough.
+/// At a switch the heat has a layer at the clamped end, where 1 − x is not zero, of a width ~ √Δt:
+/// norms with a maximum over time see it, and the slope drifts. A stress whose contact begins at an
+/// instant that a run finds to one step scatters, the more so at sqrt(2), which lies elsewhere in
+/// each step.
+double slack(const ExpectedOrders& expected, const std::string& norm) {
+    if (norm == "sigma_L2" && !expected.contact.onsets.empty())
+        return expected.contact.onsets[0].t == std::sqrt(2.0) ? 0.5 : 0.25;
+    return norm.find("Linf") != std::string::npos && !expected.switches.empty() ? 0.3 : 0.1;
+}
+
+void check_forecast(const Problem& problem, const std::string& scheme, std::int64_t elements,
+                    const std::vector<std::int64_t>& counts, const std::string& name) {
+    const ExpectedOrders expected =
+        expected_orders(problem.solution, problem.beam, problem.final_time);
+    const ProblemData data =
+        manufactured_problem(problem.solution, problem.beam, problem.final_time);
+    std::vector<std::vector<double>> found;
+    for (const std::int64_t count : counts)
+        found.push_back(errors(problem, data, scheme, elements, count));
+    // 48: the ends of phases are time levels then.
+    const auto in_space = errors(problem, data, "sdirk2", elements, 48 * (counts.back() / 9));
+    for (std::size_t k = 0; k < norm_names.size(); ++k) {
+        const auto order =
+            std::find_if(expected.orders.begin(), expected.orders.end(),
+                         [&](const ExpectedOrder& one) { return one.norm == norm_names[k]; });
+        if (order == expected.orders.end())
+            continue;
+        const Forecast forecast = in_dt(*order, scheme);
+        std::vector<Refinement> records;
+        for (std::size_t i = 0; i < counts.size(); ++i)
+            if (found[i][k] > clear_of_space * in_space[k])
+                records.push_back(
+                    {.dt = 1.0 / static_cast<double>(counts[i]), .error = found[i][k]});
+        const std::string what = name + ", " + scheme + ", " + norm_names[k];
+        if (!forecast.has_error()) {
+            BOOST_TEST(records.empty(), what << ": an error where none is forecast, " << found[0][k]
+                                             << " over " << in_space[k]);
+            continue;
+        }
+        const auto fit = records.size() >= 4 ? fit_power_law(records) : std::nullopt;
+        BOOST_TEST_MESSAGE(what << ": " << (fit ? fit->p : 0.0) << " of " << records.size()
+                                << ", forecast " << forecast.least << " to " << forecast.greatest
+                                << (forecast.is_known() ? "" : " (not known)"));
+        if (!fit || !forecast.is_known())
+            continue;
+        const double off = slack(expected, norm_names[k]);
+        BOOST_TEST((fit->p >= forecast.least - off && fit->p <= forecast.greatest + off),
+                   what << " has the order " << fit->p << ", forecast " << forecast.least << " to "
+                        << forecast.greatest);
+    }
+}
+
+/// A solution by one of the shipped names; the layer e^(−1000 t) is left out, which none of these
+/// steps resolves.
+std::vector<std::string> shipped() {
+    if (TVBEAM_SHORT_TESTS) // the orders are those of any build
+        return {"penalised-stops", "three-phases"};
+    std::vector<std::string> names;
+    for (const auto& file : shipped_files(Shipped::solution))
+        if (file.name != "stiff-layer")
+            names.push_back(file.name);
+    return names;
+}
+
+/// Elements enough for the error of space to be small; a source that does not separate is evaluated
+/// at every point in every step.
+std::int64_t elements_for(const std::string& name) {
+    if (TVBEAM_SHORT_TESTS)
+        return 1024;
+    return name.ends_with("-front") ? 256 : 4096;
+}
+
+std::vector<int> powers(int least, int greatest) {
+    if (TVBEAM_SHORT_TESTS)
+        return {2};
+    std::vector<int> result;
+    for (int power = least; power <= greatest; ++power)
+        result.push_back(power);
+    return result;
+}
+
+/// The tip comes up to g2 like (a − t)^m, and is pressed from t = a on by a force like (t − a)^k.
+Problem onset(int m, int k, double alpha, double zeta) {
+    const std::string shape = "g2*(3*x^2 - x^3)/2";
+    const std::string inner = " + g2*x^2*(1 - x)^2*sin(t)";
+    const std::string text = "theta = 'cos(t)*sin(pi*x)'\n[parameters]\na = '2/3'\n"
+                             "[[phase]]\nuntil = 'a'\nu = '" +
+                             shape + "*(1 - (1 - t/a)^" + std::to_string(m) + ")" + inner +
+                             "'\n[[phase]]\nu = '" + shape + inner +
+                             "'\nsigma = '-(1 + t)*(t - a)^" + std::to_string(k) + "'\n";
+    return {parse_solution(text, "onset.toml"), {alpha, zeta, 0.0, {-0.02, 0.1}}, 2.0};
+}
+
+} // namespace
+
+BOOST_AUTO_TEST_SUITE(forecasts)
+
+BOOST_DATA_TEST_CASE(orders_in_time_of_shipped_solutions_are_those_forecast,
+                     data::make(shipped()) * data::make(TimeScheme::names()), name, scheme) {
+    const SolutionSetting setting = solution_setting(name);
+    check_forecast({setting.solution, setting.beam, setting.final_time}, scheme, elements_for(name),
+                   of_sixteenths, name);
+}
+
+BOOST_DATA_TEST_CASE(orders_in_time_across_an_onset_are_those_forecast,
+                     data::make(powers(1, 4)) * data::make(powers(0, 3)) *
+                         data::make(TimeScheme::names()),
+                     m, k, scheme) {
+    const std::string name = "m = " + std::to_string(m) + ", k = " + std::to_string(k);
+    check_forecast(onset(m, k, 0.4, 0.15), scheme, elements_for("onset"),
+                   m == 1 ? fine_of_thirds : of_thirds, name);
+}
+
+// Without coupling the stop takes a jump along 1 − x away; without viscosity the tip answers at
+// once, and the stress keeps the order of u.
+BOOST_DATA_TEST_CASE(orders_in_time_without_coupling_or_viscosity_are_those_forecast,
+                     data::make(powers(1, 3)) * data::make(TimeScheme::names()), m, scheme) {
+    for (const auto& [alpha, zeta] : {std::pair{0.0, 0.15}, {0.4, 0.0}, {0.0, 0.0}})
+        check_forecast(onset(m, 1, alpha, zeta), scheme, elements_for("onset"),
+                       m == 1 ? fine_of_thirds : of_thirds,
+                       "m = " + std::to_string(m) + ", alpha = " + std::to_string(alpha) +
+                           ", zeta = " + std::to_string(zeta));
+}
+
+// A difference of what is zero but for round-off, at its own instant, is no jump: sigma ends with
+// 9e-16 of a term of 3, and begins with nothing.
+BOOST_AUTO_TEST_CASE(a_jump_of_nothing_is_none) {
+    const Solution solution = parse_solution("theta = 'cos(t)*sin(pi*x)'\n"
+                                             "[[phase]]\nuntil = '7/10'\n"
+                                             "u = 'g2*(3*x^2 - x^3)/2'\n"
+                                             "sigma = '-exp(7/5)*(1 - exp(2*t - 7/5))^2'\n"
+                                             "[[phase]]\nu = 'g2*(3*x^2 - x^3)/2*cos(t - 7/10)'\n"
+                                             "sigma = 0\n",
+                                             "nothing.toml");
+    const ExpectedOrders expected = expected_orders(solution, {0.4, 0.15, 0.0, {-0.02, 0.1}}, 2.0);
+    BOOST_TEST(expected.contact.onsets.empty());
+    for (const std::string& reason : expected.reasons)
+        BOOST_TEST(reason.find("sigma jumps") == std::string::npos, reason);
+    const ExpectedOrder& stress = expected.orders.back();
+    BOOST_REQUIRE(stress.norm == "sigma_L2");
+    BOOST_TEST(stress.euler.least == 1.0);
+    BOOST_TEST(stress.bdf2.least == 2.0);
+}
+
+BOOST_AUTO_TEST_SUITE_END()

@@ -1,0 +1,77 @@
+// What the orders of a ladder mean, in words: a reason is given only where the orders show it.
+
+#include "studies/ladder/order_remarks.hpp"
+
+#include <boost/test/data/monomorphic.hpp>
+#include <boost/test/data/test_case.hpp>
+#include <boost/test/unit_test.hpp>
+
+#include <cmath>
+#include <functional>
+#include <ostream>
+#include <string>
+#include <vector>
+
+using namespace tvbeam;
+namespace data = boost::unit_test::data;
+
+namespace {
+
+struct Case {
+    std::string name;
+    std::function<double(double h)> error;
+    std::string said;
+    std::vector<std::string> not_said;
+};
+
+std::ostream& operator<<(std::ostream& stream, const Case& c) {
+    return stream << c.name;
+}
+
+const std::string cancel = "two terms of the error cancel";
+const std::string lower = "a term of lower order takes over";
+const std::string settles = "where it settles";
+const std::string unknown = "why is not known";
+
+// h = 1/10, 1/20, …: seven rungs.
+const std::vector<Case> cases = {
+    // 1/(1/h² + 30/h): from the order 1 up to 2, and never beyond.
+    {"order 2 from below",
+     [](double h) { return h * h / (1.0 + 30.0 * h); },
+     settles,
+     {cancel, lower, unknown}},
+    // |3 h² − h/8| changes its sign between the second and the third rung.
+    {"a change of sign",
+     [](double h) { return std::abs(3.0 * h * h - h / 8.0); },
+     cancel,
+     {settles, lower, unknown}},
+    {"a slower term",
+     [](double h) { return 3.0 * h * h + h / 40.0; },
+     lower,
+     {settles, cancel, unknown}},
+    {"the order grows",
+     [](double h) { return std::pow(h, 1.0 + 0.1 / h / 10.0); },
+     unknown,
+     {settles, cancel, lower}},
+    {"down and up again",
+     [](double h) { return h * h * (1.0 + std::exp(-std::pow(std::log2(40.0 * h), 2.0))); },
+     unknown,
+     {settles, lower}},
+};
+
+} // namespace
+
+BOOST_AUTO_TEST_SUITE(order_remarks_in_words)
+
+BOOST_DATA_TEST_CASE(a_reason_is_the_one_that_the_orders_show, data::make(cases)) {
+    std::vector<Refinement> ladder;
+    for (const double elements : {10.0, 20.0, 40.0, 80.0, 160.0, 320.0, 640.0})
+        ladder.push_back({.h = 1.0 / elements, .error = sample.error(1.0 / elements)});
+    const auto remarks = order_remarks(*Norm::named("theta_L2L2"), ladder, nullptr);
+    BOOST_REQUIRE(remarks.size() == 1U);
+    BOOST_TEST(remarks[0].find(sample.said) != std::string::npos, remarks[0]);
+    for (const auto& wrong : sample.not_said)
+        BOOST_TEST(remarks[0].find(wrong) == std::string::npos, remarks[0]);
+}
+
+BOOST_AUTO_TEST_SUITE_END()
