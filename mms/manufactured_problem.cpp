@@ -3,12 +3,19 @@
 #include "mms/admissible/admissibility_check.hpp"
 #include "mms/derivation.hpp"
 #include "mms/expression/algebra.hpp"
+#include "mms/plain_solution.hpp"
 #include "mms/problem_builder.hpp"
 
+#include <cmath>
+#include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace tvbeam {
 
+using Eigen::ArrayXd;
+using Eigen::Index;
 using GiNaC::ex;
 
 namespace {
@@ -55,14 +62,78 @@ ProblemData built(const DerivedSolution& solution, double final_time) {
     return problem;
 }
 
+/// The fields of a problem at the samples of a phase.
+class SampledFields {
+public:
+    SampledFields(const ProblemData& problem, const ArrayXd& x, const ArrayXd& t) : x_(x), t_(t) {
+        if (problem.amplitude_count > 0)
+            amplitudes_ = problem.amplitudes(t);
+        for (const SpaceFunction& profile : problem.profiles)
+            profiles_.push_back(profile(x));
+    }
+
+    [[nodiscard]] ComputedValues of(const Field& field) const {
+        ComputedValues result = ComputedValues::of(ArrayXd::Zero(x_.size()));
+        const auto add = [&result](const ArrayXd& term) {
+            result.values += term;
+            result.terms += term.abs();
+        };
+        for (const Field::Term& term : field.terms)
+            add(amplitudes_.row(term.amplitude).transpose() *
+                profiles_[static_cast<std::size_t>(term.profile)]);
+        for (Index k = 0; field.rest && k < x_.size(); ++k) {
+            const double rest = field.rest(x_.segment(k, 1), t_(k))(0);
+            result.values(k) += rest;
+            result.terms(k) += std::abs(rest);
+        }
+        return result;
+    }
+
+    [[nodiscard]] ComputedValues of(const std::optional<Index>& amplitude) const {
+        return ComputedValues::of(amplitude ? ArrayXd(amplitudes_.row(*amplitude))
+                                            : ArrayXd(ArrayXd::Zero(x_.size())));
+    }
+
+private:
+    const ArrayXd& x_;
+    const ArrayXd& t_;
+    Eigen::ArrayXXd amplitudes_;
+    std::vector<ArrayXd> profiles_;
+};
+
+/// That every field, separated into products and compiled, is what the text says.
+void require_as_written(const ProblemData& problem, const PlainSolution& plain) {
+    const ExactSolution& exact = *problem.exact;
+    for (std::size_t phase = 0; phase < plain.phase_count(); ++phase) {
+        const SampledFields sampled(problem, plain.x(phase), plain.t(phase));
+        const auto require = [&](const auto& field, Quantity quantity, const std::string& what) {
+            plain.require(phase, quantity, what, sampled.of(field));
+        };
+        require(exact.theta, Quantity::theta, "theta");
+        require(exact.theta_x, Quantity::theta_x, "theta_x");
+        require(exact.u, Quantity::u, "u");
+        require(exact.u_x, Quantity::u_x, "u_x");
+        require(exact.u_xx, Quantity::u_xx, "u_xx");
+        require(exact.stress, Quantity::contact_stress, "sigma(1,t)");
+        require(problem.heat_source, Quantity::heat_source, "f of (1)");
+        require(problem.moment_load, Quantity::moment_load, "the integral of G of (3)");
+        require(problem.couple_load, Quantity::couple_load, "G of (3)");
+        require(problem.body_force, Quantity::body_force, "q of (2)");
+        require(problem.end_moment, Quantity::end_moment, "m of (9)");
+    }
+}
+
 } // namespace
 
 ProblemData manufactured_problem(const Solution& solution, const Beam& beam, double final_time) {
     require_final_time(final_time);
     const DerivedSolution derived = derive_on(solution, beam);
-    check_admissible(solution, derived, beam, final_time);
+    const PlainSolution plain(solution, derived, beam, final_time);
+    check_admissible(solution, derived, plain, beam, final_time);
     try {
-        return built(derived, final_time);
+        ProblemData problem = built(derived, final_time);
+        require_as_written(problem, plain);
+        return problem;
     } catch (const AlgebraError& error) {
         throw InputError(solution.phases.front().theta.begin(),
                          std::string("the solution cannot be evaluated: ") + error.what());
