@@ -5,17 +5,14 @@
 #include "mms/expression/algebra.hpp"
 #include "mms/plain_solution.hpp"
 #include "mms/problem_builder.hpp"
+#include "mms/sampled_fields.hpp"
 
-#include <cmath>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace tvbeam {
 
-using Eigen::ArrayXd;
-using Eigen::Index;
 using GiNaC::ex;
 
 namespace {
@@ -61,45 +58,6 @@ ProblemData built(const DerivedSolution& solution, double final_time) {
     builder.finish(problem);
     return problem;
 }
-
-/// The fields of a problem at the samples of a phase.
-class SampledFields {
-public:
-    SampledFields(const ProblemData& problem, const ArrayXd& x, const ArrayXd& t) : x_(x), t_(t) {
-        if (problem.amplitude_count > 0)
-            amplitudes_ = problem.amplitudes(t);
-        for (const SpaceFunction& profile : problem.profiles)
-            profiles_.push_back(profile(x));
-    }
-
-    [[nodiscard]] ComputedValues of(const Field& field) const {
-        ComputedValues result = ComputedValues::of(ArrayXd::Zero(x_.size()));
-        const auto add = [&result](const ArrayXd& term) {
-            result.values += term;
-            result.terms += term.abs();
-        };
-        for (const Field::Term& term : field.terms)
-            add(amplitudes_.row(term.amplitude).transpose() *
-                profiles_[static_cast<std::size_t>(term.profile)]);
-        for (Index k = 0; field.rest && k < x_.size(); ++k) {
-            const double rest = field.rest(x_.segment(k, 1), t_(k))(0);
-            result.values(k) += rest;
-            result.terms(k) += std::abs(rest);
-        }
-        return result;
-    }
-
-    [[nodiscard]] ComputedValues of(const std::optional<Index>& amplitude) const {
-        return ComputedValues::of(amplitude ? ArrayXd(amplitudes_.row(*amplitude))
-                                            : ArrayXd(ArrayXd::Zero(x_.size())));
-    }
-
-private:
-    const ArrayXd& x_;
-    const ArrayXd& t_;
-    Eigen::ArrayXXd amplitudes_;
-    std::vector<ArrayXd> profiles_;
-};
 
 /// That every field, separated into products and compiled, is what the text says.
 void require_as_written(const ProblemData& problem, const PlainSolution& plain) {

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 namespace tvbeam {
@@ -41,21 +40,22 @@ const SourceText& source_of(const SolutionPhase& phase, Quantity quantity) {
 
 } // namespace
 
+std::map<std::string, Jet> plain_constants(const Beam& beam) {
+    constexpr long double pi = std::numbers::pi_v<long double>;
+    return {{"pi", Jet(Number{pi, pi})},
+            {"alpha", Jet(written(beam.alpha))},
+            {"zeta", Jet(written(beam.zeta))},
+            {"theta_A", Jet(written(beam.theta_A))},
+            {"g1", Jet(written(beam.stops.lower))},
+            {"g2", Jet(written(beam.stops.upper))}};
+}
+
 PlainSolution::PlainSolution(const Solution& solution, const DerivedSolution& derived,
                              const Beam& beam, double final_time)
     : solution_(&solution), alpha_(written(beam.alpha)), zeta_(written(beam.zeta)) {
-    const auto set = [this](const std::string& name, const Number& value) {
-        constants_[name] = Jet(value);
-    };
-    constexpr long double pi = std::numbers::pi_v<long double>;
-    set("pi", {pi, pi});
+    constants_ = plain_constants(beam);
     for (const auto& [name, expression] : derived.plain_parameters)
-        set(name, evaluated(expression, constants_).at(0, 0));
-    set("alpha", alpha_);
-    set("zeta", zeta_);
-    set("theta_A", written(beam.theta_A));
-    set("g1", written(beam.stops.lower));
-    set("g2", written(beam.stops.upper));
+        constants_[name] = evaluated(expression, plain_constants({}));
     for (const PhaseExpressions& phase : derived.phases)
         if (phase.begin_value < final_time)
             samples_.push_back(sampled(phase, samples_.empty(), final_time));
@@ -63,32 +63,17 @@ PlainSolution::PlainSolution(const Solution& solution, const DerivedSolution& de
 
 PlainSolution::Samples PlainSolution::sampled(const PhaseExpressions& phase, bool first,
                                               double final_time) const {
-    // The fractional parts of multiples of these fill the unit square evenly: 1/p and 1/p² for the
-    // root p of p³ = p + 1.
-    constexpr double step_x = 0.7548776662466927;
-    constexpr double step_t = 0.5698402909980532;
-    const double end = std::min(phase.end_value, final_time);
-    std::vector<double> times = {end};
-    for (const int k : {1, 2})
-        times.push_back(phase.begin_value +
-                        std::fmod(0.5 + k * step_t, 1.0) * (end - phase.begin_value));
     // Where a phase begins, the one before still holds.
-    if (first)
-        times.push_back(0.0);
-    Samples samples;
+    const SamplePoints points =
+        sample_points(phase.begin_value, std::min(phase.end_value, final_time), first);
+    const Index size = points.x.size();
+    Samples samples{points.x, points.t, {}};
     Names names = constants_;
-    const auto size = static_cast<Index>(3 * times.size());
-    samples.x.resize(size);
-    samples.t.resize(size);
-    for (Index k = 0; k < size; ++k) {
-        const double inside = std::fmod(0.5 + static_cast<double>(k / 3) * step_x, 1.0);
-        samples.x(k) = k % 3 == 0 ? 0.0 : k % 3 == 1 ? 1.0 : inside;
-        samples.t(k) = times[static_cast<std::size_t>(k / 3)];
-        samples.values.push_back(at(phase, names, samples.x(k), samples.t(k)));
-    }
+    for (Index k = 0; k < size; ++k)
+        samples.values.push_back(at(phase, names, points.x(k), points.t(k)));
     for (Index k = 0; k < size; ++k) {
         Values& here = samples.values[static_cast<std::size_t>(k)];
-        const Values& tip = samples.values[static_cast<std::size_t>(k - k % 3 + 1)];
+        const Values& tip = samples.values[static_cast<std::size_t>(k - k % points_a_time + 1)];
         const auto of_tip = [&tip](Quantity quantity) { return tip[index(quantity)]; };
         const Number viscous = zeta_ * here[index(Quantity::u_xxt)];
         const Number tip_theta = of_tip(Quantity::theta);

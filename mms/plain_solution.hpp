@@ -16,6 +16,9 @@
 
 namespace tvbeam {
 
+/// The values of pi and of the beam's symbols.
+std::map<std::string, BoundedJet<long double>> plain_constants(const Beam& beam);
+
 /// What is computed from the text of a solution: its parts, their derivatives, and what (1)–(3),
 /// (9) make of them, as DerivedPhase defines them.
 enum class Quantity : std::uint8_t {

@@ -18,7 +18,7 @@ using Number = Bounded<long double>;
 namespace {
 
 constexpr long double roundoff = 0x1p-53L;
-constexpr long double spared = 1024.0L;
+constexpr long double spared = 64.0L;
 constexpr long double nothing = 1e-25L;
 
 std::string long_text(long double value) {
@@ -44,6 +44,28 @@ Number written(double value) {
     const auto [end, error] = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
     const auto decimal_value = decimal<long double>(std::string(buffer.data(), end));
     return {decimal_value, std::abs(decimal_value)};
+}
+
+SamplePoints sample_points(double begin, double end, bool with_begin) {
+    // The fractional parts of multiples of these fill the unit square evenly: 1/p and 1/p² for the
+    // root p of p³ = p + 1.
+    constexpr double step_x = 0.7548776662466927;
+    constexpr double step_t = 0.5698402909980532;
+    std::vector<double> times = {end};
+    for (const int k : {1, 2})
+        times.push_back(begin + std::fmod(0.5 + k * step_t, 1.0) * (end - begin));
+    if (with_begin)
+        times.push_back(begin);
+    SamplePoints points;
+    points.x.resize(points_a_time * static_cast<Index>(times.size()));
+    points.t.resize(points.x.size());
+    for (Index k = 0; k < points.x.size(); ++k) {
+        const Index place = k % points_a_time;
+        const double inside = std::fmod(0.5 + static_cast<double>(k) * step_x, 1.0);
+        points.x(k) = place == 0 ? 0.0 : place == 1 ? 1.0 : inside;
+        points.t(k) = times[static_cast<std::size_t>(k / points_a_time)];
+    }
+    return points;
 }
 
 std::optional<Index> first_disagreement(const std::vector<Number>& text,

@@ -26,8 +26,18 @@ struct ComputedValues {
 /// The decimal that a double stands for (exact_rational), in long double: 0.017 is 17/1000.
 Bounded<long double> written(double value);
 
+/// Points in space and time.
+struct SamplePoints {
+    Eigen::ArrayXd x, t;
+};
+
+/// Points that no user chose: both ends of the beam and two quasi-random points inside, at the end
+/// of an interval of time, at two quasi-random times in it and, if asked for, at its beginning.
+SamplePoints sample_points(double begin, double end, bool with_begin);
+inline constexpr Eigen::Index points_a_time = 4; ///< x = 0, x = 1, two inside
+
 /// The first point at which what was computed in doubles is not what the text says: where it is
-/// further off than 2^-53 times 1024 times the first-order bound of rounding — of the text, and of
+/// further off than 2^-53 times 64 times the first-order bound of rounding — of the text, and of
 /// the sum of products — explains. Passed over: points at which the text has no value or one beyond
 /// the range of a double that the double shows as infinite, and differences below 1e-25 of the
 /// largest bound of all points, or below the smallest normal double.

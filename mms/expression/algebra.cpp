@@ -106,6 +106,41 @@ ex function_value(const std::string& name, const ex& argument) {
     return functions.at(name)(argument);
 }
 
+/// The derivative. GiNaC's own of b^a is b^a (a' log b + a b'/b), which has no value at b = 0; this
+/// one is a b^(a-1) b' + b^a log b a'.
+ex differentiated(const ex& expression, const GiNaC::symbol& s) {
+    if (!expression.has(s))
+        return 0;
+    ex result = 0;
+    if (is_a<GiNaC::add>(expression)) {
+        for (const ex& term : expression)
+            result += differentiated(term, s);
+    } else if (is_a<GiNaC::mul>(expression)) {
+        for (std::size_t i = 0; i < expression.nops(); ++i) {
+            const ex changed = differentiated(expression.op(i), s);
+            if (changed.is_zero())
+                continue;
+            GiNaC::exvector factors(expression.begin(), expression.end());
+            factors[i] = changed;
+            result += GiNaC::mul(factors);
+        }
+    } else if (is_a<GiNaC::power>(expression)) {
+        const ex base = expression.op(0);
+        const ex exponent = expression.op(1);
+        result = exponent * pow(base, exponent - 1) * differentiated(base, s);
+        if (exponent.has(s))
+            result += expression * log(base) * differentiated(exponent, s);
+    } else if (is_a<GiNaC::function>(expression)) {
+        const GiNaC::realsymbol argument;
+        const ex outer = function_value(ex_to<GiNaC::function>(expression).get_name(), argument);
+        result = outer.diff(argument).subs(argument == expression.op(0)) *
+                 differentiated(expression.op(0), s);
+    } else {
+        result = expression.diff(s);
+    }
+    return result;
+}
+
 } // namespace
 
 const std::vector<std::string>& function_names() {
@@ -191,7 +226,8 @@ ex substituted(const ex& expression, const GiNaC::exmap& values) {
 }
 
 ex derivative(const ex& expression, const GiNaC::symbol& s) {
-    ex result = guarded([&] { return expression.diff(s); }, "the derivative has no value");
+    ex result =
+        guarded([&] { return differentiated(expression, s); }, "the derivative has no value");
     if (add_nodes(result, 0, largest_derivative) > largest_derivative)
         throw AlgebraError("the derivatives are too large; write it with fewer factors or "
                            "less deeply nested functions");

@@ -32,10 +32,10 @@ Real decimal(const std::string& text) {
 }
 
 /// The Taylor coefficients of a function of one variable at a point, and for each the sum of the
-/// sizes of the terms that it is computed from. One more than the highest order of a jet.
+/// sizes of the terms that it is computed from. Two more than the highest order of a jet.
 template <typename Real>
 struct Series {
-    static constexpr std::size_t size = BoundedJet<Real>::most_x + BoundedJet<Real>::most_t + 2;
+    static constexpr std::size_t size = BoundedJet<Real>::most_x + BoundedJet<Real>::most_t + 3;
     std::array<Real, size> coefficients{};
     std::array<Real, size> sizes{};
 };
@@ -45,9 +45,13 @@ template <typename Real>
 BoundedJet<Real> composed(const Series<Real>& f, const BoundedJet<Real>& b) {
     const auto coefficient = [&](int k) {
         const auto at = static_cast<std::size_t>(k);
-        // An error in b's value moves the coefficient by the one after it.
-        const Real moved =
-            b.at(0, 0).bound == 0 ? Real(0) : Real((k + 1) * f.sizes[at + 1] * b.at(0, 0).bound);
+        // An error of b's value moves the coefficient by the next one, and by the one after that
+        // where it is large: cos(1e20) has no digit right.
+        const Real error = b.at(0, 0).bound;
+        Real moved = 0;
+        if (error > 0)
+            moved = (k + 1) * error *
+                    (f.sizes[at + 1] + f.sizes[at + 2] * error * (k + 2) * Real(0x1p-54));
         return Bounded<Real>{f.coefficients[at], f.sizes[at] + moved};
     };
     BoundedJet<Real> rest = b;

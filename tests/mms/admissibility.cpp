@@ -152,7 +152,7 @@ const std::vector<Case> cases = {
      without_stops,
      "2:6",
      {"u_xxx is not finite at x = 0, t = 0"}},
-    {solution("x*log(x)", "0"), between_stops, "1:10", {"theta is not finite at x = 0, t = 0"}},
+    {solution("x*log(x)", "0"), between_stops, "1:10", {"theta_x is not finite at x = 0, t = 0"}},
     {solution("0", "x^2*g2", "-1/t"),
      between_stops,
      "3:10",
