@@ -63,7 +63,7 @@ public:
         nodes.reserve(expressions.size());
         outputs.reserve(expressions.size());
         for (const ex& expression : expressions)
-            nodes.push_back(canonical(balanced(expression)));
+            nodes.push_back(roomy(balanced(expression)));
         choose_width(nodes);
         for (const Canonical& node : nodes)
             outputs.push_back(value_of(*node));
@@ -71,7 +71,7 @@ public:
     }
 
     double constant(const ex& expression) {
-        const Canonical node = canonical(expression);
+        const Canonical node = roomy(expression);
         choose_width({node});
         const auto& value = values_[index(value_of(*node))].constant;
         if (!value)
@@ -94,6 +94,12 @@ private:
     };
 
     static std::size_t index(int value) { return static_cast<std::size_t>(value); }
+
+    /// An expression with its sums rescaled if doubles have no room for them.
+    static Canonical roomy(const ex& expression) {
+        const Canonical node = canonical(expression);
+        return fits_doubles(magnitude(*node)) ? node : rescaled(node);
+    }
 
     /// Long double is for what has a size within the range of doubles but parts that may leave it.
     void choose_width(const std::vector<Canonical>& nodes) {
