@@ -34,7 +34,8 @@ class Coverage {
 public:
     Coverage(const Solution& solution, const Beam& beam, double final_time)
         : beam_(beam), derived_(derive_on(solution, beam)) {
-        check_admissible(solution, derived_, beam, final_time);
+        check_admissible(solution, derived_, PlainSolution(solution, derived_, beam, final_time),
+                         beam, final_time);
         const SourceText& source = solution.phases.front().u;
         const auto compiled = [&](const auto& formulas) {
             return located(source, "the solution",

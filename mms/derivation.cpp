@@ -5,6 +5,7 @@
 #include "mms/text/error_text.hpp"
 
 #include <string>
+#include <utility>
 
 namespace tvbeam {
 
@@ -59,7 +60,9 @@ DerivedPhase derive(const PhaseExpressions& phase, const SolutionPhase& source, 
 
 DerivedSolution derive_on(const Solution& solution, const Beam& beam) {
     DerivedSolution result;
-    result.phases = expressions_on(solution, beam).phases;
+    SolutionExpressions expressions = expressions_on(solution, beam);
+    result.phases = std::move(expressions.phases);
+    result.plain_parameters = std::move(expressions.plain_parameters);
     for (std::size_t i = 0; i < result.phases.size(); ++i)
         result.derived.push_back(derive(result.phases[i], solution.phases[i],
                                         exact_rational(beam.alpha), exact_rational(beam.zeta)));

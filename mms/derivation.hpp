@@ -5,6 +5,8 @@
 
 #include <ginac/ginac.h>
 
+#include <map>
+#include <string>
 #include <vector>
 
 namespace tvbeam {
@@ -39,6 +41,7 @@ DerivedPhase derive(const PhaseExpressions& phase, const SolutionPhase& source,
 struct DerivedSolution {
     std::vector<PhaseExpressions> phases;
     std::vector<DerivedPhase> derived; ///< one for each phase
+    std::map<std::string, PlainExpression> plain_parameters;
 };
 
 /// Throws InputError as expressions_on and derive do.

@@ -6,14 +6,19 @@
 #include "mms/expression/expression_parser.hpp"
 #include "mms/expression/symbols.hpp"
 #include "mms/expression/tape_compiler.hpp"
+#include "mms/plain_solution.hpp"
 #include "mms/problem_builder.hpp"
 #include "mms/sample_points.hpp"
+#include "mms/sampled_fields.hpp"
 #include "mms/separation.hpp"
 #include "mms/text/error_text.hpp"
 
 #include <cmath>
 #include <limits>
+#include <map>
+#include <optional>
 #include <string>
+#include <vector>
 
 namespace tvbeam {
 
@@ -27,15 +32,16 @@ ArrayXd values(const ex& formula, const ArrayXd& x, double t) {
     return compile_tape({formula}).evaluate(x, ArrayXd::Constant(1, t)).row(0);
 }
 
-/// One of the given expressions with the beam's values in it, or zero if it is left out.
+/// One of the given expressions with the beam's values in it, or zero if it is left out. plain: as
+/// it is written.
 ex given(const std::optional<SourceText>& source, const Beam& beam, bool at_start,
-         const std::string& what) {
+         const std::string& what, PlainExpression& plain) {
     if (!source)
         return 0;
     SymbolTable symbols = model_symbol_table();
     if (at_start)
         symbols.erase("t");
-    const ex expression = parse_expression(*source, symbols);
+    const ex expression = parse_expression(*source, symbols, &plain);
     require_stops_in_use(*source, beam);
     return located(*source, what, [&] { return substituted(expression, beam_values(beam)); });
 }
@@ -131,14 +137,54 @@ Field moment_of(const ex& q, ProblemBuilder& builder) {
     return result;
 }
 
+/// Holds computed values against what the data's texts say at sampled points.
+class GivenTexts {
+public:
+    GivenTexts(const Beam& beam, double final_time)
+        : constants_(plain_constants(beam)), points_(sample_points(0.0, final_time, true)) {}
+
+    [[nodiscard]] const SamplePoints& points() const { return points_; }
+
+    /// Throws InputError where the values are not those of ∂_x^order of the expression.
+    void require(const std::optional<SourceText>& source, const PlainExpression& plain, int order,
+                 const std::string& what, const ComputedValues& computed) const {
+        if (!source)
+            return;
+        auto names = constants_;
+        std::vector<Bounded<long double>> text;
+        for (Index k = 0; k < points_.x.size(); ++k) {
+            names["x"] = BoundedJet<long double>::x(points_.x(k), order);
+            names["t"] = BoundedJet<long double>::t(points_.t(k), 0);
+            text.push_back(evaluated(plain, names).derivative(order, 0));
+        }
+        if (const auto k = first_disagreement(text, computed))
+            throw InputError(source->begin(),
+                             disagreement_text(what, points_.x(*k), points_.t(*k),
+                                               computed.values(*k),
+                                               text[static_cast<std::size_t>(*k)].value));
+    }
+
+    void require(const std::optional<SourceText>& source, const PlainExpression& plain, int order,
+                 const std::string& what, const ex& formula) const {
+        const ArrayXd computed = compile_tape({formula}).evaluate(points_.x, points_.t).row(0);
+        require(source, plain, order, what, ComputedValues::of(computed));
+    }
+
+private:
+    std::map<std::string, BoundedJet<long double>> constants_;
+    SamplePoints points_;
+};
+
 } // namespace
 
 ProblemData given_problem(const GivenData& data, const Beam& beam, double final_time) {
     require_final_time(final_time);
-    const ex theta = given(data.theta0, beam, true, "theta0");
-    const ex u = given(data.u0, beam, true, "u0");
-    const ex heat_source = given(data.heat_source, beam, false, "heat_source");
-    const ex body_force = given(data.body_force, beam, false, "body_force");
+    PlainExpression plain_theta, plain_u, plain_source, plain_force;
+    const ex theta = given(data.theta0, beam, true, "theta0", plain_theta);
+    const ex u = given(data.u0, beam, true, "u0", plain_u);
+    const ex heat_source = given(data.heat_source, beam, false, "heat_source", plain_source);
+    const ex body_force = given(data.body_force, beam, false, "body_force", plain_force);
+    const GivenTexts texts(beam, final_time);
 
     const GiNaC::realsymbol& x = model_symbols().x;
     ex curvature = 0;
@@ -150,6 +196,8 @@ ProblemData given_problem(const GivenData& data, const Beam& beam, double final_
         require_finite(u, *data.u0, final_time, "u0");
         require_finite(u_x, *data.u0, final_time, "u0'");
         require_finite(curvature, *data.u0, final_time, "u0''");
+        texts.require(data.u0, plain_u, 0, "u0", u);
+        texts.require(data.u0, plain_u, 1, "u0'", u_x);
         require_admissible_start(u, u_x, *data.u0, beam);
     }
     if (data.heat_source)
@@ -165,6 +213,12 @@ ProblemData given_problem(const GivenData& data, const Beam& beam, double final_
     problem.body_force = builder.field({body_force});
     problem.moment_load = moment_of(body_force, builder);
     builder.finish(problem);
+    const SampledFields sampled(problem, texts.points().x, texts.points().t);
+    texts.require(data.theta0, plain_theta, 0, "theta0", sampled.of(problem.theta_initial));
+    texts.require(data.u0, plain_u, 2, "u0''", sampled.of(problem.curvature_initial));
+    texts.require(data.heat_source, plain_source, 0, "heat_source",
+                  sampled.of(problem.heat_source));
+    texts.require(data.body_force, plain_force, 0, "body_force", sampled.of(problem.body_force));
     return problem;
 }
 

@@ -3,9 +3,13 @@
 #include "mms/admissible/admissibility_check.hpp"
 #include "mms/derivation.hpp"
 #include "mms/expression/algebra.hpp"
+#include "mms/plain_solution.hpp"
 #include "mms/problem_builder.hpp"
+#include "mms/sampled_fields.hpp"
 
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace tvbeam {
 
@@ -55,15 +59,39 @@ ProblemData built(const DerivedSolution& solution, double final_time) {
     return problem;
 }
 
+/// That every field, separated into products and compiled, is what the text says.
+void require_as_written(const ProblemData& problem, const PlainSolution& plain) {
+    const ExactSolution& exact = *problem.exact;
+    for (std::size_t phase = 0; phase < plain.phase_count(); ++phase) {
+        const SampledFields sampled(problem, plain.x(phase), plain.t(phase));
+        const auto require = [&](const auto& field, Quantity quantity, const std::string& what) {
+            plain.require(phase, quantity, what, sampled.of(field));
+        };
+        require(exact.theta, Quantity::theta, "theta");
+        require(exact.theta_x, Quantity::theta_x, "theta_x");
+        require(exact.u, Quantity::u, "u");
+        require(exact.u_x, Quantity::u_x, "u_x");
+        require(exact.u_xx, Quantity::u_xx, "u_xx");
+        require(exact.stress, Quantity::contact_stress, "sigma(1,t)");
+        require(problem.heat_source, Quantity::heat_source, "f of (1)");
+        require(problem.moment_load, Quantity::moment_load, "the integral of G of (3)");
+        require(problem.couple_load, Quantity::couple_load, "G of (3)");
+        require(problem.body_force, Quantity::body_force, "q of (2)");
+        require(problem.end_moment, Quantity::end_moment, "m of (9)");
+    }
+}
+
 } // namespace
 
 ProblemData manufactured_problem(const Solution& solution, const Beam& beam, double final_time) {
     require_final_time(final_time);
     const DerivedSolution derived = derive_on(solution, beam);
-    const double law_distance = check_admissible(solution, derived, beam, final_time);
+    const PlainSolution plain(solution, derived, beam, final_time);
+    const double law_distance = check_admissible(solution, derived, plain, beam, final_time);
     try {
         ProblemData problem = built(derived, final_time);
         problem.exact->law_distance = law_distance;
+        require_as_written(problem, plain);
         return problem;
     } catch (const AlgebraError& error) {
         throw InputError(solution.phases.front().theta.begin(),

@@ -1,5 +1,6 @@
 #include "mms/solution_expressions.hpp"
 
+#include "mms/expression/agreement.hpp"
 #include "mms/expression/algebra.hpp"
 #include "mms/expression/expression_parser.hpp"
 #include "mms/expression/numeric_value.hpp"
@@ -18,16 +19,14 @@ using GiNaC::ex;
 namespace {
 
 /// The value of a constant expression, or InputError.
-double constant_value(const ex& expression, const SourceText& source, const std::string& what) {
-    try {
-        return numeric_value(expression);
-    } catch (const AlgebraError& error) {
-        throw InputError(source.begin(), what + ": " + error.what());
-    }
+double constant_value(const ex& expression, const SourceText& source, const std::string& what,
+                      const PlainExpression& plain, const std::map<std::string, double>& names) {
+    const double value = located(source, what, [&] { return numeric_value(expression); });
+    require_agreement(source, what, plain, names, value);
+    return value;
 }
 
-double checked_end(const PhaseExpressions& phase, const SourceText& until) {
-    const double end = constant_value(phase.end, until, "until");
+void require_later(double end, const PhaseExpressions& phase, const SourceText& until) {
     if (!(end > phase.begin_value)) {
         std::ostringstream message;
         message.precision(17);
@@ -36,7 +35,6 @@ double checked_end(const PhaseExpressions& phase, const SourceText& until) {
                 << phase.begin_value;
         throw InputError(until.begin(), message.str());
     }
-    return end;
 }
 
 ex on_beam(const ex& expression, const GiNaC::exmap& values, const SourceText& source,
@@ -69,9 +67,12 @@ SolutionExpressions expressions_of(const Solution& solution) {
     SolutionExpressions result;
     SymbolTable in_formulas = model_symbol_table();
     SymbolTable in_times;
+    std::map<std::string, double> parameters;
     for (const SolutionParameter& parameter : solution.parameters) {
-        const ex value = parse_expression(parameter.value, {});
-        constant_value(value, parameter.value, "parameter " + parameter.name);
+        PlainExpression& plain = result.plain_parameters[parameter.name];
+        const ex value = parse_expression(parameter.value, {}, &plain);
+        parameters[parameter.name] =
+            constant_value(value, parameter.value, "parameter " + parameter.name, plain, {});
         const GiNaC::realsymbol symbol(parameter.name);
         result.parameters[symbol] = value;
         in_formulas[parameter.name] = symbol;
@@ -86,14 +87,16 @@ SolutionExpressions expressions_of(const Solution& solution) {
         phase.begin_value = begin_value;
         phase.end_value = std::numeric_limits<double>::infinity();
         if (source.until) {
-            const ex end = parse_expression(*source.until, in_times);
+            PlainExpression plain;
+            const ex end = parse_expression(*source.until, in_times, &plain);
             phase.end = on_beam(end, result.parameters, *source.until, "until");
-            phase.end_value = checked_end(phase, *source.until);
+            phase.end_value = constant_value(phase.end, *source.until, "until", plain, parameters);
+            require_later(phase.end_value, phase, *source.until);
         }
-        phase.theta = parse_expression(source.theta, in_formulas);
-        phase.u = parse_expression(source.u, in_formulas);
+        phase.theta = parse_expression(source.theta, in_formulas, &phase.plain_theta);
+        phase.u = parse_expression(source.u, in_formulas, &phase.plain_u);
         if (source.sigma)
-            phase.sigma = parse_expression(*source.sigma, in_formulas);
+            phase.sigma = parse_expression(*source.sigma, in_formulas, &phase.plain_sigma);
         begin = phase.end;
         begin_value = phase.end_value;
         result.phases.push_back(phase);

@@ -1,10 +1,13 @@
 #pragma once
 
 #include "core/problem.hpp"
+#include "mms/expression/plain_expression.hpp"
 #include "mms/solution.hpp"
 
 #include <ginac/ginac.h>
 
+#include <map>
+#include <string>
 #include <vector>
 
 namespace tvbeam {
@@ -18,11 +21,14 @@ struct PhaseExpressions {
     GiNaC::ex theta;
     GiNaC::ex u;
     GiNaC::ex sigma;
+    PlainExpression plain_theta, plain_u; ///< the same as they are written
+    PlainExpression plain_sigma;          ///< empty: zero
 };
 
 /// A solution as symbolic expressions.
 struct SolutionExpressions {
     GiNaC::exmap parameters; ///< symbol → value
+    std::map<std::string, PlainExpression> plain_parameters;
     std::vector<PhaseExpressions> phases;
 };
 

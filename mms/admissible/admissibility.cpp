@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -33,9 +34,10 @@ struct Scales {
 
 class AdmissibilityCheck {
 public:
-    AdmissibilityCheck(const Solution& solution, const DerivedSolution& derived, const Beam& beam,
-                       double final_time)
-        : solution_(solution), derived_(derived), beam_(beam), final_time_(final_time) {}
+    AdmissibilityCheck(const Solution& solution, const DerivedSolution& derived,
+                       const PlainSolution& plain, const Beam& beam, double final_time)
+        : solution_(solution), derived_(derived), plain_(plain), beam_(beam),
+          final_time_(final_time) {}
 
     double run() {
         // Finite first: no comparison below can be trusted with a NaN.
@@ -72,32 +74,54 @@ private:
         const DerivedPhase& phase = derived_.derived[i];
         const SolutionPhase& source = solution_.phases[i];
         const SourceText& sigma = source.sigma ? *source.sigma : source.u;
-        scales_.theta = std::max(scales_.theta, largest(i, phase.theta, source.theta, "theta"));
-        scales_.u = std::max(scales_.u, largest(i, phase.u, source.u, "u"));
-        scales_.u_x = std::max(scales_.u_x, largest(i, phase.u_x, source.u, "u_x"));
-        scales_.u_xx = std::max(scales_.u_xx, largest(i, phase.u_xx, source.u, "u_xx"));
-        scales_.sigma = std::max(scales_.sigma, largest(i, phase.sigma, sigma, "sigma"));
-        largest(i, phase.theta_x, source.theta, "theta_x");
-        for (const ex& term : phase.theta_terms)
-            largest(i, term, source.theta, "a derivative of theta");
-        for (const ex& term : phase.u_terms)
-            largest(i, term, source.u, "a derivative of u");
-        largest(i, phase.body_force, sigma, "q of (2)");
-        largest(i, phase.heat_source, source.theta, "f of (1)");
-        largest(i, phase.couple_load, source.u, "G of (3)");
-        largest(i, phase.moment_load, source.u, "the integral of G of (3)");
+        const auto of = [&](const ex& formula, const SourceText& text, const std::string& what,
+                            Quantity quantity) {
+            return largest(i, formula, text, what, quantity);
+        };
+        const auto scale = [](double& known, double largest) { known = std::max(known, largest); };
+        using Q = Quantity;
+        scale(scales_.theta, of(phase.theta, source.theta, "theta", Q::theta));
+        scale(scales_.u, of(phase.u, source.u, "u", Q::u));
+        scale(scales_.u_x, of(phase.u_x, source.u, "u_x", Q::u_x));
+        scale(scales_.u_xx, of(phase.u_xx, source.u, "u_xx", Q::u_xx));
+        scale(scales_.sigma, of(phase.sigma, sigma, "sigma", Q::sigma));
+        of(phase.theta_x, source.theta, "theta_x", Q::theta_x);
+        of(phase.theta_terms[0], source.theta, "theta_t", Q::theta_t);
+        of(phase.theta_terms[1], source.theta, "theta_xx", Q::theta_xx);
+        of(phase.u_terms[0], source.u, "u_xxx", Q::u_xxx);
+        if (beam_.zeta != 0.0)
+            of(phase.u_terms[1], source.u, "u_xxxt", Q::u_xxxt);
+        if (phase.u_terms.size() > 2)
+            of(phase.u_terms[2], source.u, "u_xxt", Q::u_xxt);
+        of(phase.body_force, sigma, "q of (2)", Q::body_force);
+        of(phase.heat_source, source.theta, "f of (1)", Q::heat_source);
+        of(phase.couple_load, source.u, "G of (3)", Q::couple_load);
+        of(phase.moment_load, source.u, "the integral of G of (3)", Q::moment_load);
     }
 
-    /// The largest absolute value on the grid; InputError where it is not finite.
+    /// The largest absolute value on the grid; InputError where it is not finite, or not what the
+    /// text says.
     double largest(std::size_t i, const ex& formula, const SourceText& source,
-                   const std::string& what) const {
-        if (formula.is_zero())
-            return 0.0;
+                   const std::string& what, Quantity quantity) const {
         const Tape tape = located(source, what, [&] { return compile_tape({formula}); });
+        if (formula.is_zero()) {
+            require_as_written(i, tape, 0, quantity, what);
+            return 0.0;
+        }
         const auto values = [&](const ArrayXd& x, double t) -> ArrayXd {
             return tape.evaluate(x, ArrayXd::Constant(1, t)).row(0);
         };
-        return largest_on_grid(values, times(i, grid_points), final_time_, source.begin(), what);
+        const double result =
+            largest_on_grid(values, times(i, grid_points), final_time_, source.begin(), what);
+        require_as_written(i, tape, 0, quantity, what);
+        return result;
+    }
+
+    /// That a row of a tape is what the text says; only_x: at this end of the beam.
+    void require_as_written(std::size_t i, const Tape& tape, Index row, Quantity quantity,
+                            const std::string& what, std::optional<double> only_x = {}) const {
+        const ArrayXd values = tape.evaluate(plain_.x(i), plain_.t(i)).row(row);
+        plain_.require(i, quantity, what, ComputedValues::of(values), only_x);
     }
 
     // End values (5), (10).
@@ -129,6 +153,15 @@ private:
         const ex theta_1 = at(phase.theta, 1, source.theta, "(10): theta(1,t)");
         const std::string clamped = "0 at the clamped end: ";
         const std::string or_factor = ", or give u a factor x^2";
+        const auto as_written = [&](const ex& formula, double end, Quantity quantity,
+                                    const SourceText& text, const std::string& what) {
+            const Tape tape = located(text, what, [&] { return compile_tape({formula}); });
+            require_as_written(i, tape, 0, quantity, what, end);
+        };
+        as_written(u, 0.0, Quantity::u, source.u, "u(0,t)");
+        as_written(u_x, 0.0, Quantity::u_x, source.u, "u_x(0,t)");
+        as_written(theta_0, 0.0, Quantity::theta, source.theta, "theta(0,t)");
+        as_written(theta_1, 1.0, Quantity::theta, source.theta, "theta(1,t)");
         require_formula(i, u, 0.0, scales_.u, source.u, "(5): u(0,t)",
                         clamped + subtraction(u, "u(0,t)", "u") + or_factor);
         require_formula(i, u_x, 0.0, scales_.u_x, source.u, "(5): u_x(0,t)",
@@ -166,6 +199,8 @@ private:
             Tape tape = located(source.u, "u(1,t)", [&] {
                 return compile_tape({tip, phase.contact_stress});
             });
+            require_as_written(i, tape, 0, Quantity::u, "u(1,t)", 1.0);
+            require_as_written(i, tape, 1, Quantity::contact_stress, "sigma(1,t)");
             ContactPhase contact;
             contact.times = times(i, time_points);
             contact.ends = [tape = std::move(tape)](const ArrayXd& in_time) {
@@ -226,6 +261,7 @@ private:
 
     const Solution& solution_;
     const DerivedSolution& derived_;
+    const PlainSolution& plain_;
     const Beam& beam_;
     double final_time_;
     Scales scales_;
@@ -239,14 +275,16 @@ void require_final_time(double final_time) {
                                  "; it must be positive and finite");
 }
 
-double check_admissible(const Solution& solution, const DerivedSolution& derived, const Beam& beam,
-                        double final_time) {
-    return AdmissibilityCheck(solution, derived, beam, final_time).run();
+double check_admissible(const Solution& solution, const DerivedSolution& derived,
+                        const PlainSolution& plain, const Beam& beam, double final_time) {
+    return AdmissibilityCheck(solution, derived, plain, beam, final_time).run();
 }
 
 double require_admissible(const Solution& solution, const Beam& beam, double final_time) {
     require_final_time(final_time);
-    return check_admissible(solution, derive_on(solution, beam), beam, final_time);
+    const DerivedSolution derived = derive_on(solution, beam);
+    const PlainSolution plain(solution, derived, beam, final_time);
+    return check_admissible(solution, derived, plain, beam, final_time);
 }
 
 } // namespace tvbeam

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <string_view>
+#include <utility>
 
 namespace tvbeam {
 
@@ -79,7 +80,10 @@ double expanded_size(const ex& expression) {
     } else if (is_a<GiNaC::mul>(expression)) {
         for (const ex& factor : expression)
             size *= expanded_size(factor);
-    } else if (is_a<GiNaC::power>(expression) && expression.op(1).info(GiNaC::info_flags::posint)) {
+    } else if (is_a<GiNaC::power>(expression) &&
+               expression.op(1).info(GiNaC::info_flags::positive) &&
+               is_a<numeric>(expression.op(1))) {
+        // Of a fractional power too, the integer part is multiplied out.
         const double base = expanded_size(expression.op(0));
         if (base > 1)
             size = std::pow(base, ex_to<numeric>(expression.op(1)).to_double());
@@ -106,6 +110,64 @@ ex function_value(const std::string& name, const ex& argument) {
         {"step", [](const ex& a) -> ex { return GiNaC::step(a); }},
     };
     return functions.at(name)(argument);
+}
+
+/// A product with x^(a + t)/x as x^(a - 1 + t): GiNaC joins powers of one base where both exponents
+/// are numbers.
+ex product_by_bases(const ex& product) {
+    const auto power_of = [](const ex& factor) {
+        return is_a<GiNaC::power>(factor) ? std::pair{factor.op(0), factor.op(1)}
+                                          : std::pair{factor, ex(1)};
+    };
+    if (!is_a<GiNaC::mul>(product))
+        return product;
+    for (const ex& power : product) {
+        const auto [base, exponent] = power_of(power);
+        if (is_a<numeric>(exponent) || is_a<numeric>(base))
+            continue;
+        // One pair is all: a derivative adds one factor.
+        for (const ex& factor : product) {
+            const auto [same, other] = power_of(factor);
+            if (same.is_equal(base) && !factor.is_equal(power))
+                return product / power / factor * pow(base, exponent + other);
+        }
+    }
+    return product;
+}
+
+/// The derivative. GiNaC's own of b^a is b^a (a' log b + a b'/b), which has no value at b = 0; this
+/// one is a b^(a-1) b' + b^a log b a'.
+ex differentiated(const ex& expression, const GiNaC::symbol& s) {
+    if (!expression.has(s))
+        return 0;
+    ex result = 0;
+    if (is_a<GiNaC::add>(expression)) {
+        for (const ex& term : expression)
+            result += differentiated(term, s);
+    } else if (is_a<GiNaC::mul>(expression)) {
+        for (std::size_t i = 0; i < expression.nops(); ++i) {
+            const ex changed = differentiated(expression.op(i), s);
+            if (changed.is_zero())
+                continue;
+            GiNaC::exvector factors(expression.begin(), expression.end());
+            factors[i] = changed;
+            result += product_by_bases(GiNaC::mul(factors));
+        }
+    } else if (is_a<GiNaC::power>(expression)) {
+        const ex base = expression.op(0);
+        const ex exponent = expression.op(1);
+        result = exponent * pow(base, exponent - 1) * differentiated(base, s);
+        if (exponent.has(s))
+            result += expression * log(base) * differentiated(exponent, s);
+    } else if (is_a<GiNaC::function>(expression)) {
+        const GiNaC::realsymbol argument;
+        const ex outer = function_value(ex_to<GiNaC::function>(expression).get_name(), argument);
+        result = outer.diff(argument).subs(argument == expression.op(0)) *
+                 differentiated(expression.op(0), s);
+    } else {
+        result = expression.diff(s);
+    }
+    return result;
 }
 
 } // namespace
@@ -193,7 +255,8 @@ ex substituted(const ex& expression, const GiNaC::exmap& values) {
 }
 
 ex derivative(const ex& expression, const GiNaC::symbol& s) {
-    ex result = guarded([&] { return expression.diff(s); }, "the derivative has no value");
+    ex result =
+        guarded([&] { return differentiated(expression, s); }, "the derivative has no value");
     if (add_nodes(result, 0, largest_derivative) > largest_derivative)
         throw AlgebraError("the derivatives are too large; write it with fewer factors or "
                            "less deeply nested functions");

@@ -197,6 +197,27 @@ Canonical name(const std::string& name) {
     return finished(std::move(node));
 }
 
+/// c and s with sum = c s, where the largest coefficient of s is 1 in size.
+std::pair<numeric, Canonical> with_largest_coefficient_one(const CanonicalNode& sum) {
+    numeric largest = 0;
+    for (const Canonical& term : sum.operands)
+        largest = std::max(largest, GiNaC::abs(coefficient_of(*term)));
+    CanonicalNode scaled;
+    scaled.kind = Kind::Sum;
+    for (const Canonical& term : sum.operands) {
+        if (term->kind == Kind::Number || term->kind == Kind::Product) {
+            scaled.operands.push_back(with_coefficient(*term, term->coefficient / largest));
+            continue;
+        }
+        CanonicalNode product;
+        product.kind = Kind::Product;
+        product.coefficient = 1 / largest;
+        product.operands = {term};
+        scaled.operands.push_back(finished(std::move(product)));
+    }
+    return {largest, finished(std::move(scaled))};
+}
+
 } // namespace
 
 Canonical canonical(const ex& expression) {
@@ -217,6 +238,33 @@ Canonical canonical(const ex& expression) {
     node.name = ex_to<GiNaC::function>(expression).get_name();
     node.operands = {canonical(expression.op(0))};
     return finished(std::move(node));
+}
+
+Canonical rescaled(const Canonical& node) {
+    CanonicalNode changed = *node;
+    changed.operands.clear();
+    for (const Canonical& operand : node->operands) {
+        const Canonical part = rescaled(operand);
+        if (node->kind == Kind::Product && part->kind == Kind::Product) {
+            changed.coefficient *= part->coefficient;
+            changed.operands.insert(changed.operands.end(), part->operands.begin(),
+                                    part->operands.end());
+        } else {
+            changed.operands.push_back(part);
+        }
+    }
+    const bool is_power_of_sum = node->kind == Kind::Power &&
+                                 changed.operands[0]->kind == Kind::Sum &&
+                                 is_integer(*changed.operands[1]);
+    if (!is_power_of_sum)
+        return finished(std::move(changed));
+    const auto [largest, sum] = with_largest_coefficient_one(*changed.operands[0]);
+    CanonicalNode product;
+    product.kind = Kind::Product;
+    product.coefficient = GiNaC::pow(largest, changed.operands[1]->coefficient);
+    changed.operands[0] = sum;
+    product.operands = {finished(std::move(changed))};
+    return finished(std::move(product));
 }
 
 Canonical with_coefficient(const CanonicalNode& node, const numeric& coefficient) {

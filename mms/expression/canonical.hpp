@@ -43,6 +43,10 @@ std::string number_text(const GiNaC::numeric& value);
 /// The same node with another coefficient; for products and numbers only.
 Canonical with_coefficient(const CanonicalNode& node, const GiNaC::numeric& coefficient);
 
+/// The same function with the largest coefficient of every sum that is raised to an integer power
+/// 1: GiNaC writes (1 - x/1000)^103 as (1000 - x)^103 over 1e309, here it is itself again.
+Canonical rescaled(const Canonical& node);
+
 /// The operands of a sum or product in that order, as GiNaC has them.
 GiNaC::exvector ordered_operands(const GiNaC::ex& sum_or_product);
 

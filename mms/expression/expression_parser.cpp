@@ -10,6 +10,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <string_view>
+#include <utility>
 
 namespace tvbeam {
 
@@ -39,8 +40,8 @@ bool contains(const std::vector<std::string>& names, std::string_view name) {
 
 class Parser {
 public:
-    Parser(const SourceText& source, const SymbolTable& symbols)
-        : source_(source), symbols_(symbols), text_(source.text()) {}
+    Parser(const SourceText& source, const SymbolTable& symbols, PlainExpression* plain)
+        : source_(source), symbols_(symbols), plain_(plain), text_(source.text()) {}
 
     ex whole() {
         if (text_.size() > longest_text)
@@ -88,6 +89,7 @@ private:
             result = placed(at, [&] {
                 return sign == '+' ? checked_sum(result, term) : checked_difference(result, term);
             });
+            record(sign == '+' ? PlainStep::Kind::Add : PlainStep::Kind::Subtract);
         }
         return result;
     }
@@ -104,6 +106,7 @@ private:
                 return sign == '*' ? checked_product(result, factor)
                                    : checked_quotient(result, factor);
             });
+            record(sign == '*' ? PlainStep::Kind::Multiply : PlainStep::Kind::Divide);
         }
         return result;
     }
@@ -115,7 +118,10 @@ private:
         const std::size_t at = offset_;
         const char sign = take();
         const ex operand = with_sign();
-        return sign == '+' ? operand : placed(at, [&] { return checked_product(-1, operand); });
+        if (sign == '+')
+            return operand;
+        record(PlainStep::Kind::Negate);
+        return placed(at, [&] { return checked_product(-1, operand); });
     }
 
     ex power() {
@@ -125,6 +131,7 @@ private:
         const std::size_t at = offset_;
         take();
         const ex exponent = with_sign();
+        record(PlainStep::Kind::Power);
         return placed(at, [&] { return checked_power(base, exponent); });
     }
 
@@ -176,6 +183,7 @@ private:
             fail(at, "a number may have at most " + std::to_string(most_digits) +
                          " digits; this one has " + std::to_string(digits.size()));
         exponent += decimal_exponent(at);
+        record(PlainStep::Kind::Number, std::string(text_.substr(at, offset_ - at)));
         skip_blanks();
         return placed(at, [&] {
             return checked_product(numeric(digits.c_str()),
@@ -219,6 +227,7 @@ private:
                              hint(word, function_names(), "the functions are "));
             fail(at, "unknown symbol '" + word + "'" + hint(word, symbol_names(), "known are "));
         }
+        record(PlainStep::Kind::Name, word);
         return word == "pi" ? ex(GiNaC::Pi) : symbol->second;
     }
 
@@ -231,7 +240,13 @@ private:
         if (peek() == ',')
             fail(offset_, "'" + function + "' takes one argument, more are given");
         close(opening);
+        record(PlainStep::Kind::Function, function);
         return placed(at, [&] { return checked_function(function, argument); });
+    }
+
+    void record(PlainStep::Kind kind, std::string text = {}) {
+        if (plain_)
+            plain_->push_back({kind, std::move(text)});
     }
 
     [[nodiscard]] std::vector<std::string> symbol_names() const {
@@ -300,6 +315,7 @@ private:
 
     const SourceText& source_;
     const SymbolTable& symbols_;
+    PlainExpression* plain_;
     std::string_view text_;
     std::size_t offset_ = 0;
     int depth_ = 0;
@@ -307,8 +323,8 @@ private:
 
 } // namespace
 
-ex parse_expression(const SourceText& source, const SymbolTable& symbols) {
-    return Parser(source, symbols).whole();
+ex parse_expression(const SourceText& source, const SymbolTable& symbols, PlainExpression* plain) {
+    return Parser(source, symbols, plain).whole();
 }
 
 std::optional<Place> first_use(const SourceText& source, const std::string& name) {

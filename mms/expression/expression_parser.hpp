@@ -1,5 +1,6 @@
 #pragma once
 
+#include "mms/expression/plain_expression.hpp"
 #include "mms/text/source_text.hpp"
 
 #include <ginac/ginac.h>
@@ -24,8 +25,10 @@ using SymbolTable = std::map<std::string, GiNaC::ex>;
 ///
 /// Bounds: 4096 characters; 100 brackets, signs and powers within each other; 100 digits a number;
 /// 400 for the size of a decimal exponent; and those of algebra.hpp for constants. Throws
-/// InputError at the character at fault, and nothing else.
-GiNaC::ex parse_expression(const SourceText& source, const SymbolTable& symbols);
+/// InputError at the character at fault, and nothing else. `plain`: where to put the expression as
+/// it is written, besides.
+GiNaC::ex parse_expression(const SourceText& source, const SymbolTable& symbols,
+                           PlainExpression* plain = nullptr);
 
 /// Where a name is first used in an expression.
 std::optional<Place> first_use(const SourceText& source, const std::string& name);

@@ -1,5 +1,6 @@
 #include "mms/expression/number_expression.hpp"
 
+#include "mms/expression/agreement.hpp"
 #include "mms/expression/algebra.hpp"
 #include "mms/expression/expression_parser.hpp"
 #include "mms/expression/numeric_value.hpp"
@@ -19,12 +20,16 @@ double number_from_expression(const SourceText& expression,
         symbols[name] = symbol;
         exact[symbol] = exact_rational(value);
     }
-    const GiNaC::ex parsed = parse_expression(expression, symbols);
+    PlainExpression plain;
+    const GiNaC::ex parsed = parse_expression(expression, symbols, &plain);
+    double value = 0.0;
     try {
-        return numeric_value(substituted(parsed, exact));
+        value = numeric_value(substituted(parsed, exact));
     } catch (const AlgebraError& error) {
         throw InputError(expression.begin(), error.what());
     }
+    require_agreement(expression, expression.text(), plain, values, value);
+    return value;
 }
 
 } // namespace tvbeam

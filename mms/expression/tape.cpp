@@ -11,27 +11,32 @@ namespace {
 /// Points evaluated at a time: a few dozen registers of this length stay in the first-level cache.
 constexpr Eigen::Index block_size = 128;
 
-template <typename Function>
-void each(const double* left, double* target, Eigen::Index size, const Function& function) {
+template <typename Real, typename Function>
+void each(const Real* left, Real* target, Eigen::Index size, const Function& function) {
     for (Eigen::Index i = 0; i < size; ++i)
         target[i] = function(left[i]);
 }
 
 } // namespace
 
-double Tape::apply(Operation operation, double left, double right) {
-    Eigen::ArrayXXd registers(1, 3);
-    registers << left, right, 0.0;
+template <typename Real>
+Real Tape::apply(Operation operation, Real left, Real right) {
+    Registers<Real> registers(1, 3);
+    registers << left, right, Real(0);
     run({operation, 2, 0, 1}, registers, 1);
     return registers(0, 2);
 }
 
+template double Tape::apply(Operation, double, double);
+template long double Tape::apply(Operation, long double, long double);
+
 // The functions are the standard library's, point by point: vectorised ones round differently in
 // the last, incomplete packet, so that a value would depend on its place in the array.
-void Tape::run(const Instruction& instruction, Eigen::ArrayXXd& registers, Eigen::Index size) {
-    const double* a = registers.col(instruction.left).data();
-    const double* b = instruction.right < 0 ? a : registers.col(instruction.right).data();
-    double* c = registers.col(instruction.target).data();
+template <typename Real>
+void Tape::run(const Instruction& instruction, Registers<Real>& registers, Eigen::Index size) {
+    const Real* a = registers.col(instruction.left).data();
+    const Real* b = instruction.right < 0 ? a : registers.col(instruction.right).data();
+    Real* c = registers.col(instruction.target).data();
     switch (instruction.operation) {
     case Operation::Add:
         for (Eigen::Index i = 0; i < size; ++i)
@@ -53,38 +58,46 @@ void Tape::run(const Instruction& instruction, Eigen::ArrayXXd& registers, Eigen
         for (Eigen::Index i = 0; i < size; ++i)
             c[i] = std::pow(a[i], b[i]);
         return;
+    case Operation::PowerLog:
+        // Where the power goes to zero, the product does.
+        for (Eigen::Index i = 0; i < size; ++i)
+            c[i] =
+                a[i] == Real(0) && b[i] > Real(0) ? Real(0) : std::pow(a[i], b[i]) * std::log(a[i]);
+        return;
     case Operation::Negate:
-        return each(a, c, size, [](double v) { return -v; });
+        return each(a, c, size, [](Real v) { return -v; });
     case Operation::Reciprocal:
-        return each(a, c, size, [](double v) { return 1.0 / v; });
+        return each(a, c, size, [](Real v) { return Real(1) / v; });
     case Operation::Square:
-        return each(a, c, size, [](double v) { return v * v; });
+        return each(a, c, size, [](Real v) { return v * v; });
     case Operation::SquareRoot:
-        return each(a, c, size, [](double v) { return std::sqrt(v); });
+        return each(a, c, size, [](Real v) { return std::sqrt(v); });
     case Operation::Sin:
-        return each(a, c, size, [](double v) { return std::sin(v); });
+        return each(a, c, size, [](Real v) { return std::sin(v); });
     case Operation::Cos:
-        return each(a, c, size, [](double v) { return std::cos(v); });
+        return each(a, c, size, [](Real v) { return std::cos(v); });
     case Operation::Tan:
-        return each(a, c, size, [](double v) { return std::tan(v); });
+        return each(a, c, size, [](Real v) { return std::tan(v); });
     case Operation::Asin:
-        return each(a, c, size, [](double v) { return std::asin(v); });
+        return each(a, c, size, [](Real v) { return std::asin(v); });
     case Operation::Acos:
-        return each(a, c, size, [](double v) { return std::acos(v); });
+        return each(a, c, size, [](Real v) { return std::acos(v); });
     case Operation::Atan:
-        return each(a, c, size, [](double v) { return std::atan(v); });
+        return each(a, c, size, [](Real v) { return std::atan(v); });
     case Operation::Sinh:
-        return each(a, c, size, [](double v) { return std::sinh(v); });
+        return each(a, c, size, [](Real v) { return std::sinh(v); });
     case Operation::Cosh:
-        return each(a, c, size, [](double v) { return std::cosh(v); });
+        return each(a, c, size, [](Real v) { return std::cosh(v); });
     case Operation::Tanh:
-        return each(a, c, size, [](double v) { return std::tanh(v); });
+        return each(a, c, size, [](Real v) { return std::tanh(v); });
     case Operation::Exp:
-        return each(a, c, size, [](double v) { return std::exp(v); });
+        return each(a, c, size, [](Real v) { return std::exp(v); });
     case Operation::Log:
-        return each(a, c, size, [](double v) { return std::log(v); });
+        return each(a, c, size, [](Real v) { return std::log(v); });
     case Operation::Step: // as GiNaC's: 1/2 at 0
-        return each(a, c, size, [](double v) { return v > 0.0 ? 1.0 : v < 0.0 ? 0.0 : v + 0.5; });
+        return each(a, c, size, [](Real v) {
+            return v > Real(0) ? Real(1) : v < Real(0) ? Real(0) : v + Real(0.5);
+        });
     }
 }
 
@@ -96,40 +109,52 @@ Eigen::ArrayXXd Tape::evaluate(const Eigen::ArrayXd& x, const Eigen::ArrayXd& t)
     const Eigen::Index points =
         std::min(x.size(), t.size()) == 0 ? 0 : std::max(x.size(), t.size());
     Eigen::ArrayXXd values(output_count(), points);
-    if (points == 0)
-        return values;
+    if (points > 0 && wide_)
+        evaluate_in<long double>(x, t, values);
+    else if (points > 0)
+        evaluate_in<double>(x, t, values);
+    return values;
+}
 
+template <typename Real>
+void Tape::evaluate_in(const Eigen::ArrayXd& x, const Eigen::ArrayXd& t,
+                       Eigen::ArrayXXd& values) const {
+    const Eigen::Index points = values.cols();
     const Eigen::Index rows = std::min(points, block_size);
-    Eigen::ArrayXXd registers(rows, register_count_);
+    Registers<Real> registers(rows, register_count_);
     for (const Constant& constant : constants_)
-        registers.col(constant.target).setConstant(constant.value);
+        registers.col(constant.target).setConstant(static_cast<Real>(constant.value));
     if (x.size() == 1)
-        registers.col(0).setConstant(x(0));
+        registers.col(0).setConstant(static_cast<Real>(x(0)));
     const bool one_time = t.size() == 1;
     if (one_time) {
         registers(0, 1) = t(0);
         for (std::size_t i = 0; i < time_only_count_; ++i)
             run(instructions_[i], registers, 1);
         for (const int persistent : persistent_)
-            registers.col(persistent).setConstant(double(registers(0, persistent)));
+            registers.col(persistent).setConstant(Real(registers(0, persistent)));
     }
 
     for (Eigen::Index begin = 0; begin < points; begin += rows) {
         const Eigen::Index size = std::min(rows, points - begin);
         if (x.size() > 1)
-            registers.col(0).head(size) = x.segment(begin, size);
+            registers.col(0).head(size) = x.segment(begin, size).cast<Real>();
         if (!one_time)
-            registers.col(1).head(size) = t.segment(begin, size);
+            registers.col(1).head(size) = t.segment(begin, size).cast<Real>();
         for (std::size_t i = one_time ? time_only_count_ : 0; i < instructions_.size(); ++i)
             run(instructions_[i], registers, size);
         if (output_count() == 1)
-            std::copy_n(registers.col(outputs_.front()).data(), size, values.data() + begin);
+            std::transform(registers.col(outputs_.front()).data(),
+                           registers.col(outputs_.front()).data() + size, values.data() + begin,
+                           [](Real value) { return static_cast<double>(value); });
         else
             for (Eigen::Index k = 0; k < output_count(); ++k)
                 values.row(k).segment(begin, size) =
-                    registers.col(outputs_[static_cast<std::size_t>(k)]).head(size).transpose();
+                    registers.col(outputs_[static_cast<std::size_t>(k)])
+                        .head(size)
+                        .transpose()
+                        .template cast<double>();
     }
-    return values;
 }
 
 } // namespace tvbeam

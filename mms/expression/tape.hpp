@@ -9,7 +9,8 @@ namespace tvbeam {
 
 /// Several expressions in x and t, compiled to one list of instructions in which common
 /// subexpressions stand once. Made by compile_tape (tape_compiler.hpp). Evaluation changes nothing
-/// and may run in several threads at once.
+/// and may run in several threads at once. Where an intermediate result could leave the range of a
+/// double, as 1000^118 does, it is done in long double; the values are doubles.
 class Tape {
 public:
     /// The values of the expressions at the points (x_i, t_i); shape: one row an expression, one
@@ -31,7 +32,8 @@ private:
         Subtract,
         Multiply,
         Divide,
-        Power, // of two registers
+        Power,
+        PowerLog, // a^b log a; of two registers, as those before
         Negate,
         Reciprocal,
         Square,
@@ -59,11 +61,19 @@ private:
 
     struct Constant {
         int target;
-        double value;
+        long double value;
     };
 
-    static double apply(Operation operation, double left, double right);
-    static void run(const Instruction& instruction, Eigen::ArrayXXd& registers, Eigen::Index size);
+    template <typename Real>
+    using Registers = Eigen::Array<Real, Eigen::Dynamic, Eigen::Dynamic>;
+
+    template <typename Real>
+    static Real apply(Operation operation, Real left, Real right);
+    template <typename Real>
+    static void run(const Instruction& instruction, Registers<Real>& registers, Eigen::Index size);
+    template <typename Real>
+    void evaluate_in(const Eigen::ArrayXd& x, const Eigen::ArrayXd& t,
+                     Eigen::ArrayXXd& values) const;
 
     // Registers 0 and 1 hold x and t. The instructions that do not need x come first: for many x at
     // one time they run once. Registers in `persistent` are read by the rest and never written by
@@ -74,6 +84,7 @@ private:
     std::vector<int> persistent_;
     std::vector<int> outputs_; ///< the register of each expression's value
     int register_count_ = 2;
+    bool wide_ = false; ///< computed in long double, whose range is 1e±4932
 };
 
 } // namespace tvbeam

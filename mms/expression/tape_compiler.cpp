@@ -1,7 +1,9 @@
 #include "mms/expression/tape_compiler.hpp"
 
 #include "mms/expression/algebra.hpp"
+#include "mms/expression/balanced.hpp"
 #include "mms/expression/canonical.hpp"
+#include "mms/expression/magnitude.hpp"
 #include "mms/expression/numeric_value.hpp"
 
 #include <algorithm>
@@ -24,6 +26,26 @@ namespace {
 
 constexpr int largest_multiplied_power = 1000;
 
+/// The long double nearest to a rational, or one beside it.
+long double nearest_long_double(const numeric& rational) {
+    // A quotient of 80 to 82 bits, in three parts of 30 that doubles hold exactly.
+    const int shift = 81 - (rational.numer().int_length() - rational.denom().int_length());
+    const auto shifted = [](const numeric& value, int bits) {
+        return bits > 0 ? value * GiNaC::pow(numeric(2), numeric(bits)) : value;
+    };
+    numeric quotient = GiNaC::iquo(GiNaC::abs(shifted(rational.numer(), shift)),
+                                   shifted(rational.denom(), -shift));
+    const numeric part = GiNaC::pow(numeric(2), numeric(30));
+    long double value = 0.0L;
+    long double weight = 1.0L;
+    for (int i = 0; i < 3; ++i) {
+        value += weight * GiNaC::irem(quotient, part).to_double();
+        quotient = GiNaC::iquo(quotient, part);
+        weight *= 0x1p30L;
+    }
+    return std::ldexp(rational.is_negative() ? -value : value, -shift);
+}
+
 } // namespace
 
 /// Builds a tape in two passes: expressions become values, each defined once; then values get
@@ -36,25 +58,35 @@ public:
     }
 
     Tape compile(const std::vector<ex>& expressions) {
+        std::vector<Canonical> nodes;
         std::vector<int> outputs;
+        nodes.reserve(expressions.size());
         outputs.reserve(expressions.size());
         for (const ex& expression : expressions)
-            outputs.push_back(value_of(*canonical(expression)));
+            nodes.push_back(roomy(balanced(expression)));
+        choose_width(nodes);
+        for (const Canonical& node : nodes)
+            outputs.push_back(value_of(*node));
         return allocate(outputs);
     }
 
     double constant(const ex& expression) {
-        const auto& value = values_[index(value_of(*canonical(expression)))].constant;
+        const Canonical node = roomy(expression);
+        choose_width({node});
+        const auto& value = values_[index(value_of(*node))].constant;
         if (!value)
             throw AlgebraError("it is not a number");
-        return *value;
+        const auto result = static_cast<double>(*value);
+        if (!std::isfinite(result))
+            throw AlgebraError("it is not a finite number in double precision");
+        return result;
     }
 
 private:
     using Operation = Tape::Operation;
 
     struct Value {
-        std::optional<double> constant;
+        std::optional<long double> constant;
         Operation operation = Operation::Add;
         int left = -1; ///< −1 for x, t and constants
         int right = -1;
@@ -62,6 +94,25 @@ private:
     };
 
     static std::size_t index(int value) { return static_cast<std::size_t>(value); }
+
+    /// An expression with its sums rescaled if doubles have no room for them.
+    static Canonical roomy(const ex& expression) {
+        const Canonical node = canonical(expression);
+        return fits_doubles(magnitude(*node)) ? node : rescaled(node);
+    }
+
+    /// Long double is for what has a size within the range of doubles but parts that may leave it.
+    void choose_width(const std::vector<Canonical>& nodes) {
+        constexpr double range = 1020.0;
+        bool fits = true;
+        bool representable = true;
+        for (const Canonical& node : nodes) {
+            const Magnitude size = magnitude(*node);
+            fits = fits && fits_doubles(size);
+            representable = representable && size.whole <= range;
+        }
+        wide_ = !fits && representable;
+    }
 
     // First pass.
 
@@ -77,7 +128,7 @@ private:
     int new_value_of(const CanonicalNode& node) {
         switch (node.kind) {
         case Kind::Number:
-            return constant_value(nearest_double(node.coefficient));
+            return rational_value(node.coefficient);
         case Kind::Name:
             return named(node.name);
         case Kind::Sum:
@@ -98,12 +149,16 @@ private:
         if (name == "t")
             return 1;
         if (name == "pi")
-            return constant_value(std::numbers::pi);
+            return constant_value(wide_ ? std::numbers::pi_v<long double> : std::numbers::pi);
         throw AlgebraError("'" + name + "' has no value");
     }
 
-    int constant_value(double value) {
-        if (!std::isfinite(value))
+    int rational_value(const numeric& value) {
+        return constant_value(wide_ ? nearest_long_double(value) : nearest_double(value));
+    }
+
+    int constant_value(long double value) {
+        if (!std::isfinite(wide_ ? value : static_cast<double>(value)))
             throw AlgebraError("a constant in it is not a finite number in double precision");
         const auto [entry, is_new] = by_constant_.try_emplace(value, int(values_.size()));
         if (is_new)
@@ -115,7 +170,9 @@ private:
         const Value& a = values_[index(left)];
         const Value& b = values_[index(right < 0 ? left : right)];
         if (a.constant && b.constant)
-            return constant_value(Tape::apply(operation, *a.constant, *b.constant));
+            return constant_value(wide_ ? Tape::apply(operation, *a.constant, *b.constant)
+                                        : Tape::apply(operation, static_cast<double>(*a.constant),
+                                                      static_cast<double>(*b.constant)));
         const bool commutes = operation == Operation::Add || operation == Operation::Multiply;
         if (commutes && right < left)
             std::swap(left, right);
@@ -155,8 +212,11 @@ private:
         };
         const bool negated = coefficient.is_equal(-1);
         if (!negated && !coefficient.is_equal(1))
-            above = constant_value(nearest_double(coefficient));
-        for (const Canonical& factor : node.operands) {
+            above = rational_value(coefficient);
+        std::vector<Canonical> factors = node.operands;
+        while (const auto value = power_with_logarithm(factors))
+            multiply(above, *value);
+        for (const Canonical& factor : factors) {
             const bool divides = factor->kind == Kind::Power &&
                                  factor->operands[1]->kind == Kind::Number &&
                                  factor->operands[1]->coefficient.is_negative();
@@ -173,6 +233,27 @@ private:
         return negated ? apply(Operation::Negate, result) : result;
     }
 
+    /// Takes a pair b^a, log(b) out of the factors of a product, if there is one, and gives its
+    /// value: at b = 0 it is 0 times infinity, and 0 for a > 0.
+    std::optional<int> power_with_logarithm(std::vector<Canonical>& factors) {
+        for (std::size_t i = 0; i < factors.size(); ++i) {
+            if (factors[i]->kind != Kind::Function || factors[i]->name != "log")
+                continue;
+            const Canonical base = factors[i]->operands[0];
+            for (std::size_t k = 0; k < factors.size(); ++k) {
+                const Canonical power = factors[k];
+                const bool bare = power->key == base->key;
+                if (!bare && (power->kind != Kind::Power || power->operands[0]->key != base->key))
+                    continue;
+                const int exponent = bare ? constant_value(1.0L) : value_of(*power->operands[1]);
+                factors.erase(factors.begin() + static_cast<std::ptrdiff_t>(std::max(i, k)));
+                factors.erase(factors.begin() + static_cast<std::ptrdiff_t>(std::min(i, k)));
+                return apply(Operation::PowerLog, value_of(*base), exponent);
+            }
+        }
+        return std::nullopt;
+    }
+
     int power(const CanonicalNode& base, const CanonicalNode& exponent) {
         if (exponent.kind == Kind::Number)
             return power_of(base, exponent.coefficient);
@@ -187,7 +268,7 @@ private:
             return integer_power(value_of(base), exponent.to_int());
         if (twice.is_integer() && twice <= largest_multiplied_power)
             return integer_power(apply(Operation::SquareRoot, value_of(base)), twice.to_int());
-        return apply(Operation::Power, value_of(base), constant_value(nearest_double(exponent)));
+        return apply(Operation::Power, value_of(base), rational_value(exponent));
     }
 
     int integer_power(int base, int exponent) {
@@ -251,6 +332,7 @@ private:
             last_use[index(output)] = schedule.size();
 
         Tape tape;
+        tape.wide_ = wide_;
         std::vector<int> registers(values_.size(), -1);
         std::vector<int> free;
         registers[0] = 0;
@@ -297,9 +379,10 @@ private:
         return tape;
     }
 
+    bool wide_ = false;
     std::vector<Value> values_; ///< values 0 and 1 are x and t
     std::map<std::string, int> by_key_;
-    std::map<double, int> by_constant_;
+    std::map<long double, int> by_constant_;
     std::map<std::tuple<Operation, int, int>, int> by_operation_;
 };
 

@@ -180,6 +180,58 @@ BOOST_AUTO_TEST_CASE(constants_beyond_the_range_are_refused_and_tiny_ones_vanish
     BOOST_TEST(numeric_value(parsed("exp(-1000)")) == 0.0);
 }
 
+// GiNaC takes the common denominator out of the power: 100^-154, and (99*x + t)^154 beside it. The
+// exact values are those of the text, by powers of the base in long double; each has n roundings.
+BOOST_AUTO_TEST_CASE(powers_of_sums_with_decimals_are_what_they_say) {
+    const double x = 0.7;
+    const double t = 1.7;
+    const auto value = [&](const std::string& text) {
+        return compile_tape({parsed(text)})
+            .evaluate(ArrayXd::Constant(1, x), ArrayXd::Constant(1, t))(0, 0);
+    };
+    const auto check = [&](const std::string& text, long double base, int exponent) {
+        const long double expected = std::pow(base, exponent);
+        const long double tolerance = 4e-16L * std::abs(exponent) * std::abs(expected);
+        BOOST_TEST(std::abs(value(text) - expected) <= tolerance,
+                   text << " is " << value(text) << " for " << expected);
+    };
+    check("(0.99*x + 0.01*t)^154", 0.99L * x + 0.01L * t, 154);
+    check("(1 - 0.001*x)^103", 1 - 0.001L * x, 103);
+    check("(1 - 0.01*x*t)^160", 1 - 0.01L * x * t, 160);
+    check("(1 - 0.001*x)^(-300)", 1 - 0.001L * x, -300);
+    check("(0.001*x)^200*1000^200", x, 200);
+    check("1/(1 + (0.001*x + 0.5)^200)^3", 1 + std::pow(0.001L * x + 0.5L, 200), -3);
+    check("(1 - 0.001*x)^200*(0.002*t + 0.99)^200", (1 - 0.001L * x) * (0.002L * t + 0.99L), 200);
+    check("exp(-1000)*10^434*x/x", std::exp(-1000.0L) * 1e434L, 1);
+}
+
+// x^(a-1) x log x and e^z/(1 + e^z)^2 are 0 times infinity, or infinity over infinity, as they
+// stand; their limits are 0.
+BOOST_AUTO_TEST_CASE(limits_of_derivatives_are_reached) {
+    const ModelSymbols& s = model_symbols();
+    const ArrayXd zero = ArrayXd::Zero(1);
+    const ArrayXd later = ArrayXd::Constant(1, 0.5);
+    GiNaC::ex power = parsed("x^(4 + t)");
+    for (const GiNaC::symbol& symbol : {s.x, s.x, s.t, s.x}) {
+        power = derivative(power, symbol);
+        BOOST_TEST(compile_tape({power}).evaluate(zero, later)(0, 0) == 0.0);
+    }
+    for (const std::string text : {"1/(1 + exp(1000*(x - t)))", "1/cosh(1000*(x - t))",
+                                   "1/(1 + exp(100000*(x - t)))", "1/(2 + 3*exp(1000*x))^2"}) {
+        GiNaC::ex front = parsed(text);
+        for (const GiNaC::symbol& symbol : {s.x, s.x, s.x, s.t}) {
+            front = derivative(front, symbol);
+            for (const double x : {0.0, 0.25, 0.75, 1.0}) {
+                // At a distance of 0.25 from the front, e^-250 of its height.
+                const double value =
+                    compile_tape({front}).evaluate(ArrayXd::Constant(1, x), later)(0, 0);
+                BOOST_TEST((x == 0.0 && text.back() == '2' ? std::isfinite(value)
+                                                           : std::abs(value) < 1e-90));
+            }
+        }
+    }
+}
+
 BOOST_AUTO_TEST_CASE(threads_may_evaluate_one_tape_together) {
     const Tape tape = compile_tape({parsed("exp(t)*sin(pi*x) + tanh(x*t)")});
     const ArrayXd x = random_array(5000, 0.0, 1.0, 8);

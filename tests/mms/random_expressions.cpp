@@ -1,0 +1,228 @@
+#include "mms/expression/agreement.hpp"
+#include "mms/expression/algebra.hpp"
+#include "mms/expression/expression_parser.hpp"
+#include "mms/expression/symbols.hpp"
+#include "mms/expression/tape_compiler.hpp"
+#include "mms/separation.hpp"
+
+#include <boost/multiprecision/cpp_bin_float.hpp>
+#include <boost/test/unit_test.hpp>
+
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <map>
+#include <numbers>
+#include <random>
+#include <string>
+#include <vector>
+
+// Expressions from a random grammar, with what is derived from them, against 50 digits: a tape is
+// right, or the comparison with the text in long double says that it is not. Many more of them on
+// demand: TVBEAM_RANDOM_EXPRESSIONS=20000 mms_tests --run_test=mms_random_expressions
+
+using Eigen::ArrayXd;
+using Eigen::Index;
+using namespace tvbeam;
+
+namespace {
+
+using Digits50 = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<50>,
+                                               boost::multiprecision::et_off>;
+
+class Grammar {
+public:
+    explicit Grammar(unsigned seed) : random_(seed) {}
+
+    std::string expression(int depth = 3) {
+        if (depth == 0)
+            return leaf();
+        const std::string a = expression(depth - 1);
+        switch (pick(12)) {
+        case 0:
+            return "(" + a + " + " + expression(depth - 1) + ")";
+        case 1:
+            return "(" + a + " - " + expression(depth - 1) + ")";
+        case 2:
+        case 3:
+            return a + "*" + expression(depth - 1);
+        case 4:
+            return a + "/(1 + (" + expression(depth - 1) + ")^2)";
+        case 5:
+        case 6:
+            return "(" + linear() + ")^" + std::to_string(1 + pick(pick(2) == 0 ? 400 : 12));
+        case 7:
+            return "(" + linear() + ")^(-" + std::to_string(1 + pick(200)) + ")*" + a;
+        case 8:
+            return "(1 + " + linear() + "^2)^(" + std::to_string(1 + pick(50)) + "/2)*" + a;
+        case 9:
+            return "x^(4 + " + linear() + ")";
+        case 10:
+            return "1/(1 + exp(" + std::to_string(1 + pick(2000)) + "*(" + linear() + ")))*" + a;
+        default:
+            return function() + "(" + a + ")";
+        }
+    }
+
+private:
+    int pick(int count) { return static_cast<int>(random_() % static_cast<unsigned>(count)); }
+
+    std::string leaf() {
+        static const std::vector<std::string> leaves = {"x", "t", "pi*x", "x*t", "(1-x)", "2"};
+        return pick(4) == 0 ? decimal() : leaves[static_cast<std::size_t>(pick(6))];
+    }
+
+    std::string decimal() {
+        static const std::vector<std::string> forms = {"0.", "0.0", "0.00", "1.", "12."};
+        return forms[static_cast<std::size_t>(pick(5))] + std::to_string(1 + pick(999));
+    }
+
+    /// Like 0.99*x + 0.01*t or 1 - 0.001*x*t.
+    std::string linear() {
+        switch (pick(4)) {
+        case 0:
+            return "(" + decimal() + "*x + " + decimal() + "*t)";
+        case 1:
+            return "(1 - " + decimal() + "*x)";
+        case 2:
+            return "(1 - " + decimal() + "*x*t)";
+        default:
+            return "(" + decimal() + " + x - " + decimal() + "*t)";
+        }
+    }
+
+    std::string function() {
+        static const std::vector<std::string> names = {"sin",  "cos", "exp",  "tanh",
+                                                       "atan", "exp", "cosh", "sinh"};
+        return names[static_cast<std::size_t>(pick(8))];
+    }
+
+    std::mt19937 random_;
+};
+
+template <typename Real>
+BoundedJet<Real> jet_at(const PlainExpression& plain, double x, double t, const Real& pi) {
+    return evaluated<Real>(plain, {{"x", BoundedJet<Real>::x(Real(x), 3)},
+                                   {"t", BoundedJet<Real>::t(Real(t), 1)},
+                                   {"pi", BoundedJet<Real>(Bounded<Real>{pi, pi})}});
+}
+
+/// The values of a formula at points, by its tape and by the products that it separates into.
+std::vector<ComputedValues> computed(const GiNaC::ex& formula, const ArrayXd& x, const ArrayXd& t) {
+    const auto tape = [&](const GiNaC::ex& part) -> ArrayXd {
+        return compile_tape({part}).evaluate(x, t).row(0);
+    };
+    const Separation parts = separated(formula);
+    ComputedValues sum = ComputedValues::of(tape(parts.rest));
+    sum.terms = sum.values.abs();
+    for (const SeparatedProduct& product : parts.products) {
+        const ArrayXd term = tape(product.amplitude) * tape(product.profile);
+        sum.values += term;
+        sum.terms += term.abs();
+    }
+    std::vector<ComputedValues> result = {ComputedValues::of(tape(formula))};
+    // What overflows by itself is not taken apart (problem_builder.cpp).
+    if (sum.values.isFinite().all())
+        result.push_back(sum);
+    return result;
+}
+
+struct Counts {
+    int compared = 0; ///< formulas
+    int refused = 0;  ///< by the parser, the algebra or the compiler
+    int alarms = 0;
+    int false_alarms = 0;
+    int silent = 0;
+    double worst = 0.0; ///< error over the bound, in units of 2^-53, where there is no alarm
+};
+
+const std::vector<std::pair<int, int>> orders = {{0, 0}, {1, 0}, {2, 0}, {3, 0},
+                                                 {0, 1}, {2, 1}, {3, 1}};
+
+void compare(const std::string& text, const PlainExpression& plain, const GiNaC::ex& formula, int i,
+             int j, Counts& counts) {
+    const ArrayXd x{{0.0625, 0.37109375, 0.7548828125, 0.9375}};
+    const ArrayXd t{{0.5703125, 1.140625, 0.0859375, 1.703125}};
+    std::vector<Bounded<long double>> written_values;
+    for (Index k = 0; k < x.size(); ++k)
+        written_values.push_back(
+            jet_at<long double>(plain, x(k), t(k), std::numbers::pi_v<long double>)
+                .derivative(i, j));
+    std::vector<Bounded<Digits50>> exact;
+    Digits50 largest = 0;
+    for (Index k = 0; k < x.size(); ++k) {
+        exact.push_back(jet_at<Digits50>(plain, x(k), t(k), boost::math::constants::pi<Digits50>())
+                            .derivative(i, j));
+        largest = std::max(largest, exact.back().bound);
+    }
+    for (const ComputedValues& values : computed(formula, x, t)) {
+        ++counts.compared;
+        const bool alarm = first_disagreement(written_values, values).has_value();
+        counts.alarms += alarm ? 1 : 0;
+        bool wrong = false;
+        for (Index k = 0; k < x.size(); ++k) {
+            const Bounded<Digits50>& expected = exact[static_cast<std::size_t>(k)];
+            const double value = values.values(k);
+            const Digits50 terms = expected.bound + Digits50(values.terms(k));
+            double ratio = std::numeric_limits<double>::infinity();
+            if (std::isfinite(value) && isfinite(terms))
+                ratio = static_cast<double>(Digits50(
+                    (abs(value - expected.value) - 1e-25 * largest - 1e-300) / (terms + 1e-300)));
+            if (!isfinite(terms))
+                continue;
+            wrong = wrong || ratio > 1e-13;
+            // What is not finite is refused in any case (admissibility.cpp, given_problem.cpp).
+            if (alarm || !std::isfinite(value))
+                continue;
+            counts.worst = std::max(counts.worst, ratio * 0x1p53);
+            if (ratio > 1e-12) {
+                ++counts.silent;
+                BOOST_TEST_MESSAGE("silent: " << text << " order " << i << j << " at " << x(k)
+                                              << ", " << t(k) << ": " << value << " for "
+                                              << expected.value);
+            }
+        }
+        if (alarm)
+            BOOST_TEST_MESSAGE((wrong ? "alarm: " : "false alarm: ")
+                               << text << " order " << i << j);
+        counts.false_alarms += alarm && !wrong ? 1 : 0;
+    }
+}
+
+} // namespace
+
+BOOST_AUTO_TEST_SUITE(mms_random_expressions)
+
+BOOST_AUTO_TEST_CASE(a_tape_is_what_the_text_says_or_is_refused) {
+    const char* wanted = std::getenv("TVBEAM_RANDOM_EXPRESSIONS");
+    const int count = wanted ? std::atoi(wanted) : TVBEAM_SHORT_TESTS ? 50 : 600;
+    Grammar grammar(1);
+    Counts counts;
+    for (int n = 0; n < count; ++n) {
+        const std::string text = grammar.expression();
+        PlainExpression plain;
+        try {
+            const GiNaC::ex formula =
+                parse_expression(SourceText(text, {"file", 1, 1}), model_symbol_table(), &plain);
+            const auto [i, j] = orders[static_cast<std::size_t>(n) % orders.size()];
+            GiNaC::ex derived = formula;
+            for (int k = 0; k < i; ++k)
+                derived = derivative(derived, model_symbols().x);
+            for (int k = 0; k < j; ++k)
+                derived = derivative(derived, model_symbols().t);
+            compare(text, plain, derived, i, j, counts);
+        } catch (const InputError&) {
+            ++counts.refused;
+        } catch (const AlgebraError&) {
+            ++counts.refused;
+        }
+    }
+    BOOST_TEST_MESSAGE(counts.compared << " compared, " << counts.refused << " refused, "
+                                       << counts.alarms << " alarms, worst error " << counts.worst
+                                       << " times the bound");
+    BOOST_TEST(counts.silent == 0);
+    BOOST_TEST(counts.false_alarms == 0);
+    BOOST_TEST(counts.compared > count / 2);
+}
+
+BOOST_AUTO_TEST_SUITE_END()
