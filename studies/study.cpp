@@ -1,8 +1,10 @@
 #include "studies/study.hpp"
 
+#include "core/run.hpp"
 #include "studies/phase_remarks.hpp"
 
 #include <algorithm>
+#include <memory>
 
 namespace tvbeam {
 
@@ -74,6 +76,14 @@ double work_of(const Scene& scene) {
     return work;
 }
 
+std::vector<Algorithm> algorithms_of(const Scene& scene) {
+    std::vector<Algorithm> algorithms{scene.scheme.algorithm};
+    if (scene.work_precision)
+        for (const auto& timed : scene.work_precision->schemes)
+            algorithms.push_back(timed.scheme.algorithm);
+    return algorithms;
+}
+
 } // namespace
 
 StudyResult run_study(const Scene& scene, ProblemData data, const Execution& execution) {
@@ -93,6 +103,8 @@ StudyResult run_study(const Scene& scene, ProblemData data, const Execution& exe
     if (!scene.poses_problem())
         return result;
     result.remarks = phase_remarks(scene, data);
+    data.resolution = std::make_shared<const Resolution>(
+        resolution_of(data, algorithms_of(scene), scene.norms(), scene.longest_time()));
     if (scene.reference && !scene.norms().empty())
         result.reference = measure_against_reference(scene, scene.longest_time(), data, execution);
     result.left_out = left_out(scene, data);

@@ -18,6 +18,8 @@ const char* cause(Rejection why) {
     switch (why) {
     case Rejection::failed:
         return "no error";
+    case Rejection::unresolved:
+        return "quadrature does not resolve what is integrated";
     case Rejection::exact:
         return "the error is zero";
     case Rejection::rounding_floor:
@@ -34,8 +36,9 @@ const char* cause(Rejection why) {
 std::vector<Block> rejections(const std::string& norm, const TwoTermFit& fit,
                               const std::vector<RungResult>& runs) {
     std::vector<Block> sentences;
-    for (const Rejection why : {Rejection::failed, Rejection::exact, Rejection::rounding_floor,
-                                Rejection::pre_asymptotic, Rejection::outlier}) {
+    for (const Rejection why :
+         {Rejection::failed, Rejection::unresolved, Rejection::exact, Rejection::rounding_floor,
+          Rejection::pre_asymptotic, Rejection::outlier}) {
         std::string named;
         for (const auto& rejected : fit.rejected)
             if (rejected.why == why) {

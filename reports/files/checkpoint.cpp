@@ -61,13 +61,21 @@ Json json_of(const RungResult& result) {
     Json errors = Json::array();
     for (const double error : result.errors)
         errors.push_back(number(error));
+    Json uncertainties = Json::array();
+    for (const double part : result.uncertainties)
+        uncertainties.push_back(number(part));
     Json counts = Json::array();
     for (const auto counter : counters)
         counts.push_back(result.counters.*counter);
-    return {{"elements", result.rung.elements}, {"steps", result.rung.steps},
-            {"dt", number(result.rung.dt)},     {"failed", result.status != RunStatus::ok},
-            {"reason", result.reason},          {"seconds", result.seconds},
-            {"counters", std::move(counts)},    {"errors", std::move(errors)}};
+    return {{"elements", result.rung.elements},
+            {"steps", result.rung.steps},
+            {"dt", number(result.rung.dt)},
+            {"failed", result.status != RunStatus::ok},
+            {"reason", result.reason},
+            {"seconds", result.seconds},
+            {"counters", std::move(counts)},
+            {"errors", std::move(errors)},
+            {"uncertainties", std::move(uncertainties)}};
 }
 
 RungResult rung_result(const Json& json) {
@@ -80,6 +88,8 @@ RungResult rung_result(const Json& json) {
         result.counters.*counters[k] = json.at("counters").at(k);
     for (const auto& error : json.at("errors"))
         result.errors.push_back(number(error));
+    for (const auto& part : json.at("uncertainties"))
+        result.uncertainties.push_back(number(part));
     return result;
 }
 

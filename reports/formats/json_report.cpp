@@ -61,11 +61,18 @@ Json errors_of(const RungResult& rung, const std::vector<Norm>& norms) {
     return errors;
 }
 
+/// The errors of a run, and what of them is uncertain.
+void add_errors(Json& entry, const RungResult& rung, const std::vector<Norm>& norms) {
+    entry["errors"] = errors_of(rung, norms);
+    for (std::size_t k = 0; k < rung.uncertainties.size(); ++k)
+        entry["uncertainty"][norms[k].name] = rung.uncertainties[k];
+}
+
 Json json_of(const LadderResult& ladder, const LadderBlock& block) {
     Json rungs = Json::array();
     for (std::size_t i = 0; i < ladder.rungs.size(); ++i) {
         Json entry = json_of(ladder.rungs[i]);
-        entry["errors"] = errors_of(ladder.rungs[i], block.norms);
+        add_errors(entry, ladder.rungs[i], block.norms);
         Json orders = Json::object();
         Json printed = Json::object();
         Json predicted = Json::object();
@@ -95,6 +102,8 @@ Json json_of(const LadderResult& ladder, const LadderBlock& block) {
     if (block.printed)
         json["printed_source"] = block.printed->source;
     Json remarks = Json::array();
+    if (!ladder.quadrature_remark.empty())
+        remarks.push_back(ladder.quadrature_remark);
     if (!ladder.reference_remark.empty())
         remarks.push_back(ladder.reference_remark);
     for (const auto& norm : ladder.norms)
@@ -148,7 +157,7 @@ Json json_of(const OrdersResult& orders, const OrdersBlock& block) {
     Json runs = Json::array();
     for (const auto& run : orders.runs) {
         Json entry = json_of(run);
-        entry["errors"] = errors_of(run, block.norms);
+        add_errors(entry, run, block.norms);
         runs.push_back(std::move(entry));
     }
     Json json{
@@ -166,7 +175,7 @@ Json rows_of(const SchemeRuns& scheme, const std::vector<Norm>& norms) {
         const RungResult& run = scheme.runs[i];
         Json entry = json_of(run);
         entry.erase("iterations"); // among the counters
-        entry["errors"] = errors_of(run, norms);
+        add_errors(entry, run, norms);
         entry["seconds"] = json_of(scheme.timings[i]);
         entry["counters"] = json_of(run.counters);
         entry["counters"]["node_steps"] = node_steps(run.rung);

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <sstream>
 
 namespace tvbeam {
 
@@ -50,6 +51,25 @@ std::vector<RungResult> telling(const Scene& scene, const std::vector<RungResult
     return result;
 }
 
+/// A sentence about the rungs whose errors quadrature leaves uncertain; empty when there are none.
+std::string quadrature_remark(const std::vector<RungResult>& rungs,
+                              const std::vector<Norm>& norms) {
+    std::ostringstream named;
+    named.precision(2);
+    for (const auto& [rung, status, reason, seconds, counters, errors, uncertainties] : rungs) {
+        const auto worst = std::max_element(uncertainties.begin(), uncertainties.end());
+        if (worst == uncertainties.end() || *worst <= 0.01)
+            continue;
+        const auto k = static_cast<std::size_t>(worst - uncertainties.begin());
+        named << (named.str().empty() ? "" : "; ") << "s = " << rung.elements << ": "
+              << norms[k].root() << " is uncertain by " << *worst << " of itself";
+    }
+    if (named.str().empty())
+        return {};
+    return "Quadrature does not resolve what is integrated, in loads or norms: " + named.str() +
+           ". Orders that these figures enter say nothing.";
+}
+
 } // namespace
 
 LadderResult run_ladder(const Scene& scene, const LadderBlock& ladder, const ProblemData& data,
@@ -62,12 +82,14 @@ LadderResult run_ladder(const Scene& scene, const LadderBlock& ladder, const Pro
         const Norm& norm = ladder.norms[k];
         const TwoTermModel* model = orders != nullptr ? orders->model_of(norm) : nullptr;
         result.norms.push_back(analysed(norm, result.rungs, k, model, reference_widths(scene)));
-        result.norms.back().remarks =
-            order_remarks(norm, root_records_of(remarked, k, norm), model);
+        auto roots = root_records_of(remarked, k, norm);
+        std::erase_if(roots, [](const Refinement& record) { return !record.is_resolved(); });
+        result.norms.back().remarks = order_remarks(norm, roots, model);
         if (auto remark = round_off_remark(scene, data, ladder.final_time, result.rungs, norm, k);
             !remark.empty())
             result.norms.back().remarks.push_back(std::move(remark));
     }
+    result.quadrature_remark = quadrature_remark(result.rungs, ladder.norms);
     if (!ladder.norms.empty())
         result.reference_remark = reference_remark(scene, result.rungs);
     return result;

@@ -23,7 +23,8 @@ struct LadderNorm {
 struct LadderResult {
     std::vector<RungResult> rungs;
     std::vector<LadderNorm> norms;
-    std::string reference_remark; ///< rungs too close to the reference; empty without such
+    std::string quadrature_remark; ///< rungs whose errors quadrature leaves uncertain; or empty
+    std::string reference_remark;  ///< rungs too close to the reference; empty without such
 };
 
 /// Runs every rung of the scene's ladder, the others also after one that failed. orders: the grid

@@ -44,6 +44,10 @@ std::vector<std::size_t> usable(std::span<const Refinement> records,
             rejected.push_back({i, Rejection::exact, "the error is zero and has no logarithm"});
         else if (!is_positive(record.error))
             rejected.push_back({i, Rejection::failed, "the error is not a positive number"});
+        else if (!record.is_resolved())
+            rejected.push_back(
+                {i, Rejection::unresolved,
+                 with_number("the error is uncertain by %.1e of itself", record.uncertainty)});
         else
             result.push_back(i);
     }

@@ -31,7 +31,7 @@
 
 namespace tvbeam {
 
-enum class Rejection { failed, exact, rounding_floor, pre_asymptotic, outlier };
+enum class Rejection { failed, unresolved, exact, rounding_floor, pre_asymptotic, outlier };
 
 struct RejectedRecord {
     std::size_t record = 0;

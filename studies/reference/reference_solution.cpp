@@ -140,7 +140,7 @@ private:
     /// Adds weight times the solution of a run, coarser by the given factors, to all kept levels.
     std::string add_run(const Scene& scene, const ProblemData& data, Index in_h, std::int64_t in_dt,
                         double weight) {
-        const Mesh mesh = Mesh::uniform(block_.elements / in_h);
+        const Mesh mesh = data.resolution->on(Mesh::uniform(block_.elements / in_h));
         const double dt = dt_ * static_cast<double>(in_dt);
         try {
             const auto solver = make_solver(scene.beam, data, mesh, scene.scheme, dt, needs_);
@@ -244,6 +244,9 @@ ReferenceResult measure_against_reference(const Scene& scene, double final_time,
                                           const Execution& execution) {
     const auto start = std::chrono::steady_clock::now();
     ReferenceResult result;
+    if (!data.resolution)
+        data.resolution = std::make_shared<const Resolution>(
+            resolution_of(data, {scene.scheme.algorithm}, {}, final_time));
     std::shared_ptr<const ReferenceSolution> reference;
     try {
         auto computed = std::make_shared<ReferenceSolution>(scene, final_time, execution);
@@ -283,7 +286,7 @@ std::string reference_remark(const Scene& scene, const std::vector<RungResult>& 
         return {};
     std::ostringstream named;
     std::size_t close = 0;
-    for (const auto& [rung, status, reason, seconds, counters, errors] : rungs)
+    for (const auto& [rung, status, reason, seconds, counters, errors, uncertainties] : rungs)
         if (scene.reference->is_close_to(rung)) {
             named << (close > 0 ? ", " : "") << "s = " << rung.elements << " (dt = " << rung.dt
                   << ")";

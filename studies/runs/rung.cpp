@@ -27,7 +27,8 @@ RungResult run_rung(const Scene& scene, const Scheme& scheme, const std::vector<
                          }},
                     data);
     const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
-    return {rung, run.status, run.reason, elapsed.count(), run.counters, run.errors};
+    return {rung,         run.status, run.reason,       elapsed.count(),
+            run.counters, run.errors, run.uncertainties};
 }
 
 RungResult run_or_find(const std::string& study, std::size_t index, const Execution& execution,
@@ -58,8 +59,10 @@ std::vector<RungResult> run_rungs(const std::string& study, const Scene& scene,
             return run_rung(scene, scene.scheme, norms, final_time, rungs[i], data, execution);
         });
         // What the norms show of the reference against itself is the rounding of its evaluation.
-        if (scene.reference && scene.reference->is(rungs[i]))
+        if (scene.reference && scene.reference->is(rungs[i])) {
             std::fill(results[i].errors.begin(), results[i].errors.end(), 0.0);
+            results[i].uncertainties.clear();
+        }
     });
     return results;
 }
@@ -68,11 +71,13 @@ std::vector<Refinement> records_of(const std::vector<RungResult>& rungs, std::si
     std::vector<Refinement> records;
     records.reserve(rungs.size());
     for (const auto& rung : rungs)
-        records.push_back({.h = 1.0 / static_cast<double>(rung.rung.elements),
-                           .dt = rung.rung.dt,
-                           .error = rung.errors.empty() ? std::numeric_limits<double>::quiet_NaN()
-                                                        : rung.errors[k],
-                           .seconds = rung.seconds});
+        records.push_back(
+            {.h = 1.0 / static_cast<double>(rung.rung.elements),
+             .dt = rung.rung.dt,
+             .error =
+                 rung.errors.empty() ? std::numeric_limits<double>::quiet_NaN() : rung.errors[k],
+             .seconds = rung.seconds,
+             .uncertainty = rung.uncertainties.empty() ? 0.0 : rung.uncertainties[k]});
     return records;
 }
 

@@ -19,7 +19,8 @@ struct RungResult {
     std::string reason;   ///< why it failed; empty when ok
     double seconds = 0.0; ///< wall clock, error norms included
     Counters counters;
-    std::vector<double> errors; ///< one a norm; empty when failed
+    std::vector<double> errors;             ///< one a norm; empty when failed
+    std::vector<double> uncertainties = {}; ///< RunResult::uncertainties
 };
 
 /// Runs a scheme on one rung of the scene's beam and meshes.
