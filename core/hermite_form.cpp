@@ -1,6 +1,7 @@
 #include "core/hermite_form.hpp"
 
 #include "core/contact/contact.hpp"
+#include "core/space/cells.hpp"
 #include "core/space/quadrature.hpp"
 
 #include <algorithm>
@@ -41,15 +42,20 @@ Eigen::VectorXd cubic_loads(const Mesh& mesh, const SpaceFunction& g, int deriva
     Eigen::VectorXd loads = Eigen::VectorXd::Zero(2 * mesh.elements());
     for_each_block(mesh, [&](Eigen::Index first, Eigen::Index count) {
         const Eigen::ArrayXXd values = at_points(g, element_points(mesh, first, count));
-        for (Eigen::Index e = 0; e < count; ++e)
-            for (Eigen::Index q = 0; q < rule.points.size(); ++q) {
-                const double h = mesh.lengths(first + e);
-                const auto eta = cubics(rule.points(q), h, derivative);
-                for (int k = 0; k < 4; ++k)
-                    if (const Eigen::Index row = unknown(first + e, k); row >= 0)
-                        loads(row) +=
-                            h * rule.weights(q) * values(q, e) * eta[static_cast<std::size_t>(k)];
-            }
+        const CellRange block = cells_of(mesh, first, count);
+        for (Eigen::Index e = first; e < first + count; ++e) {
+            const double h = mesh.lengths(e);
+            const CellRange cells = cells_of(mesh, e, 1);
+            for (Eigen::Index c = cells.first; c < cells.first + cells.count; ++c)
+                for (Eigen::Index q = 0; q < rule.points.size(); ++q) {
+                    const auto eta = cubics(in_element(mesh, c, rule.points(q)), h, derivative);
+                    const double weight = integration_mesh(mesh).lengths(c) * rule.weights(q);
+                    for (int k = 0; k < 4; ++k)
+                        if (const Eigen::Index row = unknown(e, k); row >= 0)
+                            loads(row) += weight * values(q, c - block.first) *
+                                          eta[static_cast<std::size_t>(k)];
+                }
+        }
     });
     return loads;
 }

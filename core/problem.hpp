@@ -2,12 +2,16 @@
 
 #include <Eigen/Core>
 
+#include <array>
 #include <functional>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <vector>
 
 namespace tvbeam {
+
+class Resolution;
 
 /// The two stops of the tip. Rigid ones (6): g1 ≤ u(1,t) ≤ g2. Penalised ones, the law of the
 /// paper's reference [1], yield to the contact stress:
@@ -51,6 +55,7 @@ struct Field {
     };
     std::vector<Term> terms;
     SpaceTimeFunction rest; ///< empty when g is a sum of products
+    bool gentle = false;    ///< rest is known to hold no features narrower than 1/100 or so in x
 
     [[nodiscard]] bool is_separable() const { return !rest; }
     [[nodiscard]] bool is_zero() const { return terms.empty() && !rest; }
@@ -74,6 +79,11 @@ struct ExactSolution {
     /// A computed solution: its fields are polynomials of degree ≤ 5 on each of so many equal
     /// elements, a multiple of those of any mesh that it is compared on. 0: smooth on [0, 1].
     Eigen::Index elements = 0;
+
+    /// θ̃, θ̃_x, u, u_x, u_xx: in the order of Quantity.
+    [[nodiscard]] std::array<const Field*, 5> fields() const {
+        return {&theta, &theta_x, &u, &u_x, &u_xx};
+    }
 };
 
 /// The data of the problem (1)–(10), as functions of x and t on [0,1] × [0,T].
@@ -85,7 +95,9 @@ struct ExactSolution {
 /// body_force and end_moment; the two descriptions must agree.
 struct ProblemData {
     std::vector<SpaceFunction> profiles; ///< φ_0, φ_1, …; each distinct, none is identically zero
-    Amplitudes amplitudes;               ///< A_0, A_1, …; may be empty when no field has terms
+    /// Which of them are known to hold no features narrower than 1/100 or so; empty: none.
+    std::vector<bool> gentle_profiles;
+    Amplitudes amplitudes; ///< A_0, A_1, …; may be empty when no field has terms
     Eigen::Index amplitude_count = 0;
 
     /// Times in (0, ∞), increasing, at which the functions pass from one formula to the next; at
@@ -103,6 +115,9 @@ struct ProblemData {
     std::optional<Eigen::Index> end_moment; ///< amplitude of m(t); none: zero at all times
 
     std::optional<ExactSolution> exact;
+
+    /// How finely the functions must be cut to be integrated; null: run() finds out by itself.
+    std::shared_ptr<const Resolution> resolution = nullptr;
 };
 
 /// The values of a field of the problem at the points x and the time t.

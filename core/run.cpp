@@ -4,6 +4,7 @@
 #include "core/hermite_form.hpp"
 #include "core/moment_form.hpp"
 #include "core/norms/error_norms.hpp"
+#include "core/norms/quadrature_uncertainty.hpp"
 #include "core/sine/form.hpp"
 #include "core/time/time_levels.hpp"
 
@@ -13,6 +14,7 @@
 #include <optional>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
 
 namespace tvbeam {
 
@@ -34,6 +36,12 @@ bool all_finite(const std::vector<double>& errors) {
                        [](double error) { return std::isfinite(error); });
 }
 
+/// The loads that an algorithm integrates.
+std::vector<const Field*> loads_of(const ProblemData& data, Algorithm algorithm) {
+    return {&data.heat_source, &data.body_force,
+            algorithm == Algorithm::direct ? &data.moment_load : &data.couple_load};
+}
+
 std::string located(const std::string& reason, std::int64_t step, std::int64_t steps, double t) {
     std::ostringstream text;
     text << reason << " in step " << step << " of " << steps << ", t = " << t;
@@ -41,6 +49,23 @@ std::string located(const std::string& reason, std::int64_t step, std::int64_t s
 }
 
 } // namespace
+
+Resolution resolution_of(const ProblemData& data, const std::vector<Algorithm>& algorithms,
+                         const std::vector<Norm>& norms, double final_time) {
+    std::vector<const Field*> fields{&data.curvature_initial};
+    for (const Algorithm algorithm : algorithms)
+        for (const Field* load : loads_of(data, algorithm))
+            if (std::find(fields.begin(), fields.end(), load) == fields.end())
+                fields.push_back(load);
+    if (data.exact && data.exact->elements == 0) {
+        const QuantitySet needed = quantities_of(norms);
+        const auto exact = data.exact->fields();
+        for (std::size_t q = 0; q < exact.size(); ++q)
+            if (needed[q])
+                fields.push_back(exact[q]);
+    }
+    return resolve(data, fields, final_time);
+}
 
 std::unique_ptr<Solver> make_solver(const Beam& beam, const ProblemData& data, const Mesh& mesh,
                                     const Scheme& scheme, double dt, const Needs& needs) {
@@ -72,11 +97,23 @@ RunResult run(const RunRequest& request, const ProblemData& data, const Observer
     if (!advance(0))
         return interrupted();
     try {
+        const auto found = data.resolution ? data.resolution
+                                           : std::make_shared<const Resolution>(
+                                                 resolution_of(data, {request.scheme.algorithm},
+                                                               request.norms, request.final_time));
+        const Mesh mesh = found->on(request.mesh);
+        const auto measured = [&](std::vector<double> errors) {
+            result.errors = std::move(errors);
+            if (!result.errors.empty())
+                result.uncertainties = quadrature_uncertainties(
+                    data, loads_of(data, request.scheme.algorithm), *found, mesh, request.norms,
+                    result.errors, request.final_time);
+        };
         Needs needs = ErrorNorms::needs(data, request.norms);
         if (observer != nullptr)
             needs = request.norms.empty() ? observer->needs : needs.with(observer->needs);
-        else if (SineForm::suits(data, request.mesh, request.scheme, request.norms)) {
-            SineForm form(request.beam, data, request.mesh, request.scheme, request.final_time,
+        else if (SineForm::suits(data, mesh, request.scheme, request.norms)) {
+            SineForm form(request.beam, data, mesh, request.scheme, request.final_time,
                           request.steps, request.norms, needs);
             const bool finite = form.march(advance);
             if (!wanted)
@@ -84,18 +121,17 @@ RunResult run(const RunRequest& request, const ProblemData& data, const Observer
             if (finite) {
                 result.counters = form.counters();
                 if (!request.norms.empty())
-                    result.errors = form.errors();
+                    measured(form.errors());
                 if (all_finite(result.errors))
                     return result;
             }
             // What is wrong, and where, the general form says.
             result = {};
         }
-        const auto solver =
-            make_solver(request.beam, data, request.mesh, request.scheme, dt, needs);
+        const auto solver = make_solver(request.beam, data, mesh, request.scheme, dt, needs);
         std::optional<ErrorNorms> norms;
         if (!request.norms.empty())
-            norms.emplace(request.beam, data, request.mesh, request.norms,
+            norms.emplace(request.beam, data, mesh, request.norms,
                           dynamic_cast<const MomentForm*>(solver.get()));
 
         if (observer != nullptr)
@@ -119,7 +155,7 @@ RunResult run(const RunRequest& request, const ProblemData& data, const Observer
         }
         result.counters = solver->counters();
         if (norms) {
-            result.errors = norms->values();
+            measured(norms->values());
             result.counters.norm_evaluations = norms->evaluations();
             result.counters.doubles_allocated += norms->doubles_allocated();
             if (!all_finite(result.errors))

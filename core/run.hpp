@@ -5,6 +5,7 @@
 #include "core/scheme.hpp"
 #include "core/solver.hpp"
 #include "core/space/mesh.hpp"
+#include "core/space/resolution.hpp"
 
 #include <cstdint>
 #include <functional>
@@ -38,6 +39,9 @@ struct RunResult {
     RunStatus status = RunStatus::ok;
     std::string reason;         ///< empty when ok
     std::vector<double> errors; ///< in the order of RunRequest::norms; empty when failed
+    /// The part of each error that quadrature leaves uncertain (quadrature_uncertainties); empty:
+    /// none of any.
+    std::vector<double> uncertainties;
     Counters counters;
 };
 
@@ -45,6 +49,11 @@ struct RunResult {
 /// contraction that is predicted for the fixed point is 1 or more.
 std::unique_ptr<Solver> make_solver(const Beam& beam, const ProblemData& data, const Mesh& mesh,
                                     const Scheme& scheme, double dt, const Needs& needs);
+
+/// How finely the functions of a problem must be cut for runs by these algorithms with these norms:
+/// what such a run finds out by itself where ProblemData::resolution is not there.
+Resolution resolution_of(const ProblemData& data, const std::vector<Algorithm>& algorithms,
+                         const std::vector<Norm>& norms, double final_time);
 
 /// Somebody who looks at every state of a run.
 struct Observer {

@@ -1,6 +1,7 @@
 #include "mms/given_problem.hpp"
 
-#include "core/space/quadrature.hpp"
+#include "core/space/resolution.hpp"
+#include "core/space/tail_moment.hpp"
 #include "mms/admissible/admissibility_check.hpp"
 #include "mms/expression/algebra.hpp"
 #include "mms/expression/expression_parser.hpp"
@@ -99,21 +100,35 @@ ex moment_of_polynomial(const ex& q) {
     return moment;
 }
 
-/// y ↦ ∫_y^1 (x − y) q(x) dx by the Gauss rule of ten points on each of 16 parts of [y, 1].
-ArrayXd integrated_moment(const Tape& q, const ArrayXd& y, double t) {
-    static const GaussRule rule = GaussRule::of(10).repeated(16);
-    ArrayXd moment = ArrayXd::Zero(y.size());
-    const ArrayXd length = 1.0 - y;
-    for (Index k = 0; k < rule.points.size(); ++k) {
-        const ArrayXd arm = rule.points(k) * length;
-        const ArrayXd load = q.evaluate(y + arm, ArrayXd::Constant(1, t)).row(0);
-        moment += rule.weights(k) * length * arm * load;
-    }
-    return moment;
+/// y ↦ ∫_y^1 (x − y) q dx for a profile q.
+SpaceFunction moment_of_profile(const ex& q) {
+    const auto profile = [tape = compile_tape({q})](const ArrayXd& x) -> ArrayXd {
+        return tape.evaluate(x, ArrayXd::Zero(1)).row(0);
+    };
+    ProblemData alone;
+    alone.profiles = {profile};
+    alone.body_force.terms = {{0, 0}};
+    return [profile, resolution = resolve(alone, {&alone.body_force}, 0.0)](const ArrayXd& y) {
+        return tail_moment(resolution.intervals(), profile, y);
+    };
+}
+
+/// The same for what does not separate.
+SpaceTimeFunction moment_in_time(const ex& q, double final_time) {
+    ProblemData alone;
+    alone.body_force.rest = [tape = compile_tape({q})](const ArrayXd& x, double t) -> ArrayXd {
+        return tape.evaluate(x, ArrayXd::Constant(1, t)).row(0);
+    };
+    return
+        [rest = alone.body_force.rest,
+         resolution = resolve(alone, {&alone.body_force}, final_time)](const ArrayXd& y, double t) {
+            return tail_moment(
+                resolution.intervals(), [&](const ArrayXd& x) { return rest(x, t); }, y);
+        };
 }
 
 /// The moment of the body force: closed where q is polynomial in x, integrated where not.
-Field moment_of(const ex& q, ProblemBuilder& builder) {
+Field moment_of(const ex& q, double final_time, ProblemBuilder& builder) {
     const GiNaC::realsymbol& x = model_symbols().x;
     const Separation parts = separated(q);
     ex closed = 0;
@@ -123,17 +138,12 @@ Field moment_of(const ex& q, ProblemBuilder& builder) {
             closed += product.amplitude * moment_of_polynomial(product.profile);
             continue;
         }
-        integrated.push_back(builder.term(
-            product.amplitude, [tape = compile_tape({product.profile})](const ArrayXd& y) {
-                return integrated_moment(tape, y, 0.0);
-            }));
+        integrated.push_back(builder.term(product.amplitude, moment_of_profile(product.profile)));
     }
     Field result = builder.field({closed});
     result.terms.insert(result.terms.end(), integrated.begin(), integrated.end());
     if (!parts.rest.is_zero())
-        result.rest = [tape = compile_tape({parts.rest})](const ArrayXd& y, double t) {
-            return integrated_moment(tape, y, t);
-        };
+        result.rest = moment_in_time(parts.rest, final_time);
     return result;
 }
 
@@ -211,7 +221,7 @@ ProblemData given_problem(const GivenData& data, const Beam& beam, double final_
     problem.curvature_initial = builder.field({curvature});
     problem.heat_source = builder.field({heat_source});
     problem.body_force = builder.field({body_force});
-    problem.moment_load = moment_of(body_force, builder);
+    problem.moment_load = moment_of(body_force, final_time, builder);
     builder.finish(problem);
     const SampledFields sampled(problem, texts.points().x, texts.points().t);
     texts.require(data.theta0, plain_theta, 0, "theta0", sampled.of(problem.theta_initial));

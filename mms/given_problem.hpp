@@ -20,8 +20,8 @@ struct GivenData {
 ///
 ///     μ(y,t) = q̂(y,t) = ∫_y^1 (x − y) q(x,t) dx,
 ///
-/// in closed form where q is a polynomial in x, otherwise by Gauss–Legendre quadrature to rounding
-/// for smooth q. Throws InputError where an expression does not parse, names a stop that the beam
+/// in closed form where q is a polynomial in x, otherwise by quadrature (tail_moment).
+/// Throws InputError where an expression does not parse, names a stop that the beam
 /// does not have, breaks (5), (6) or is not finite on a grid of [0,1] × [0, final_time]. The result
 /// holds no symbolic expression.
 ProblemData given_problem(const GivenData& data, const Beam& beam, double final_time);

@@ -1,10 +1,13 @@
 #include "mms/problem_builder.hpp"
 
+#include "mms/expression/symbols.hpp"
 #include "mms/expression/tape_compiler.hpp"
 #include "mms/sample_points.hpp"
 #include "mms/separation.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <map>
 #include <utility>
 
@@ -32,6 +35,56 @@ public:
 private:
     std::vector<double> ends_;
 };
+
+/// The greatest derivative in x, for x in [0, 1], that a polynomial in x and t can have by its
+/// coefficients; infinite where it is none.
+double most_speed(const ex& argument, double final_time) {
+    constexpr double unknown = std::numeric_limits<double>::infinity();
+    const ModelSymbols& symbols = model_symbols();
+    if (!argument.is_polynomial(GiNaC::lst{symbols.x, symbols.t}))
+        return unknown;
+    const ex polynomial = argument.expand();
+    double speed = 0.0;
+    for (int i = 1; i <= polynomial.degree(symbols.x); ++i) {
+        const ex in_time = polynomial.coeff(symbols.x, i);
+        for (int j = 0; j <= in_time.degree(symbols.t); ++j) {
+            const ex coefficient = in_time.coeff(symbols.t, j).evalf();
+            if (!GiNaC::is_a<GiNaC::numeric>(coefficient))
+                return unknown;
+            speed += i * std::pow(final_time, j) *
+                     std::abs(GiNaC::ex_to<GiNaC::numeric>(coefficient).to_double());
+        }
+    }
+    return speed;
+}
+
+/// Whether a function can have no features much narrower than 1/100 in x: sums and products of
+/// polynomials and of sines, cosines, exponentials and tanh whose arguments change slowly. A power
+/// narrows them by its root.
+bool is_gentle(const ex& formula, double final_time) {
+    constexpr int most_factors = 20;
+    constexpr double fastest = 40.0;
+    using GiNaC::cos_SERIAL, GiNaC::exp_SERIAL, GiNaC::sin_SERIAL, GiNaC::tanh_SERIAL;
+    const ModelSymbols& symbols = model_symbols();
+    const auto gentle = [&](const ex& part) { return is_gentle(part, final_time); };
+    if (GiNaC::is_a<GiNaC::symbol>(
+            formula)) // another stands for a function that nothing is known of
+        return formula.is_equal(symbols.x) || formula.is_equal(symbols.t);
+    if (!formula.has(symbols.x))
+        return true;
+    if (GiNaC::is_a<GiNaC::power>(formula))
+        return formula.op(1).info(GiNaC::info_flags::nonnegint) && formula.op(1) <= most_factors &&
+               gentle(formula.op(0));
+    if (GiNaC::is_a<GiNaC::add>(formula) ||
+        (GiNaC::is_a<GiNaC::mul>(formula) && formula.nops() <= most_factors))
+        return std::all_of(formula.begin(), formula.end(), gentle);
+    const bool entire = is_ex_the_function(formula, sin) || is_ex_the_function(formula, cos) ||
+                        is_ex_the_function(formula, exp);
+    // The poles of tanh are π/2 away from the real axis.
+    const bool with_poles = is_ex_the_function(formula, tanh);
+    return (entire || with_poles) &&
+           most_speed(formula.op(0), final_time) <= (entire ? fastest : fastest / 4.0);
+}
 
 SpaceFunction compiled_profile(const ex& formula) {
     return [tape = compile_tape({formula})](const Eigen::ArrayXd& x) -> Eigen::ArrayXd {
@@ -123,8 +176,11 @@ Field ProblemBuilder::field(const std::vector<ex>& formulas) {
     Field result;
     for (const Eigen::Index profile : order)
         result.terms.push_back({amplitude_index(amplitudes.at(profile)), profile});
-    if (!all_zero(rests))
+    if (!all_zero(rests)) {
         result.rest = compiled_rest(rests, phases_);
+        result.gentle = std::all_of(rests.begin(), rests.end(),
+                                    [&](const ex& rest) { return is_gentle(rest, final_time_); });
+    }
     return result;
 }
 
@@ -162,8 +218,10 @@ Eigen::Index ProblemBuilder::amplitude_index(const std::vector<ex>& formulas) {
 }
 
 void ProblemBuilder::finish(ProblemData& problem) const {
-    for (const Profile& profile : profiles_)
+    for (const Profile& profile : profiles_) {
         problem.profiles.push_back(profile.function);
+        problem.gentle_profiles.push_back(is_gentle(profile.formula, final_time_));
+    }
     problem.amplitude_count = static_cast<Eigen::Index>(amplitudes_.size());
     if (amplitudes_.empty())
         return;

@@ -1,9 +1,11 @@
 #include "studies/study.hpp"
 
+#include "core/run.hpp"
 #include "studies/phase_remarks.hpp"
 #include "studies/runs/beam_runs.hpp"
 
 #include <algorithm>
+#include <memory>
 #include <utility>
 
 namespace tvbeam {
@@ -71,6 +73,13 @@ std::vector<const ByKind::Entry*> in_running_order(const Scene& scene, const Met
     return order;
 }
 
+std::vector<Algorithm> algorithms_of(const Scene& scene) {
+    std::vector<Algorithm> algorithms{scene.scheme.algorithm};
+    for (const auto& series : scene.series())
+        algorithms.push_back(scheme_of(series.method).algorithm);
+    return algorithms;
+}
+
 } // namespace
 
 StudyResult run_study(const Scene& scene, const ProblemData& data, const Execution& execution) {
@@ -79,16 +88,20 @@ StudyResult run_study(const Scene& scene, const ProblemData& data, const Executi
     StudyResult result{.scene = scene,
                        .law_distance = data.exact ? data.exact->law_distance : 0.0};
     const Method own = method_of(scene.scheme);
+    ProblemData resolved = data;
+    if (scene.poses_problem())
+        resolved.resolution = std::make_shared<const Resolution>(resolution_of(
+            data, algorithms_of(scene), norms_of(scene.measures()), scene.longest_time()));
     // What errors are measured against; others look at times that a reference does not know.
-    ProblemData measured = data;
+    ProblemData measured = resolved;
     if (scene.reference && !scene.measures().empty())
         result.reference = measure_against_reference(scene, measured, execution);
-    const StudiedSolver solver = beam_runs(scene, data, measured);
+    const StudiedSolver solver = beam_runs(scene, resolved, measured);
     if (scene.poses_problem()) {
         result.left_out = left_out({scene, measured, solver, own, execution});
         result.remarks = phase_remarks(scene, data);
     }
-    const StudyContext context{scene, data, solver, own, execution};
+    const StudyContext context{scene, resolved, solver, own, execution};
     for (const auto* entry : in_running_order(scene, own))
         result.records.set(*entry->kind, entry->kind->run(entry->value, context));
     for (auto& [kind, record] : result.records.entries())

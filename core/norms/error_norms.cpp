@@ -1,6 +1,7 @@
 #include "core/norms/error_norms.hpp"
 
 #include "core/moment_form.hpp"
+#include "core/space/cells.hpp"
 #include "core/space/deflection.hpp"
 #include "core/space/quadrature.hpp"
 
@@ -20,17 +21,17 @@ bool curvature_splits(const ProblemData& data) {
            data.curvature_initial.is_separable();
 }
 
-/// The rule of the pointwise norms on one element. Where the exact solution is a computed one on a
-/// finer mesh, its kinks lie inside: each of its elements then gets the rule of its own, which is
+/// The mesh with the cells of the pointwise norms. Where the exact solution is a computed one on a
+/// finer mesh, its kinks lie inside: each of its elements is then a cell, on which the rule is
 /// exact for both.
-GaussRule pointwise_rule(const ExactSolution& exact, const Mesh& mesh) {
+Mesh pointwise_mesh(const ExactSolution& exact, const Mesh& mesh) {
     if (exact.elements == 0)
-        return element_rule();
+        return mesh;
     if (exact.elements % mesh.elements() != 0)
         throw std::invalid_argument("a solution on " + std::to_string(exact.elements) +
                                     " elements cannot be compared with one on " +
                                     std::to_string(mesh.elements()));
-    return element_rule().repeated(exact.elements / mesh.elements());
+    return with_equal_cells(mesh, exact.elements / mesh.elements());
 }
 
 /// The distinct profiles of some fields, with the functions that belong to them.
@@ -156,12 +157,12 @@ class ErrorNorms::Pointwise {
 public:
     Pointwise(const Beam& beam, const ProblemData& data, const Mesh& mesh,
               const QuantitySet& needed)
-        : beam_(beam), data_(data), mesh_(mesh), needed_(needed),
-          rule_(pointwise_rule(*data.exact, mesh)),
-          points_((rule_.points.matrix() * mesh.lengths.matrix().transpose()).array().rowwise() +
-                  mesh.nodes.head(mesh.elements()).transpose()),
-          weights_((rule_.weights.matrix() * mesh.lengths.matrix().transpose()).array()) {
-        const auto exact = fields();
+        : beam_(beam), data_(data), mesh_(pointwise_mesh(*data.exact, mesh)), needed_(needed),
+          cells_(integration_mesh(mesh_)), rule_(element_rule()),
+          points_((rule_.points.matrix() * cells_.lengths.matrix().transpose()).array().rowwise() +
+                  cells_.nodes.head(cells_.elements()).transpose()),
+          weights_((rule_.weights.matrix() * cells_.lengths.matrix().transpose()).array()) {
+        const auto exact = data.exact->fields();
         tables_.resize(data.profiles.size());
         for (std::size_t q = 0; q < exact.size(); ++q)
             if (needed_[q])
@@ -174,7 +175,7 @@ public:
 
     Squares squares(double t, const Solver& solver,
                     const Eigen::Ref<const Eigen::VectorXd>& amplitudes) {
-        const auto exact = fields();
+        const auto exact = data_.exact->fields();
         const Eigen::ArrayXd& xi = rule_.points;
         const Eigen::Index s = mesh_.elements();
         Squares result{};
@@ -191,14 +192,19 @@ public:
         if (needs(Quantity::theta) || needs(Quantity::theta_x)) {
             const Eigen::ArrayXd nodal =
                 solver.temperature().array() + beam_.theta_A * (1.0 - mesh_.nodes);
-            const auto left = nodal.head(s).matrix().transpose();
-            const auto right = nodal.tail(s).matrix().transpose();
-            if (needs(Quantity::theta))
-                integrate(Quantity::theta,
-                          ((1.0 - xi).matrix() * left + xi.matrix() * right).array());
+            Eigen::Array2Xd ends(2, s);
+            ends << nodal.head(s).transpose(), nodal.tail(s).transpose();
+            if (needs(Quantity::theta)) {
+                const Eigen::Array2Xd theta = at_cell_ends(mesh_, 0, ends);
+                integrate(Quantity::theta, ((1.0 - xi).matrix() * theta.row(0).matrix() +
+                                            xi.matrix() * theta.row(1).matrix())
+                                               .array());
+            }
             if (needs(Quantity::theta_x)) {
                 const Eigen::ArrayXd slope = (nodal.tail(s) - nodal.head(s)) / mesh_.lengths;
-                integrate(Quantity::theta_x, slope.transpose().replicate(xi.size(), 1));
+                ends << slope.transpose(), slope.transpose();
+                integrate(Quantity::theta_x,
+                          at_cell_ends(mesh_, 0, ends).row(0).replicate(xi.size(), 1));
             }
         }
         if (needs(Quantity::u) || needs(Quantity::u_x) || needs(Quantity::u_xx))
@@ -209,18 +215,13 @@ public:
 private:
     [[nodiscard]] bool needs(Quantity quantity) const { return needed_[index(quantity)]; }
 
-    [[nodiscard]] std::array<const Field*, 5> fields() const {
-        const ExactSolution& exact = *data_.exact;
-        return {&exact.theta, &exact.theta_x, &exact.u, &exact.u_x, &exact.u_xx};
-    }
-
     template <typename Integrate>
     void integrate_deflection(const Solver& solver, const Integrate& integrate) {
         const Eigen::ArrayXd& xi = rule_.points;
-        const Eigen::Index s = mesh_.elements();
-        const DiscontinuousLinear w = solver.curvature();
-        // On an element: U = U_l + h ξ U_l' + h² (w_l ξ²/2 + (w_r − w_l) ξ³/6).
-        const Eigen::RowVectorXd h = mesh_.lengths.matrix().transpose();
+        const Eigen::Index s = cells_.elements();
+        const DiscontinuousLinear w = at_cell_ends(mesh_, 0, solver.curvature());
+        // On a cell: U = U_l + h ξ U_l' + h² (w_l ξ²/2 + (w_r − w_l) ξ³/6).
+        const Eigen::RowVectorXd h = cells_.lengths.matrix().transpose();
         const Eigen::RowVectorXd left = w.row(0).matrix();
         const Eigen::RowVectorXd change = (w.row(1) - w.row(0)).matrix();
         const Eigen::RowVectorXd ones = Eigen::RowVectorXd::Ones(s);
@@ -230,7 +231,7 @@ private:
             integrate(Quantity::u_xx, (one * left + at * change).array());
         if (!needs(Quantity::u) && !needs(Quantity::u_x))
             return;
-        const Deflection nodal = deflection(mesh_, w);
+        const Deflection nodal = deflection(cells_, w);
         const Eigen::RowVectorXd value = nodal.value.head(s).transpose();
         const Eigen::RowVectorXd slope = nodal.slope.head(s).transpose();
         const Eigen::VectorXd half_square = (xi.square() / 2.0).matrix();
@@ -259,9 +260,10 @@ public:
 private:
     Beam beam_;
     const ProblemData& data_;
-    const Mesh& mesh_;
+    const Mesh mesh_;
     QuantitySet needed_;
-    GaussRule rule_;
+    const Mesh& cells_;
+    const GaussRule& rule_;
     Eigen::ArrayXXd points_;
     Eigen::ArrayXXd weights_;
     std::vector<Eigen::ArrayXXd> tables_; // φ_r at the points; empty where no norm needs it

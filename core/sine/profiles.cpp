@@ -1,5 +1,6 @@
 #include "core/sine/profiles.hpp"
 
+#include "core/space/cells.hpp"
 #include "core/space/linear_elements.hpp"
 #include "core/space/profile.hpp"
 #include "core/space/quadrature.hpp"
@@ -39,9 +40,8 @@ SpaceFunction without_ends(const SpaceFunction& phi, double left, double right) 
     };
 }
 
-/// Whether φ is linear, from its values at the nodes and one more in every element. The place of
-/// that one, a Gauss point, is irrational: a wave that the nodes alias to zero does not vanish
-/// there.
+/// Whether φ is linear, from its values at the nodes and one more in every cell. The place of that
+/// one, a Gauss point, is irrational: a wave that the nodes alias to zero does not vanish there.
 bool is_linear(const Mesh& mesh, const SpaceFunction& phi, const Eigen::ArrayXd& at_nodes,
                double bound) {
     const Eigen::Index s = mesh.elements();
@@ -52,7 +52,9 @@ bool is_linear(const Mesh& mesh, const SpaceFunction& phi, const Eigen::ArrayXd&
     };
     if (!vanishes(mesh.nodes, at_nodes))
         return false;
-    const Eigen::ArrayXd within = mesh.nodes.head(s) + element_rule().points(1) * mesh.lengths;
+    const Mesh& cells = integration_mesh(mesh);
+    const Eigen::ArrayXd within =
+        cells.nodes.head(cells.elements()) + element_rule().points(1) * cells.lengths;
     return vanishes(within, phi(within));
 }
 

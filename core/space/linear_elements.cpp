@@ -1,5 +1,6 @@
 #include "core/space/linear_elements.hpp"
 
+#include "core/space/cells.hpp"
 #include "core/space/quadrature.hpp"
 
 #include <algorithm>
@@ -18,11 +19,14 @@ Eigen::Array2Xd end_moments(const Mesh& mesh, const SpaceFunction& g) {
     Eigen::Array2Xd moments(2, mesh.elements());
     for_each_block(mesh, [&](Eigen::Index first, Eigen::Index count) {
         const Eigen::ArrayXd values = g(element_points(mesh, first, count).reshaped());
+        const CellRange cells = cells_of(mesh, first, count);
         const Eigen::Map<const Eigen::Matrix<double, element_rule_size, Eigen::Dynamic>> columns(
-            values.data(), element_rule_size, count);
+            values.data(), element_rule_size, cells.count);
         // A general product would be dearer than the values themselves.
-        moments.middleCols(first, count) = test.lazyProduct(columns).array().rowwise() *
-                                           mesh.lengths.segment(first, count).transpose();
+        moments.middleCols(first, count) = of_elements(
+            mesh, first, count,
+            test.lazyProduct(columns).array().rowwise() *
+                integration_mesh(mesh).lengths.segment(cells.first, cells.count).transpose());
     });
     return moments;
 }

@@ -20,7 +20,7 @@ Tridiagonal stiffness_matrix(const Mesh& mesh); ///< (χ_i', χ_j')
 using DiscontinuousLinear = Eigen::Array2Xd;
 
 /// (g, χ_i) for the hat functions χ_0 … χ_s of all nodes, from g at element_points; shape: s + 1.
-/// Exact for piecewise polynomials of degree 10.
+/// Exact for polynomials of degree 10 on each cell.
 Eigen::VectorXd hat_loads(const Mesh& mesh, const SpaceFunction& g);
 
 /// (p, χ_i) of a piecewise linear p; exact. shape: s + 1

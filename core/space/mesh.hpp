@@ -2,14 +2,20 @@
 
 #include <Eigen/Core>
 
+#include <memory>
 #include <vector>
 
 namespace tvbeam {
+
+struct Cells;
 
 /// A partition 0 = x_0 < x_1 < … < x_s = 1 of the beam; s ≥ 1.
 struct Mesh {
     Eigen::ArrayXd nodes;   ///< x_0 … x_s; shape: s + 1
     Eigen::ArrayXd lengths; ///< h_j = x_j − x_{j−1}, j = 1 … s; shape: s
+
+    /// The parts of the elements on which functions are integrated; null: the elements themselves.
+    std::shared_ptr<const Cells> cells = nullptr;
 
     [[nodiscard]] Eigen::Index elements() const { return lengths.size(); }
 

@@ -1,6 +1,7 @@
 #include "core/space/quadrature.hpp"
 
 #include "core/gsl_errors.hpp"
+#include "core/space/cells.hpp"
 
 #include <gsl/gsl_integration.h>
 
@@ -23,17 +24,6 @@ GaussRule GaussRule::of(Eigen::Index points) {
     return rule;
 }
 
-GaussRule GaussRule::repeated(Eigen::Index parts) const {
-    const auto count = static_cast<double>(parts);
-    GaussRule rule{Eigen::ArrayXd(parts * points.size()), Eigen::ArrayXd(parts * points.size())};
-    for (Eigen::Index part = 0; part < parts; ++part) {
-        const Eigen::Index first = part * points.size();
-        rule.points.segment(first, points.size()) = (points + static_cast<double>(part)) / count;
-        rule.weights.segment(first, points.size()) = weights / count;
-    }
-    return rule;
-}
-
 const GaussRule& element_rule() {
     static const GaussRule rule = GaussRule::of(element_rule_size);
     return rule;
@@ -41,6 +31,10 @@ const GaussRule& element_rule() {
 
 Eigen::ArrayXXd element_points(const Mesh& mesh, Eigen::Index first, Eigen::Index count) {
     const GaussRule& rule = element_rule();
+    if (mesh.cells) {
+        const CellRange cells = cells_of(mesh, first, count);
+        return element_points(mesh.cells->mesh, cells.first, cells.count);
+    }
     Eigen::ArrayXXd points(rule.points.size(), count);
     for (Eigen::Index j = 0; j < count; ++j)
         points.col(j) = mesh.nodes(first + j) + mesh.lengths(first + j) * rule.points;

@@ -13,17 +13,15 @@ struct GaussRule {
     Eigen::ArrayXd weights; ///< sum 1
 
     static GaussRule of(Eigen::Index points);
-
-    /// This rule on each of so many equal parts of [0, 1].
-    [[nodiscard]] GaussRule repeated(Eigen::Index parts) const;
 };
 
 /// The rule of every load and every error norm: degree 11 on each element, so that on ten elements
-/// the quadrature error of sin πx lies below round-off.
+/// the quadrature error of sin πx lies below round-off. What it cannot integrate on an element is
+/// integrated on the cells of it (Resolution).
 const GaussRule& element_rule();
 inline constexpr int element_rule_size = 6;
 
-/// The quadrature points of elements first … first + count − 1; shape: one column an element.
+/// The quadrature points of elements first … first + count − 1; shape: one column a cell.
 Eigen::ArrayXXd element_points(const Mesh& mesh, Eigen::Index first, Eigen::Index count);
 
 /// φ at element_points; shape as there.

@@ -99,6 +99,8 @@ Section ladder_section(const LadderResult& ladder, const LadderBlock& block, con
         if (rung.status != RungStatus::ok)
             add(Finding{fmt::format("s = {}, dt = {} {}: {}", rung.rung.elements,
                                     shortest(rung.rung.dt), name_of(rung.status), rung.reason)});
+    if (!ladder.quadrature_remark.empty())
+        add(Finding{ladder.quadrature_remark});
     if (!ladder.reference_remark.empty())
         add(Finding{ladder.reference_remark});
     for (const auto& norm : ladder.norms)

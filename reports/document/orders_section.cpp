@@ -19,8 +19,8 @@ std::vector<Block> rejections(const std::string& norm, const TwoTermFit& fit,
                               const std::vector<RungResult>& runs) {
     std::vector<Block> sentences;
     for (const Rejection why :
-         {Rejection::failed, Rejection::exact, Rejection::floor, Rejection::pre_asymptotic,
-          Rejection::too_fine, Rejection::outlier}) {
+         {Rejection::failed, Rejection::unresolved, Rejection::exact, Rejection::floor,
+          Rejection::pre_asymptotic, Rejection::too_fine, Rejection::outlier}) {
         std::string named;
         for (const auto& rejected : fit.rejected)
             if (rejected.why == why) {

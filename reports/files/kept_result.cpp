@@ -80,13 +80,21 @@ nlohmann::ordered_json kept(const RungResult& result) {
     Json errors = Json::array();
     for (const double error : result.errors)
         errors.push_back(number(error));
+    Json uncertainties = Json::array();
+    for (const double part : result.uncertainties)
+        uncertainties.push_back(number(part));
     Json counts = Json::object();
     for (const auto& [name, value] : result.counters)
         counts[name] = value;
-    return {{"elements", result.rung.elements}, {"steps", result.rung.steps},
-            {"dt", number(result.rung.dt)},     {"failed", result.status != RungStatus::ok},
-            {"reason", result.reason},          {"seconds", result.seconds},
-            {"counters", std::move(counts)},    {"errors", std::move(errors)}};
+    return {{"elements", result.rung.elements},
+            {"steps", result.rung.steps},
+            {"dt", number(result.rung.dt)},
+            {"failed", result.status != RungStatus::ok},
+            {"reason", result.reason},
+            {"seconds", result.seconds},
+            {"counters", std::move(counts)},
+            {"errors", std::move(errors)},
+            {"uncertainties", std::move(uncertainties)}};
 }
 
 RungResult kept_run(const nlohmann::ordered_json& json, const Rung& rung, std::size_t norms) {
@@ -116,6 +124,14 @@ RungResult kept_run(const nlohmann::ordered_json& json, const Rung& rung, std::s
         result.errors.push_back(number(error, "an error"));
         require(std::isfinite(result.errors.back()) && result.errors.back() >= 0.0,
                 "an error is not a norm");
+    }
+    const Json& uncertainties = member(json, "uncertainties");
+    require(uncertainties.is_array() &&
+                (uncertainties.empty() || uncertainties.size() == result.errors.size()),
+            "uncertainties are not one an error");
+    for (const auto& part : uncertainties) {
+        result.uncertainties.push_back(number(part, "an uncertainty"));
+        require(result.uncertainties.back() >= 0.0, "an uncertainty is not a part");
     }
     return result;
 }

@@ -46,7 +46,7 @@ Json json_of(const OrdersResult& orders, const OrdersBlock& block) {
     Json runs = Json::array();
     for (const auto& run : orders.runs) {
         Json entry = run_json(run);
-        entry["errors"] = errors_json(run, block.norms);
+        add_errors(entry, run, block.norms);
         runs.push_back(std::move(entry));
     }
     Json json{

@@ -18,7 +18,7 @@ Json json_of(const LadderResult& ladder, const LadderBlock& block) {
     Json rungs = Json::array();
     for (std::size_t i = 0; i < ladder.rungs.size(); ++i) {
         Json entry = run_json(ladder.rungs[i]);
-        entry["errors"] = errors_json(ladder.rungs[i], block.norms);
+        add_errors(entry, ladder.rungs[i], block.norms);
         Json orders = Json::object();
         Json printed = Json::object();
         Json predicted = Json::object();
@@ -48,6 +48,8 @@ Json json_of(const LadderResult& ladder, const LadderBlock& block) {
     if (block.printed)
         json["printed_source"] = block.printed->source;
     Json remarks = Json::array();
+    if (!ladder.quadrature_remark.empty())
+        remarks.push_back(ladder.quadrature_remark);
     if (!ladder.reference_remark.empty())
         remarks.push_back(ladder.reference_remark);
     for (const auto& norm : ladder.norms)

@@ -21,11 +21,12 @@ Json run_json(const RungResult& run) {
     return json;
 }
 
-Json errors_json(const RungResult& run, const std::vector<Measure>& measures) {
-    Json errors = Json::object();
+void add_errors(Json& entry, const RungResult& run, const std::vector<Measure>& measures) {
+    Json& errors = entry["errors"] = Json::object();
     for (std::size_t k = 0; k < measures.size(); ++k)
         errors[measures[k].name] = run.errors.empty() ? Json() : Json(run.errors[k]);
-    return errors;
+    for (std::size_t k = 0; k < run.uncertainties.size(); ++k)
+        entry["uncertainty"][measures[k].name] = run.uncertainties[k];
 }
 
 Json counters_json(const RungResult& run) {

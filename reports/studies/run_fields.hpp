@@ -12,7 +12,8 @@ namespace tvbeam {
 
 /// What every run of a study says of itself in JSON; and its errors by name, its counters.
 nlohmann::ordered_json run_json(const RungResult& run);
-nlohmann::ordered_json errors_json(const RungResult& run, const std::vector<Measure>& measures);
+void add_errors(nlohmann::ordered_json& entry, const RungResult& run,
+                const std::vector<Measure>& measures);
 nlohmann::ordered_json counters_json(const RungResult& run);
 
 /// A number, or null where there is none or it is not finite.

@@ -30,7 +30,7 @@ Json rows_of(const SchemeRuns& scheme, const std::vector<Measure>& norms) {
         const RungResult& run = scheme.runs[i];
         Json entry = run_json(run);
         entry.erase("iterations"); // among the counters
-        entry["errors"] = errors_json(run, norms);
+        add_errors(entry, run, norms);
         entry["seconds"] = json_of(scheme.timings[i]);
         entry["counters"] = counters_json(run);
         entry["counters"]["node_steps"] = node_steps(run.rung);

@@ -120,7 +120,7 @@ std::vector<GridValue> values_of(const std::vector<Refinement>& records,
     std::vector<GridValue> result;
     std::map<double, double> other; // the width that goes with it
     for (std::size_t i = 0; i < records.size(); ++i) {
-        const auto& [h, dt, error, seconds] = records[i];
+        const auto& [h, dt, error, seconds, uncertainty] = records[i];
         const double width = in_dt ? dt : h;
         result.push_back({width, values[i]});
         if (!other.emplace(width, in_dt || std::isnan(dt) ? 0.0 : dt).second)

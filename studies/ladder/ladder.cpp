@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <sstream>
 
 namespace tvbeam {
 
@@ -48,6 +49,25 @@ std::vector<RungResult> telling(const std::optional<ReferenceBlock>& reference,
     return result;
 }
 
+/// A sentence about the rungs whose errors quadrature leaves uncertain; empty when there are none.
+std::string quadrature_remark(const std::vector<RungResult>& rungs,
+                              const std::vector<Measure>& norms) {
+    std::ostringstream named;
+    named.precision(2);
+    for (const auto& run : rungs) {
+        const auto worst = std::max_element(run.uncertainties.begin(), run.uncertainties.end());
+        if (worst == run.uncertainties.end() || *worst <= 0.01)
+            continue;
+        const auto k = static_cast<std::size_t>(worst - run.uncertainties.begin());
+        named << (named.str().empty() ? "" : "; ") << "s = " << run.rung.elements << ": "
+              << norms[k].root() << " is uncertain by " << *worst << " of itself";
+    }
+    if (named.str().empty())
+        return {};
+    return "Quadrature does not resolve what is integrated, in loads or norms: " + named.str() +
+           ". Orders that these figures enter say nothing.";
+}
+
 } // namespace
 
 Series series_of(const LadderBlock& block, const Method& method) {
@@ -64,12 +84,14 @@ LadderResult analyse_ladder(const Series& series, std::vector<RungResult> rungs,
         const Measure& norm = series.measures[k];
         const TwoTermModel* model = orders != nullptr ? orders->model_of(norm) : nullptr;
         result.norms.push_back(analysed(norm, result.rungs, k, model, widths));
-        result.norms.back().remarks =
-            order_remarks(norm, root_records_of(remarked, k, norm), model);
+        auto roots = root_records_of(remarked, k, norm);
+        std::erase_if(roots, [](const Refinement& record) { return !record.is_resolved(); });
+        result.norms.back().remarks = order_remarks(norm, roots, model);
         if (auto remark = solver.remark ? solver.remark(series, result.rungs, k) : "";
             !remark.empty())
             result.norms.back().remarks.push_back(std::move(remark));
     }
+    result.quadrature_remark = quadrature_remark(result.rungs, series.measures);
     if (!series.measures.empty() && solver.reference)
         result.reference_remark = reference_remark(*solver.reference, result.rungs);
     return result;

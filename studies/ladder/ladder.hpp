@@ -25,7 +25,8 @@ struct LadderNorm {
 struct LadderResult {
     std::vector<RungResult> rungs;
     std::vector<LadderNorm> norms;
-    std::string reference_remark; ///< rungs too close to the reference; empty without such
+    std::string quadrature_remark; ///< rungs whose errors quadrature leaves uncertain; or empty
+    std::string reference_remark;  ///< rungs too close to the reference; empty without such
 };
 
 /// The runs that the block asks for.

@@ -34,6 +34,12 @@ struct Refinement {
     double error = std::numeric_limits<double>::quiet_NaN();
     /// what the run cost; NaN where it was not measured. No order depends on it.
     double seconds = std::numeric_limits<double>::quiet_NaN();
+    /// the part of the error that is uncertain for a reason that refinement does not know of, as
+    /// quadrature that does not resolve what it integrates; ≥ 0. No order depends on it.
+    double uncertainty = 0.0;
+
+    /// Whether the error is known well enough to show an order: to one per cent.
+    [[nodiscard]] bool is_resolved() const { return uncertainty <= 0.01; }
 };
 
 /// r > 1 where `to` is finer than `from`, r < 1 where it is coarser. The ratio of h where h

@@ -40,6 +40,10 @@ std::vector<std::size_t> usable(std::span<const Refinement> records,
             rejected.push_back({i, Rejection::exact, "the error is zero and has no logarithm"});
         else if (!is_positive(record.error))
             rejected.push_back({i, Rejection::failed, "no error: it is not a positive number"});
+        else if (!record.is_resolved())
+            rejected.push_back(
+                {i, Rejection::unresolved,
+                 with_number("the error is uncertain by %.1e of itself", record.uncertainty)});
         else
             result.push_back(i);
     }
@@ -274,6 +278,8 @@ const char* words_for(Rejection why) {
     switch (why) {
     case Rejection::failed:
         return "no error";
+    case Rejection::unresolved:
+        return "quadrature does not resolve what is integrated";
     case Rejection::exact:
         return "the error is zero";
     case Rejection::floor:

@@ -33,6 +33,7 @@ namespace tvbeam {
 
 enum class Rejection {
     failed,
+    unresolved, ///< quadrature leaves the error uncertain
     exact,
     floor,          ///< a coarser record has no greater error, where the model shrinks
     pre_asymptotic, ///< as coarse as the coarsest record used, or coarser

@@ -33,8 +33,8 @@ bool agree(double left, double right, double tolerance) {
     return std::abs(left - right) <= tolerance * std::max(std::abs(left), std::abs(right));
 }
 
-/// The rows that have an error, and the orders between them: a failed row in between is passed
-/// over.
+/// The rows that have an error that is known, and the orders between them: a failed row in between
+/// is passed over.
 struct Usable {
     std::vector<std::size_t> rows;
     std::vector<Refinement> records;
@@ -46,7 +46,7 @@ struct Usable {
 Usable usable_rows(std::span<const Refinement> ladder) {
     Usable usable;
     for (std::size_t i = 0; i < ladder.size(); ++i) {
-        if (!std::isfinite(ladder[i].error) || ladder[i].error <= 0)
+        if (!std::isfinite(ladder[i].error) || ladder[i].error <= 0 || !ladder[i].is_resolved())
             continue;
         usable.rows.push_back(i);
         usable.records.push_back(ladder[i]);
@@ -272,7 +272,10 @@ void prefer_model(const Usable& usable, const VerdictOptions& options,
             verdicts[i] = by_model(view, i, usable.size());
 }
 
-RowVerdict without_logarithm(double error) {
+RowVerdict unusable(const Refinement& record) {
+    const double error = record.error;
+    if (!std::isnan(error) && !record.is_resolved())
+        return {Verdict::unresolved, text("uncertain by %.1e of itself", record.uncertainty)};
     if (error == 0)
         return {Verdict::exact, "the error is zero"};
     if (std::isnan(error))
@@ -294,6 +297,8 @@ const char* name_of(Verdict verdict) {
         return "floor";
     case Verdict::diverging:
         return "diverging";
+    case Verdict::unresolved:
+        return "unresolved";
     case Verdict::exact:
         return "exact";
     case Verdict::failed:
@@ -305,7 +310,7 @@ const char* name_of(Verdict verdict) {
 LadderVerdict judge(std::span<const Refinement> ladder, const VerdictOptions& options) {
     LadderVerdict result;
     for (const auto& record : ladder)
-        result.rows.push_back(without_logarithm(record.error));
+        result.rows.push_back(unusable(record));
     const auto usable = usable_rows(ladder);
     if (usable.size() == 0)
         return result;

@@ -27,11 +27,13 @@ enum class Verdict {
     cancellation,   ///< two error terms take each other away
     floor,          ///< the error stands still: rounding, or a term that is not refined
     diverging,      ///< the error grows under refinement
-    exact,          ///< the error is zero
-    failed          ///< no error, or none that is a number
+    unresolved, ///< the error itself is uncertain (Refinement::uncertainty); confirms no other row
+    exact,      ///< the error is zero
+    failed      ///< no error, or none that is a number
 };
 
-/// "asymptotic", "pre-asymptotic", "cancellation", "floor", "diverging", "exact", "failed"
+/// "asymptotic", "pre-asymptotic", "cancellation", "floor", "diverging", "unresolved", "exact",
+/// "failed"
 const char* name_of(Verdict verdict);
 
 struct RowVerdict {

@@ -119,7 +119,7 @@ private:
     /// Adds weight times the solution of a run, coarser by the given factors, to all kept levels.
     std::string add_run(const Scene& scene, const ProblemData& data, Index in_h, std::int64_t in_dt,
                         double weight) {
-        const Mesh mesh = Mesh::uniform(block_.elements / in_h);
+        const Mesh mesh = data.resolution->on(Mesh::uniform(block_.elements / in_h));
         const double dt = dt_ * static_cast<double>(in_dt);
         try {
             const auto solver = make_solver(scene.beam, data, mesh, scene.scheme, dt, needs_);

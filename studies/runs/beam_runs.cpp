@@ -83,7 +83,9 @@ std::vector<Norm> norms_of(const std::vector<Measure>& measures) {
 }
 
 RungResult rung_result(const Rung& rung, const RunResult& run, double seconds) {
-    return {rung, status_of(run.status), run.reason, seconds, named(run.counters), run.errors};
+    return {rung,       status_of(run.status), run.reason,
+            seconds,    named(run.counters),   run.errors,
+            run.uncertainties};
 }
 
 StudiedSolver beam_runs(const Scene& scene, const ProblemData& data, const ProblemData& measured) {
@@ -100,8 +102,10 @@ StudiedSolver beam_runs(const Scene& scene, const ProblemData& data, const Probl
         const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
         RungResult result = rung_result(task.rung, run, elapsed.count());
         // What the norms show of the reference against itself is the rounding of its evaluation.
-        if (scene.reference && scene.reference->is(task.rung))
+        if (scene.reference && scene.reference->is(task.rung)) {
             std::fill(result.errors.begin(), result.errors.end(), 0.0);
+            result.uncertainties.clear();
+        }
         return result;
     };
     const auto remark = [&scene, &data](const Series& series, const std::vector<RungResult>& runs,

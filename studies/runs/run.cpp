@@ -43,11 +43,13 @@ std::vector<Refinement> records_of(const std::vector<RungResult>& rungs, std::si
     std::vector<Refinement> records;
     records.reserve(rungs.size());
     for (const auto& rung : rungs)
-        records.push_back({.h = 1.0 / static_cast<double>(rung.rung.elements),
-                           .dt = rung.rung.dt,
-                           .error = rung.errors.empty() ? std::numeric_limits<double>::quiet_NaN()
-                                                        : rung.errors[k],
-                           .seconds = rung.seconds});
+        records.push_back(
+            {.h = 1.0 / static_cast<double>(rung.rung.elements),
+             .dt = rung.rung.dt,
+             .error =
+                 rung.errors.empty() ? std::numeric_limits<double>::quiet_NaN() : rung.errors[k],
+             .seconds = rung.seconds,
+             .uncertainty = rung.uncertainties.empty() ? 0.0 : rung.uncertainties[k]});
     return records;
 }
 

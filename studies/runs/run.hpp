@@ -61,6 +61,9 @@ struct RungResult {
     double seconds = 0.0;    ///< wall clock, measuring included
     std::vector<Count> counters = {};
     std::vector<double> errors = {}; ///< one a measure; empty when failed
+    /// The part of each error that its solver knows to be uncertain, e.g. by its quadrature; empty:
+    /// none of any.
+    std::vector<double> uncertainties = {};
 
     /// A counter by its name; 0 where the solver has none of it.
     [[nodiscard]] std::int64_t count(std::string_view name) const;

@@ -338,6 +338,16 @@ BOOST_AUTO_TEST_CASE(failed_and_exact_runs_are_named_and_left_out) {
     BOOST_TEST(std::isnan(fit.residuals[3]));
 }
 
+BOOST_AUTO_TEST_CASE(records_whose_error_is_uncertain_are_rejected_as_such) {
+    auto records = grid([&](double h, double dt) { return cancelling.error(h, dt); });
+    records[6].error *= 1.02;
+    records[6].uncertainty = 0.02;
+    const auto fit = fit_two_term(records);
+    BOOST_TEST(fit.rejected.size() == 1);
+    BOOST_TEST(rejects(fit, 6, Rejection::unresolved));
+    BOOST_TEST(std::abs(fit.model.p - 2) < 1e-6);
+}
+
 // A floor at 1e-3 hides every error below it: those in the finest corner of the grid.
 BOOST_AUTO_TEST_CASE(records_on_a_rounding_floor_are_rejected_as_such) {
     const double level = 1e-3;

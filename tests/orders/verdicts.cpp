@@ -53,6 +53,9 @@ std::string word(const LadderVerdict& judged) {
         case Verdict::diverging:
             letters += 'd';
             break;
+        case Verdict::unresolved:
+            letters += 'u';
+            break;
         case Verdict::exact:
             letters += '0';
             break;
@@ -102,6 +105,20 @@ BOOST_AUTO_TEST_CASE(equal_errors_stand_on_a_floor) {
 BOOST_AUTO_TEST_CASE(a_zero_error_is_exact_and_the_rest_is_judged_without_it) {
     BOOST_TEST(word(halving({1.0, 0.5, 0.25, 0.0})) == "AAA0");
     BOOST_TEST(word(halving({0.0, 0.0})) == "00");
+}
+
+BOOST_AUTO_TEST_CASE(a_row_whose_error_is_uncertain_is_unresolved_and_confirms_no_other) {
+    auto ladder = with_orders({2, 2, 2});
+    for (auto& record : ladder)
+        record.uncertainty = 0.01; // one per cent moves an order by little
+    BOOST_TEST(word(ladder) == "AAAA");
+    ladder[0].uncertainty = 0.011;
+    BOOST_TEST(word(ladder) == "uAAA");
+    ladder[1].uncertainty = 5.0;
+    BOOST_TEST(word(ladder) == "uupp");
+    for (auto& record : ladder)
+        record.uncertainty = 1.0;
+    BOOST_TEST(word(ladder) == "uuuu");
 }
 
 BOOST_AUTO_TEST_CASE(a_failed_run_is_named_and_the_rest_is_judged_without_it) {
@@ -222,6 +239,7 @@ BOOST_AUTO_TEST_CASE(every_verdict_has_its_name) {
     BOOST_TEST(name_of(Verdict::cancellation) == "cancellation");
     BOOST_TEST(name_of(Verdict::floor) == "floor");
     BOOST_TEST(name_of(Verdict::diverging) == "diverging");
+    BOOST_TEST(name_of(Verdict::unresolved) == "unresolved");
     BOOST_TEST(name_of(Verdict::exact) == "exact");
     BOOST_TEST(name_of(Verdict::failed) == "failed");
 }
