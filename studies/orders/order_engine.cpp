@@ -286,7 +286,7 @@ std::optional<OrderEnsemble::Mixture> OrderEnsemble::mix(const Functional& numbe
         return std::nullopt;
     mean /= weights;
     const double spread = std::sqrt(std::max(0.0, square / weights - mean * mean));
-    const double factor = levels_.size() == 1 ? sequence_factor() : 1.0;
+    const double factor = levels_.size() == 1 ? sequence_factor() : tuning_.grid;
     return Mixture{mean, factor * spread + tuning_.narrowest};
 }
 

@@ -41,6 +41,9 @@ struct OrderTuning {
     double least_share = 0.15;
     /// Added to half the interval: what no change of window or model shows.
     double narrowest = 0.01;
+    /// Half of a grid's interval over the spread: with 1, one group of three schemes × two orders
+    /// of the tuned half holds 94 % only; with 1.2 all hold 96 % and more.
+    double grid = 1.2;
     /// Half of a sequence's interval over the spread: its windows are few and share their finest
     /// rows.
     double sequence = 3.0;
