@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <map>
 #include <utility>
 #include <vector>
@@ -18,7 +17,6 @@ namespace tvbeam {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double none = std::numeric_limits<double>::quiet_NaN();
 constexpr double least_order = 0.2;
 constexpr double greatest_order = 8;
 /// An interval is no narrower than this many roundings of the finest value.
@@ -41,6 +39,7 @@ struct LinearFit {
     double limit_error = infinity;
     double order = 0;
     double square = infinity; ///< sum of weighted squares
+    double finest = 0;        ///< the model's value at the finest level
     int dof = 0;
 };
 
@@ -72,6 +71,7 @@ LinearFit fit_at(std::span<const ValueRow> rows, const Eigen::VectorXd& weights,
                   .order = order,
                   .square = (right - design * x).squaredNorm(),
                   .dof = static_cast<int>(n) - model.parameters()};
+    fit.finest = rows.back().value + design.row(n - 1).dot(x) / std::sqrt(weights[n - 1]);
     if (fit.dof > 0) {
         const Eigen::MatrixXd root =
             qr.matrixQR().topRows(columns).template triangularView<Eigen::Upper>().solve(
@@ -316,62 +316,71 @@ std::optional<MethodLimit> celik_of(std::span<const ValueRow> levels) {
                        sign < 0 ? "oscillatory" : "f0 + C h^p"};
 }
 
+namespace {
+
+struct Candidate {
+    LinearFit fit;
+    double deviation = infinity;
+    std::string model;
+};
+
+/// With one set of weights, of sum one: the power where its order is from ½ to 2, else the best of
+/// the powers 1 and 2, and, where the order is less than ½, of both together.
+std::optional<Candidate> eca_hoekstra_fit(std::span<const ValueRow> levels,
+                                          const Eigen::VectorXd& weights) {
+    const auto n = static_cast<double>(levels.size());
+    const auto candidate = [&](const LimitModel& model,
+                               const char* name) -> std::optional<Candidate> {
+        const auto fit = fit_limit_model(levels, weights, model);
+        if (!fit || fit->dof < 1)
+            return std::nullopt;
+        return Candidate{*fit, std::sqrt(fit->square * n / fit->dof), name};
+    };
+    auto best = candidate({std::nullopt, false}, "f0 + C h^p");
+    const double order = best ? best->fit.order : 0;
+    if (best && order >= 0.5 && order <= 2)
+        return best;
+    best = candidate({1.0, false}, "f0 + C h");
+    const auto prefer = [&](const std::optional<Candidate>& other) {
+        if (other && (!best || other->deviation < best->deviation))
+            best = other;
+    };
+    prefer(candidate({2.0, false}, "f0 + C h^2"));
+    if (order < 0.5)
+        prefer(candidate({1.0, true}, "f0 + C h + D h^2"));
+    return best;
+}
+
+} // namespace
+
 std::optional<MethodLimit> eca_hoekstra_of(std::span<const ValueRow> levels) {
     const std::size_t n = levels.size();
     if (n < 4)
         return std::nullopt;
-    struct Candidate {
-        LinearFit fit;
-        double deviation;
-        double fitted; ///< at the finest level
-        std::string model;
-    };
-    Eigen::VectorXd by_width(static_cast<Eigen::Index>(n));
+    const Eigen::VectorXd equal =
+        Eigen::VectorXd::Constant(static_cast<Eigen::Index>(n), 1.0 / static_cast<double>(n));
+    Eigen::VectorXd by_width(equal.size());
     for (std::size_t i = 0; i < n; ++i)
         by_width[static_cast<Eigen::Index>(i)] = 1 / levels[i].h;
     by_width /= by_width.sum();
-    const Eigen::VectorXd equal =
-        Eigen::VectorXd::Constant(by_width.size(), 1.0 / static_cast<double>(n));
-    const auto best_of = [&](std::initializer_list<std::pair<LimitModel, const char*>> models,
-                             auto&& allowed) {
-        std::optional<Candidate> best;
-        for (const auto& [model, name] : models)
-            for (const Eigen::VectorXd& weights : {std::cref(by_width), std::cref(equal)}) {
-                const auto fit = fit_limit_model(levels, weights, model);
-                if (!fit || fit->dof < 1 || !allowed(*fit))
-                    continue;
-                // Their standard deviation: Σ w (…)² n / dof with weights of sum one.
-                const double deviation = std::sqrt(fit->square * static_cast<double>(n) / fit->dof);
-                if (!best || deviation < best->deviation)
-                    best = Candidate{*fit, deviation, 0, name};
-            }
-        return best;
-    };
-    auto best = best_of({{{std::nullopt, false}, "f0 + C h^p"}},
-                        [](const LinearFit& fit) { return fit.order >= 0.5 && fit.order <= 2; });
-    if (!best) {
-        const auto free = fit_limit_model(levels, equal, {std::nullopt, false});
-        const bool steep = free && free->order > 2;
-        best = steep ? best_of({{{1.0, false}, "f0 + C h"}, {{2.0, false}, "f0 + C h^2"}},
-                               [](const LinearFit&) { return true; })
-                     : best_of({{{1.0, false}, "f0 + C h"},
-                                {{2.0, false}, "f0 + C h^2"},
-                                {{1.0, true}, "f0 + C h + D h^2"}},
-                               [](const LinearFit&) { return true; });
-    }
+    auto best = eca_hoekstra_fit(levels, equal);
+    const auto weighted = eca_hoekstra_fit(levels, by_width);
+    if (weighted && (!best || weighted->deviation < best->deviation))
+        best = weighted;
     if (!best)
         return std::nullopt;
     const auto [low, high] =
         std::minmax_element(levels.begin(), levels.end(),
                             [](const auto& l, const auto& r) { return l.value < r.value; });
-    const double spacing = (high->value - low->value) / static_cast<double>(n - 1);
-    const double error = std::abs(levels.back().value - best->fit.limit);
-    // |f_1 − f_fit| is within the deviation and is taken as it.
-    const double uncertainty = best->deviation < spacing
-                                   ? 1.25 * error + 2 * best->deviation
-                                   : 3 * best->deviation / spacing * (error + 2 * best->deviation);
-    return MethodLimit{best->fit.limit, uncertainty,
-                       best->model == "f0 + C h + D h^2" ? none : best->fit.order, best->model};
+    const double range = (high->value - low->value) / static_cast<double>(n - 1);
+    const double finest = levels.back().value;
+    const double error = std::abs(best->fit.finest - best->fit.limit);
+    const double rest = best->deviation + std::abs(finest - best->fit.finest);
+    // Every order that is left is from ½ to 2, for which the factor of a good fit is 1.25.
+    const double uncertainty = best->deviation < range
+                                   ? 1.25 * error + rest
+                                   : 3 * best->deviation / range * (error + rest);
+    return MethodLimit{best->fit.limit, uncertainty, best->fit.order, best->model};
 }
 
 } // namespace tvbeam
