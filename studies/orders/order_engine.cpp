@@ -318,6 +318,7 @@ std::string OrderEnsemble::motion(Index width) const {
             ++count;
         }
     std::vector<double> means;
+    means.reserve(sums.size());
     for (const auto& [place, sum] : sums)
         means.push_back(sum.first / sum.second);
     if (means.size() < 2)
