@@ -23,7 +23,7 @@ constexpr int most_trials = 100;
 constexpr double smallest_step = 1e-10;
 constexpr double smallest_gradient = 1e-10;
 
-constexpr int most_parameters = 7;
+constexpr int most_parameters = 12;
 
 /// Below this the columns of J are one to working precision, and (JᵀJ)⁻¹ has no correct digit.
 constexpr double smallest_rcond = 1e-9;

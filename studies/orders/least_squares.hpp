@@ -35,7 +35,7 @@ struct LeastSquares {
     double standard_error(int k) const;
 };
 
-/// The best of what the starts lead to; all are of one length, of at most 7. None
+/// The best of what the starts lead to; all are of one length, of at most 12. None
 /// where there are fewer observations than parameters, or no start is admissible.
 std::optional<LeastSquares> least_squares(const ModelFunction& model, const Eigen::VectorXd& y,
                                           const Eigen::VectorXd& weights,

@@ -1,0 +1,386 @@
+#include "studies/orders/limit_engine.hpp"
+
+#include "studies/orders/extrapolation.hpp"
+
+#include <Eigen/QR>
+
+#include <gsl/gsl_cdf.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+#include <vector>
+
+namespace tvbeam {
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double least_order = 0.2;
+constexpr double greatest_order = 8;
+/// An interval is no narrower than this many roundings of the finest value.
+constexpr double roundings = 8;
+
+/// A model of f: powers of h beside the constant. One that is free is searched for.
+struct LimitModel {
+    std::optional<double> order; ///< none: free
+    bool next = false;           ///< a further term of one power more
+    bool alternating = false;    ///< C changes its sign from level to level
+    int parameters() const { return 2 + (order ? 0 : 1) + (next ? 1 : 0); }
+};
+
+const LimitModel limit_models[] = {{std::nullopt, false}, {1.0, false},
+                                   {2.0, false},          {1.0, true},
+                                   {std::nullopt, true},  {std::nullopt, false, true}};
+
+struct LinearFit {
+    double limit = 0;
+    double limit_error = infinity;
+    double order = 0;
+    double square = infinity; ///< sum of weighted squares
+    double finest = 0;        ///< the model's value at the finest level
+    int dof = 0;
+};
+
+using Rows = std::vector<ValueRow>;
+
+/// For a given order all else is linear.
+LinearFit fit_at(std::span<const ValueRow> rows, const Eigen::VectorXd& weights, double order,
+                 const LimitModel& model) {
+    const auto n = static_cast<Eigen::Index>(rows.size());
+    const int columns = model.next ? 3 : 2;
+    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 64, 3> design(n, columns);
+    Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 64, 1> right(n);
+    const double unit = rows.front().h;
+    for (Eigen::Index i = 0; i < n; ++i) {
+        const auto& row = rows[static_cast<std::size_t>(i)];
+        const double x = row.h / unit;
+        const double w = std::sqrt(weights[i]);
+        design(i, 0) = w;
+        design(i, 1) = w * std::pow(x, order);
+        if (model.alternating && i % 2 == 1)
+            design(i, 1) = -design(i, 1);
+        if (model.next)
+            design(i, 2) = design(i, 1) * x;
+        right[i] = w * (row.value - rows.back().value);
+    }
+    const Eigen::HouseholderQR<decltype(design)> qr(design);
+    const Eigen::VectorXd x = qr.solve(right);
+    LinearFit fit{.limit = rows.back().value + x[0],
+                  .order = order,
+                  .square = (right - design * x).squaredNorm(),
+                  .dof = static_cast<int>(n) - model.parameters()};
+    fit.finest = rows.back().value + design.row(n - 1).dot(x) / std::sqrt(weights[n - 1]);
+    if (fit.dof > 0) {
+        const Eigen::MatrixXd root =
+            qr.matrixQR().topRows(columns).template triangularView<Eigen::Upper>().solve(
+                Eigen::MatrixXd::Identity(columns, columns));
+        fit.limit_error = std::sqrt(fit.square / fit.dof) * root.row(0).norm();
+    }
+    return fit;
+}
+
+/// The best order within the bounds; none at a bound.
+std::optional<LinearFit> fit_limit_model(std::span<const ValueRow> rows,
+                                         const Eigen::VectorXd& weights, const LimitModel& model) {
+    if (static_cast<int>(rows.size()) < model.parameters())
+        return std::nullopt;
+    const auto at = [&](double p) { return fit_at(rows, weights, p, model); };
+    if (model.order)
+        return at(*model.order);
+    constexpr int net = 24;
+    const double step = std::log(greatest_order / least_order) / net;
+    int best = 0;
+    double least = infinity;
+    for (int k = 0; k <= net; ++k)
+        if (const double square = at(least_order * std::exp(k * step)).square; square < least) {
+            least = square;
+            best = k;
+        }
+    if (best == 0 || best == net)
+        return std::nullopt;
+    double low = least_order * std::exp((best - 1) * step);
+    double high = least_order * std::exp((best + 1) * step);
+    const double golden = (std::sqrt(5.0) - 1) / 2;
+    for (int k = 0; k < 40; ++k) {
+        const double left = high - golden * (high - low);
+        const double right = low + golden * (high - low);
+        (at(left).square < at(right).square ? high : low) =
+            at(left).square < at(right).square ? right : left;
+    }
+    auto fit = at((low + high) / 2);
+    // The standard error at the best order knows nothing of the order's own: that of the linearised
+    // model does.
+    if (fit.dof > 0) {
+        const double d = 1e-3 * fit.order;
+        const auto above = at(fit.order + d), below = at(fit.order - d);
+        const double curvature = (above.square + below.square - 2 * fit.square) / (d * d) / 2;
+        const double slope = (above.limit - below.limit) / (2 * d);
+        const double variance = fit.square / fit.dof;
+        if (curvature > 0)
+            fit.limit_error =
+                std::hypot(fit.limit_error, std::abs(slope) * std::sqrt(variance / curvature));
+    }
+    return fit;
+}
+
+/// Coarse to fine, finite, one row a width.
+Rows levels_of(std::span<const ValueRow> given) {
+    std::map<double, Rows, std::greater<>> by_width;
+    for (const auto& row : given)
+        if (row.h > 0 && std::isfinite(row.h) && std::isfinite(row.value))
+            by_width[row.h].push_back(row);
+    Rows levels;
+    for (const auto& [h, rows] : by_width) {
+        ValueRow mean{h, 0, 0};
+        for (const auto& row : rows) {
+            mean.value += row.value / static_cast<double>(rows.size());
+            mean.sigma += row.sigma * row.sigma;
+        }
+        mean.sigma = std::sqrt(mean.sigma) / static_cast<double>(rows.size());
+        levels.push_back(mean);
+    }
+    return levels;
+}
+
+Eigen::VectorXd weights_of(std::span<const ValueRow> rows) {
+    Eigen::VectorXd weights(static_cast<Eigen::Index>(rows.size()));
+    for (Eigen::Index i = 0; i < weights.size(); ++i) {
+        const double sigma = rows[static_cast<std::size_t>(i)].sigma;
+        if (!(sigma > 0) || !std::isfinite(sigma))
+            return Eigen::VectorXd::Ones(weights.size());
+        weights[i] = 1 / (sigma * sigma);
+    }
+    return weights / weights.mean();
+}
+
+struct Weighed {
+    double value = 0;
+    double unit = 0;
+};
+
+struct Mean {
+    double value = 0;
+    double spread = 0;
+};
+
+std::optional<Mean> mean_of(const std::vector<Weighed>& all, double agreement) {
+    double weights = 0, mean = 0, square = 0;
+    if (all.empty())
+        return std::nullopt;
+    const double origin = all.front().value;
+    for (const auto& one : all) {
+        const double weight = 1 / std::pow(one.unit + agreement, 2);
+        weights += weight;
+        mean += weight * (one.value - origin);
+        square += weight * (std::pow(one.value - origin, 2) + one.unit * one.unit);
+    }
+    mean /= weights;
+    return Mean{origin + mean, std::sqrt(std::max(0.0, square / weights - mean * mean))};
+}
+
+double student(int dof) {
+    return dof < 1 ? infinity : gsl_cdf_tdist_Pinv(0.975, dof) / gsl_cdf_ugaussian_Pinv(0.975);
+}
+
+/// All windows that end at the finest level, each compared with the one a level coarser.
+void weigh(const Rows& levels, const LimitModel& model, std::vector<Weighed>& limits,
+           std::vector<Weighed>& orders) {
+    const std::size_t n = levels.size();
+    for (std::size_t length = static_cast<std::size_t>(model.parameters()); length <= n; ++length) {
+        const std::span<const ValueRow> window(levels.data() + (n - length), length);
+        const auto fit = fit_limit_model(window, weights_of(window), model);
+        if (!fit)
+            continue;
+        double change = 0, order_change = 0;
+        bool compared = false;
+        // The same length one level coarser; where there is none, its rows but for the finest.
+        const std::size_t shorter = length < n ? length : length - 1;
+        const std::span<const ValueRow> before(levels.data() + (n - 1 - shorter), shorter);
+        if (const auto coarser = fit_limit_model(before, weights_of(before), model)) {
+            const double ratio = levels[n - 2].h / levels[n - 1].h;
+            // A limit with the wrong order goes on like h^½ at worst, one with the right order like
+            // the next term.
+            const double rate = model.order ? std::sqrt(ratio) : ratio;
+            change = std::abs(coarser->limit - fit->limit) / (rate - 1);
+            order_change = std::abs(coarser->order - fit->order);
+            compared = true;
+        }
+        const double error = fit->dof > 0 ? fit->limit_error * student(fit->dof) : 0.0;
+        if (!compared || !std::isfinite(error))
+            continue;
+        limits.push_back({fit->limit, std::hypot(change, error)});
+        if (!model.order)
+            orders.push_back({fit->order, order_change});
+    }
+}
+
+/// Do the last three steps, or the two that there are, go to and fro?
+bool alternates(const Rows& levels) {
+    const std::size_t n = levels.size();
+    const auto step = [&](std::size_t back) {
+        return levels[n - back].value - levels[n - back - 1].value;
+    };
+    return step(1) * step(2) < 0 && (n < 4 || step(2) * step(3) < 0);
+}
+
+} // namespace
+
+LimitEstimate estimate_limit(std::span<const ValueRow> rows, const LimitTuning& tuning) {
+    const Rows levels = levels_of(rows);
+    LimitEstimate result;
+    if (levels.size() < 3) {
+        result.limit.status = result.order.status =
+            "a limit needs values at three different widths";
+        return result;
+    }
+    result.gci = gci_of(levels);
+    result.celik = celik_of(levels);
+    result.eca_hoekstra = eca_hoekstra_of(levels);
+    std::vector<Weighed> limits, orders;
+    for (const auto& model : limit_models)
+        if (!model.alternating || alternates(levels))
+            weigh(levels, model, limits, orders);
+    const double last_step = std::abs(levels[levels.size() - 2].value - levels.back().value);
+    const auto spare = static_cast<double>(levels.size()) - 2;
+    const double factor = tuning.factor * (1 + tuning.few_levels / (spare * spare));
+    if (const auto mean = mean_of(
+            limits, std::max(tuning.agreement * last_step, std::numeric_limits<double>::min()))) {
+        const double half =
+            factor * mean->spread + tuning.narrowest * std::abs(mean->value - levels.back().value);
+        result.limit = {.value = mean->value,
+                        .low = mean->value - half,
+                        .high = mean->value + half,
+                        .determined = true,
+                        .share = 1,
+                        .status = ""};
+        result.uncertainty = std::abs(mean->value - levels.back().value) + half;
+        result.basis =
+            std::to_string(levels.size()) + " levels, " + std::to_string(limits.size()) + " fits";
+    } else {
+        result.limit.status = "no model fits";
+    }
+    if (const auto mean = mean_of(orders, 1e-3)) {
+        const double rounding =
+            roundings * std::numeric_limits<double>::epsilon() * std::abs(levels.back().value);
+        const double half = factor * mean->spread +
+                            tuning.narrowest * std::abs(mean->value - levels.back().value) +
+                            rounding;
+        result.order = {.value = mean->value,
+                        .low = mean->value - half,
+                        .high = mean->value + half,
+                        .determined = half <= OrderTuning{}.widest && mean->value > half,
+                        .share = 1,
+                        .status = ""};
+    }
+    if (!result.order.determined)
+        result.order.status = "models and windows do not agree";
+    return result;
+}
+
+std::optional<MethodLimit> gci_of(std::span<const ValueRow> levels) {
+    if (levels.size() < 3)
+        return std::nullopt;
+    const auto grid = [&](std::size_t back) {
+        return GridValue{levels[levels.size() - back].h, levels[levels.size() - back].value};
+    };
+    const auto finest = richardson(grid(3), grid(2), grid(1));
+    if (!finest || !(finest->order > 0))
+        return std::nullopt;
+    return MethodLimit{finest->limit, finest->gci, finest->order, "f0 + C h^p"};
+}
+
+std::optional<MethodLimit> celik_of(std::span<const ValueRow> levels) {
+    if (levels.size() < 3)
+        return std::nullopt;
+    const auto& fine = levels[levels.size() - 1];
+    const auto& medium = levels[levels.size() - 2];
+    const auto& coarse = levels[levels.size() - 3];
+    const double r21 = medium.h / fine.h;
+    const double r32 = coarse.h / medium.h;
+    const double e21 = medium.value - fine.value;
+    const double e32 = coarse.value - medium.value;
+    if (e21 == 0 || e32 == 0)
+        return std::nullopt;
+    const double sign = e32 / e21 < 0 ? -1 : 1;
+    double p = std::abs(std::log(std::abs(e32 / e21))) / std::log(r21);
+    for (int k = 0; k < 200 && std::isfinite(p); ++k)
+        p = std::abs(std::log(std::abs(e32 / e21)) +
+                     std::log((std::pow(r21, p) - sign) / (std::pow(r32, p) - sign))) /
+            std::log(r21);
+    if (!(p > 0) || !std::isfinite(p))
+        return std::nullopt;
+    const double gain = std::pow(r21, p) - 1;
+    return MethodLimit{fine.value - e21 / gain, 1.25 * std::abs(e21) / gain, p,
+                       sign < 0 ? "oscillatory" : "f0 + C h^p"};
+}
+
+namespace {
+
+struct Candidate {
+    LinearFit fit;
+    double deviation = infinity;
+    std::string model;
+};
+
+/// With one set of weights, of sum one: the power where its order is from ½ to 2, else the best of
+/// the powers 1 and 2, and, where the order is less than ½, of both together.
+std::optional<Candidate> eca_hoekstra_fit(std::span<const ValueRow> levels,
+                                          const Eigen::VectorXd& weights) {
+    const auto n = static_cast<double>(levels.size());
+    const auto candidate = [&](const LimitModel& model,
+                               const char* name) -> std::optional<Candidate> {
+        const auto fit = fit_limit_model(levels, weights, model);
+        if (!fit || fit->dof < 1)
+            return std::nullopt;
+        return Candidate{*fit, std::sqrt(fit->square * n / fit->dof), name};
+    };
+    auto best = candidate({std::nullopt, false}, "f0 + C h^p");
+    const double order = best ? best->fit.order : 0;
+    if (best && order >= 0.5 && order <= 2)
+        return best;
+    best = candidate({1.0, false}, "f0 + C h");
+    const auto prefer = [&](const std::optional<Candidate>& other) {
+        if (other && (!best || other->deviation < best->deviation))
+            best = other;
+    };
+    prefer(candidate({2.0, false}, "f0 + C h^2"));
+    if (order < 0.5)
+        prefer(candidate({1.0, true}, "f0 + C h + D h^2"));
+    return best;
+}
+
+} // namespace
+
+std::optional<MethodLimit> eca_hoekstra_of(std::span<const ValueRow> levels) {
+    const std::size_t n = levels.size();
+    if (n < 4)
+        return std::nullopt;
+    const Eigen::VectorXd equal =
+        Eigen::VectorXd::Constant(static_cast<Eigen::Index>(n), 1.0 / static_cast<double>(n));
+    Eigen::VectorXd by_width(equal.size());
+    for (std::size_t i = 0; i < n; ++i)
+        by_width[static_cast<Eigen::Index>(i)] = 1 / levels[i].h;
+    by_width /= by_width.sum();
+    auto best = eca_hoekstra_fit(levels, equal);
+    const auto weighted = eca_hoekstra_fit(levels, by_width);
+    if (weighted && (!best || weighted->deviation < best->deviation))
+        best = weighted;
+    if (!best)
+        return std::nullopt;
+    const auto [low, high] =
+        std::minmax_element(levels.begin(), levels.end(),
+                            [](const auto& l, const auto& r) { return l.value < r.value; });
+    const double range = (high->value - low->value) / static_cast<double>(n - 1);
+    const double finest = levels.back().value;
+    const double error = std::abs(best->fit.finest - best->fit.limit);
+    const double rest = best->deviation + std::abs(finest - best->fit.finest);
+    // Every order that is left is from ½ to 2, for which the factor of a good fit is 1.25.
+    const double uncertainty = best->deviation < range
+                                   ? 1.25 * error + rest
+                                   : 3 * best->deviation / range * (error + rest);
+    return MethodLimit{best->fit.limit, uncertainty, best->fit.order, best->model};
+}
+
+} // namespace tvbeam

@@ -1,0 +1,66 @@
+/// What a sequence of computed numbers says of its limit, where no exact solution is known: one
+/// answer with an interval, and what the methods that have names say, beside it.
+///
+/// Models f(h) = f_0 + C h^p (p free, 1 or 2; where the steps go to and fro also with a C that
+/// does), f_0 + C h + D h² and f_0 + C h^p (1 + D h) are fitted to windows of consecutive levels. A
+/// fit is believed as far as its limit stays where it is when the window moves by one level, as its
+/// standard error allows, and as far as the change would still grow if the sequence went on (with δ
+/// from one window to the next, r their ratio of widths):
+///
+///     u_m² = (t_{dof} s_m / 1.96)² + (δ_m / (r − 1))²        (√r for models with a given p).
+///
+/// The limit is the mean with weights 1 / u_m², its interval their spread, as in order_engine.hpp.
+#pragma once
+
+#include "studies/orders/order_engine.hpp"
+
+#include <limits>
+#include <optional>
+#include <span>
+#include <string>
+
+namespace tvbeam {
+
+struct ValueRow {
+    double h = 0;
+    double value = 0;
+    double sigma = std::numeric_limits<double>::quiet_NaN(); ///< standard deviation; NaN: unknown
+};
+
+/// A named method's own figure: the limit it goes to and its uncertainty of the finest value.
+struct MethodLimit {
+    double limit = 0;
+    double uncertainty = 0;
+    double order = 0; ///< NaN where the model has none
+    std::string model;
+};
+
+struct LimitTuning {
+    double factor = 1.1;     ///< half of the interval over the spread
+    double few_levels = 3.0; ///< … and this much more over the square of the levels less two
+    double narrowest = 0.01; ///< of the distance from the finest value to the limit
+    double agreement = 0.01; ///< added to u_m in the weights, of the last step between levels
+};
+
+struct LimitEstimate {
+    OrderInterval limit;
+    OrderInterval order;
+    double uncertainty =
+        std::numeric_limits<double>::infinity(); ///< of the finest value, 95 %, half width
+    std::string basis;                           ///< what it rests on: "5 levels, 21 fits"
+    std::optional<MethodLimit> gci;              ///< Roache 1994, 1997
+    std::optional<MethodLimit> celik;            ///< Celik et al. 2008
+    std::optional<MethodLimit> eca_hoekstra;     ///< Eça and Hoekstra 2014
+};
+
+/// Rows that are not finite are passed over; rows of one width are averaged.
+LimitEstimate estimate_limit(std::span<const ValueRow> rows, const LimitTuning& tuning = {});
+
+/// The three finest levels; none where they oscillate or stand still.
+std::optional<MethodLimit> gci_of(std::span<const ValueRow> levels);
+/// The same levels, with the order of |ε_32 / ε_21| and its sign (their eq. 3): oscillation too.
+std::optional<MethodLimit> celik_of(std::span<const ValueRow> levels);
+/// Least squares, weighted by 1/h and not, of the four models of Eça and Hoekstra; four levels.
+std::optional<MethodLimit> eca_hoekstra_of(std::span<const ValueRow> levels);
+
+} // namespace tvbeam

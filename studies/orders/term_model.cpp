@@ -1,0 +1,322 @@
+#include "studies/orders/term_model.hpp"
+
+#include <Eigen/QR>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace tvbeam {
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+/// Cauchy's function with this is 95 % efficient under normal scatter.
+constexpr double cauchy = 2.385;
+/// The median of |z| over the standard deviation of a normal z.
+constexpr double median_of_normal = 0.6745;
+/// Scatter of ln e below this is rounding.
+constexpr double least_scatter = 1e-7;
+constexpr int reweightings = 4;
+/// Most starts end in the same place.
+constexpr std::size_t most_starts = 3;
+
+/// Where the parameters stand in θ.
+class Layout {
+public:
+    Layout(const TermShape& shape, Eigen::Index widths)
+        : shape_(shape), widths_(widths), size_(2 * widths + widths * (widths - 1) / 2) {
+        for (const double power : shape.next)
+            next_.push_back(power == TermShape::none ? -1 : size_++);
+        if (shape.floor)
+            floor_ = size_++;
+    }
+    Eigen::Index widths() const { return widths_; }
+    Eigen::Index pair(Eigen::Index i, Eigen::Index j) const {
+        return 2 * widths_ + i * (2 * widths_ - i - 1) / 2 + (j - i - 1);
+    }
+    Eigen::Index next(Eigen::Index i) const { return next_[static_cast<std::size_t>(i)]; }
+    double power(Eigen::Index i) const { return shape_.next[static_cast<std::size_t>(i)]; }
+    Eigen::Index floor() const { return floor_; }
+    Eigen::Index size() const { return size_; }
+
+private:
+    const TermShape& shape_;
+    Eigen::Index widths_;
+    Eigen::Index size_;
+    std::vector<Eigen::Index> next_;
+    Eigen::Index floor_ = -1;
+};
+
+/// T_i at one row, and its derivatives by p_i and c_i; that by ln a_i is T_i itself.
+struct Term {
+    double value = 0;
+    double by_order = 0;
+    double by_next = 0;
+};
+
+Term term_at(const Layout& layout, const Eigen::VectorXd& theta, Eigen::Index i, double log_x) {
+    const double plain = std::exp(theta[2 * i] + theta[2 * i + 1] * log_x);
+    const Eigen::Index k = layout.next(i);
+    if (k < 0)
+        return {plain, plain * log_x, 0};
+    const double next =
+        layout.power(i) == TermShape::logarithm ? log_x : std::exp(layout.power(i) * log_x);
+    const double value = plain * (1 + theta[k] * next);
+    return {value, value * log_x, plain * next};
+}
+
+Term term_of(const Layout& layout, const Eigen::VectorXd& theta, Eigen::Index i, double log_x,
+             double log_reference) {
+    const Term here = term_at(layout, theta, i, log_x);
+    if (std::isnan(log_reference))
+        return here;
+    const Term there = term_at(layout, theta, i, log_reference);
+    return {here.value - there.value, here.by_order - there.by_order, here.by_next - there.by_next};
+}
+
+double reference_of(const Eigen::VectorXd& log_reference, Eigen::Index i) {
+    return log_reference.size() == 0 ? std::numeric_limits<double>::quiet_NaN() : log_reference[i];
+}
+
+/// ln e at one row, and its gradient where that is not null; NaN where the model has no error.
+double log_error_at(const Layout& layout, const Eigen::VectorXd& theta,
+                    const Eigen::Ref<const Eigen::VectorXd>& log_widths,
+                    const Eigen::VectorXd& log_reference,
+                    const std::function<void(Eigen::Index, double)>* gradient) {
+    constexpr Eigen::Index most = 8;
+    const Eigen::Index d = layout.widths();
+    Term terms[most];
+    double pull[most]; // Σ_j ρ_ij T_j, half the derivative of e² by T_i
+    for (Eigen::Index i = 0; i < d; ++i) {
+        terms[i] = term_of(layout, theta, i, log_widths[i], reference_of(log_reference, i));
+        pull[i] = terms[i].value;
+    }
+    for (Eigen::Index i = 0; i < d; ++i)
+        for (Eigen::Index j = i + 1; j < d; ++j) {
+            const double rho = std::sin(theta[layout.pair(i, j)]);
+            pull[i] += rho * terms[j].value;
+            pull[j] += rho * terms[i].value;
+        }
+    const double floor = layout.floor() < 0 ? 0.0 : std::exp(2 * theta[layout.floor()]);
+    double square = floor;
+    for (Eigen::Index i = 0; i < d; ++i) {
+        square += terms[i].value * pull[i];
+        if (!(terms[i].value > 0))
+            return std::numeric_limits<double>::quiet_NaN();
+    }
+    if (gradient != nullptr) {
+        for (Eigen::Index i = 0; i < d; ++i) {
+            const double by_term = pull[i] / square;
+            (*gradient)(2 * i, by_term * terms[i].value);
+            (*gradient)(2 * i + 1, by_term * terms[i].by_order);
+            if (layout.next(i) >= 0)
+                (*gradient)(layout.next(i), by_term * terms[i].by_next);
+            for (Eigen::Index j = i + 1; j < d; ++j)
+                (*gradient)(layout.pair(i, j), std::cos(theta[layout.pair(i, j)]) * terms[i].value *
+                                                   terms[j].value / square);
+        }
+        if (layout.floor() >= 0)
+            (*gradient)(layout.floor(), floor / square);
+    }
+    return square > 0 ? std::log(square) / 2 : std::numeric_limits<double>::quiet_NaN();
+}
+
+ModelFunction model_of(const Layout& layout, const TermRows& rows) {
+    return [&layout, &rows](const Eigen::VectorXd& theta, Eigen::VectorXd& values,
+                            Eigen::MatrixXd* jacobian) {
+        for (Eigen::Index r = 0; r < rows.size(); ++r) {
+            const std::function<void(Eigen::Index, double)> set =
+                [r, jacobian](Eigen::Index k, double value) { (*jacobian)(r, k) = value; };
+            values[r] = log_error_at(layout, theta, rows.log_widths.row(r).transpose(),
+                                     rows.log_reference, jacobian == nullptr ? nullptr : &set);
+        }
+    };
+}
+
+struct Start {
+    Eigen::VectorXd theta;
+    double left = infinity; ///< how far off it is: the sum of squares of e²_model / e² − 1
+};
+
+/// For given orders the squares are linear in a_i a_j ρ_ij.
+std::optional<Start> start_at(const Layout& layout, const TermRows& rows,
+                              const Eigen::VectorXd& orders) {
+    const Eigen::Index d = layout.widths();
+    Eigen::MatrixXd powers(rows.size(), d);
+    for (Eigen::Index i = 0; i < d; ++i) {
+        powers.col(i) = (orders[i] * rows.log_widths.col(i)).array().exp();
+        const double reference = reference_of(rows.log_reference, i);
+        if (!std::isnan(reference))
+            powers.col(i).array() -= std::exp(orders[i] * reference);
+        powers.col(i).array() /= rows.log_errors.array().exp();
+    }
+    Eigen::MatrixXd design(rows.size(), d + d * (d - 1) / 2);
+    design.leftCols(d) = powers.cwiseAbs2();
+    Eigen::Index column = d;
+    for (Eigen::Index i = 0; i < d; ++i)
+        for (Eigen::Index j = i + 1; j < d; ++j)
+            design.col(column++) = powers.col(i).cwiseProduct(powers.col(j));
+    const Eigen::VectorXd ones = Eigen::VectorXd::Ones(rows.size());
+    const Eigen::VectorXd x = design.colPivHouseholderQr().solve(ones);
+    if (!x.allFinite())
+        return std::nullopt;
+    Start start{Eigen::VectorXd::Zero(layout.size()), (design * x - ones).squaredNorm()};
+    const double least = std::max(1e-12 * x.head(d).cwiseAbs().maxCoeff(), 1e-300);
+    for (Eigen::Index i = 0; i < d; ++i) {
+        start.theta[2 * i] = std::log(std::max(x[i], least)) / 2;
+        start.theta[2 * i + 1] = orders[i];
+        if (x[i] <= 0)
+            start.left += 1; // no size has such a square: better starts come first
+    }
+    column = d;
+    for (Eigen::Index i = 0; i < d; ++i)
+        for (Eigen::Index j = i + 1; j < d; ++j) {
+            const double rho = x[column++] / 2 / std::exp(start.theta[2 * i] + start.theta[2 * j]);
+            start.theta[layout.pair(i, j)] = std::asin(std::clamp(rho, -0.99, 0.99));
+        }
+    if (layout.floor() >= 0)
+        start.theta[layout.floor()] = rows.log_errors.minCoeff() - 1;
+    return start;
+}
+
+/// The best few of a net of orders.
+std::vector<Eigen::VectorXd> starts_of(const Layout& layout, const TermRows& rows) {
+    const std::vector<double> net{0.5, 1.0, 1.5, 2.0, 3.0, 4.0};
+    const Eigen::Index d = layout.widths();
+    std::vector<Start> found;
+    std::vector<std::size_t> at(static_cast<std::size_t>(d), 0);
+    for (std::size_t i = 0; i < at.size();) {
+        Eigen::VectorXd orders(d);
+        for (Eigen::Index k = 0; k < d; ++k)
+            orders[k] = net[at[static_cast<std::size_t>(k)]];
+        if (auto start = start_at(layout, rows, orders))
+            found.push_back(std::move(*start));
+        for (i = 0; i < at.size() && ++at[i] == net.size(); ++i)
+            at[i] = 0;
+    }
+    std::stable_sort(found.begin(), found.end(),
+                     [](const Start& l, const Start& r) { return l.left < r.left; });
+    std::vector<Eigen::VectorXd> starts;
+    for (std::size_t k = 0; k < std::min(most_starts, found.size()); ++k)
+        starts.push_back(std::move(found[k].theta));
+    return starts;
+}
+
+/// A shorter model's θ with next terms of size zero, and a floor far below.
+Eigen::VectorXd lengthened(const Layout& layout, const TermRows& rows, const TermFit& simpler) {
+    Eigen::VectorXd theta = Eigen::VectorXd::Zero(layout.size());
+    const Eigen::Index shared = layout.pair(layout.widths() - 1, layout.widths());
+    theta.head(shared) = simpler.theta.head(shared);
+    if (layout.floor() >= 0)
+        theta[layout.floor()] = rows.log_errors.minCoeff() - 1;
+    return theta;
+}
+
+double median_of(Eigen::VectorXd values) {
+    std::sort(values.begin(), values.end());
+    const auto n = values.size();
+    return n % 2 == 1 ? values[n / 2] : (values[n / 2 - 1] + values[n / 2]) / 2;
+}
+
+/// Cauchy's weights again and again, from the least squares on.
+LeastSquares reweighted(const ModelFunction& model, const TermRows& rows, LeastSquares fit) {
+    if (fit.dof < 1)
+        return fit;
+    // The median of the residuals is too small by what the parameters take up.
+    const double freedom =
+        std::sqrt(static_cast<double>(rows.size()) / static_cast<double>(fit.dof));
+    for (int k = 0; k < reweightings; ++k) {
+        const Eigen::ArrayXd distance =
+            fit.residuals.cwiseAbs().cwiseProduct(rows.weights.cwiseSqrt());
+        const double scatter =
+            std::max(median_of(distance) / median_of_normal * freedom, least_scatter);
+        const Eigen::VectorXd weights =
+            rows.weights.array() / (1 + (distance / (cauchy * scatter)).square());
+        const std::vector<Eigen::VectorXd> from{fit.theta};
+        auto next = least_squares(model, rows.log_errors, weights, from);
+        if (!next)
+            break;
+        constexpr double close = 1e-5;
+        const bool stands = (next->theta - fit.theta).lpNorm<Eigen::Infinity>() < close;
+        fit = std::move(*next);
+        if (stands)
+            break;
+    }
+    return fit;
+}
+
+} // namespace
+
+TermRows TermRows::subset(const std::vector<Eigen::Index>& chosen) const {
+    return {log_widths(chosen, Eigen::all), log_errors(chosen), weights(chosen), log_reference};
+}
+
+TermRows TermRows::along(Eigen::Index width) const {
+    TermRows result{log_widths.col(width), log_errors, weights};
+    if (log_reference.size() > 0)
+        result.log_reference = log_reference.segment(width, 1);
+    return result;
+}
+
+int TermShape::parameters() const {
+    return static_cast<int>(Layout(*this, static_cast<Eigen::Index>(next.size())).size());
+}
+
+FittedNumber TermFit::order(Eigen::Index width) const {
+    return {theta[2 * width + 1], std::sqrt(covariance(2 * width + 1, 2 * width + 1))};
+}
+
+double TermFit::size(Eigen::Index width) const {
+    return std::exp(theta[2 * width] - theta[2 * width + 1] * log_centre[width]);
+}
+
+double TermFit::correlation(Eigen::Index first, Eigen::Index second) const {
+    return std::sin(theta[Layout(shape, log_centre.size()).pair(first, second)]);
+}
+
+double TermFit::term(Eigen::Index width, double log_width) const {
+    const Layout layout(shape, log_centre.size());
+    return term_at(layout, theta, width, log_width - log_centre[width]).value;
+}
+
+FittedNumber TermFit::log_error(const Eigen::VectorXd& log_widths) const {
+    const Layout layout(shape, log_centre.size());
+    Eigen::VectorXd gradient = Eigen::VectorXd::Zero(layout.size());
+    const std::function<void(Eigen::Index, double)> set = [&](Eigen::Index k, double value) {
+        gradient[k] = value;
+    };
+    const double value =
+        log_error_at(layout, theta, log_widths - log_centre, Eigen::VectorXd(), &set);
+    return {value, std::sqrt(gradient.dot(covariance * gradient))};
+}
+
+std::optional<TermFit> fit_terms(const TermRows& given, const TermShape& shape,
+                                 const TermFit* simpler) {
+    TermRows rows = given;
+    const Eigen::VectorXd centre = rows.log_widths.colwise().mean();
+    rows.log_widths.rowwise() -= centre.transpose();
+    if (rows.log_reference.size() > 0)
+        rows.log_reference -= centre;
+    const Layout layout(shape, rows.widths());
+    if (rows.size() < layout.size())
+        return std::nullopt;
+    const ModelFunction model = model_of(layout, rows);
+    const auto starts = simpler != nullptr ? std::vector{lengthened(layout, rows, *simpler)}
+                                           : starts_of(layout, rows);
+    auto best = least_squares(model, rows.log_errors, rows.weights, starts);
+    if (!best)
+        return std::nullopt;
+    *best = reweighted(model, rows, std::move(*best));
+    return TermFit{.shape = shape,
+                   .theta = best->theta,
+                   .covariance = best->covariance,
+                   .log_centre = centre,
+                   .log_reference = given.log_reference,
+                   .residuals = best->residuals,
+                   .scale = best->scale(),
+                   .dof = best->dof};
+}
+
+} // namespace tvbeam

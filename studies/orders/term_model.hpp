@@ -1,0 +1,83 @@
+/// The error of a scheme as the norm of a sum of terms, one for each width that is refined.
+///
+/// With d widths x_1 … x_d (mesh width, time step, tolerance, …) the error is, to leading order,
+/// Σ_i x_i^{p_i} A_i with fixed fields A_i, and a norm that comes from an inner product sees
+///
+///     e² = Σ_i T_i² + 2 Σ_{i<j} ρ_ij T_i T_j (+ T_f²),      T_i = a_i x_i^{p_i} (1 + c_i
+///     g_i(x_i)),
+///
+/// where g_i is the next term of the series, x_i^{k_i}, or ln x_i where the term has a logarithm,
+/// and T_f is a floor, which no width removes. For d = 2 this is the model of two_term_model.hpp.
+/// It is fitted on ln e; x_i is in units of the geometric mean of its values.
+#pragma once
+
+#include "studies/orders/least_squares.hpp"
+
+#include <Eigen/Core>
+
+#include <optional>
+#include <vector>
+
+namespace tvbeam {
+
+/// Rows as the regression wants them.
+struct TermRows {
+    Eigen::MatrixXd log_widths; ///< a row a record, a column a width
+    Eigen::VectorXd log_errors;
+    Eigen::VectorXd weights; ///< relative: 1 / variance of ln e
+    /// ln of the widths of a reference run that stands in for the exact solution: T_i is then its
+    /// value at the row less that at the reference. NaN: exact in that width. Empty: in all.
+    Eigen::VectorXd log_reference = {};
+
+    Eigen::Index size() const { return log_errors.size(); }
+    Eigen::Index widths() const { return log_widths.cols(); }
+    TermRows subset(const std::vector<Eigen::Index>& chosen) const;
+    /// With one width alone.
+    TermRows along(Eigen::Index width) const;
+};
+
+/// Which terms are there.
+struct TermShape {
+    static constexpr double none = -1;
+    static constexpr double logarithm = 0;
+    /// One a width: the power k > 0 of the next term, `logarithm`, or `none`.
+    std::vector<double> next;
+    bool floor = false;
+
+    int parameters() const;
+    bool operator==(const TermShape&) const = default;
+};
+
+/// A number that a fit leads to, and its standard error.
+struct FittedNumber {
+    double value = 0;
+    double error = 0; ///< infinite where the rows do not determine it
+};
+
+struct TermFit {
+    TermShape shape;
+    Eigen::VectorXd theta; ///< (ln a_i, p_i)…, arcsin ρ_ij…, c_i…, ln T_f in units of `log_centre`
+    Eigen::MatrixXd covariance; ///< of theta; infinite on its diagonal where it is not determined
+    Eigen::VectorXd log_centre; ///< ln of the unit of each width
+    Eigen::VectorXd log_reference;
+    Eigen::VectorXd residuals; ///< of every row, ln e − ln model
+    double scale = 0;          ///< sqrt(χ² / dof) of the robust fit
+    int dof = 0;
+
+    FittedNumber order(Eigen::Index width) const; ///< p_i
+    double size(Eigen::Index width) const;        ///< a_i, of the width in its own unit
+    double correlation(Eigen::Index first, Eigen::Index second) const; ///< ρ
+    /// T_i at a row.
+    double term(Eigen::Index width, double log_width) const;
+    /// ln e at a row.
+    FittedNumber log_error(const Eigen::VectorXd& log_widths) const;
+};
+
+/// The robust fit: least squares, reweighted by Cauchy's function of residual over scatter, so that
+/// a row far out of line counts for nothing. None where there are fewer rows than parameters, or no
+/// start comes to an end. With `simpler`, a fit of the same rows without next terms, the search
+/// starts there.
+std::optional<TermFit> fit_terms(const TermRows& rows, const TermShape& shape,
+                                 const TermFit* simpler = nullptr);
+
+} // namespace tvbeam

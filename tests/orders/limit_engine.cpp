@@ -1,0 +1,109 @@
+// The limit of a sequence of values: published examples of the named methods, and what the one
+// answer owes its users.
+
+#include "studies/orders/limit_engine.hpp"
+
+#include <boost/test/unit_test.hpp>
+
+#include <cmath>
+#include <functional>
+#include <vector>
+
+using namespace tvbeam;
+
+namespace {
+
+std::vector<ValueRow> sequence(int levels, const std::function<double(double)>& value) {
+    std::vector<ValueRow> rows;
+    for (int k = 0; k < levels; ++k)
+        rows.push_back({std::exp2(-k), value(std::exp2(-k))});
+    return rows;
+}
+
+bool holds(const OrderInterval& interval, double truth) {
+    return interval.low <= truth && truth <= interval.high;
+}
+
+} // namespace
+
+BOOST_AUTO_TEST_SUITE(limit_engine)
+
+// NASA Glenn, "Examining spatial (grid) convergence": order 1.786, limit 0.97130, GCI 0.1031 % of
+// the finest value.
+BOOST_AUTO_TEST_CASE(the_grid_convergence_index_is_that_of_the_tutorial) {
+    const auto limit =
+        estimate_limit(std::vector<ValueRow>{{4, 0.96178}, {2, 0.96854}, {1, 0.97050}});
+    BOOST_REQUIRE(limit.gci.has_value());
+    BOOST_TEST(std::abs(limit.gci->order - 1.786170) < 5e-7);
+    BOOST_TEST(std::abs(limit.gci->limit - 0.97130) < 5e-6);
+    BOOST_TEST(std::abs(limit.gci->uncertainty / 0.97050 - 0.00103083) < 5e-8);
+    BOOST_TEST(holds(limit.limit, 0.97130));
+}
+
+// Celik et al. (2008), Table 1: orders 1.53, 0.75 and, oscillating, 1.51; cells of a plane, so that
+// h is N^-1/2.
+BOOST_AUTO_TEST_CASE(the_orders_of_celik_are_those_of_his_table) {
+    const auto order = [](const std::vector<double>& cells, const std::vector<double>& values) {
+        std::vector<ValueRow> rows;
+        for (std::size_t i = 0; i < 3; ++i)
+            rows.push_back({1 / std::sqrt(cells[i]), values[i]});
+        return celik_of(rows)->order;
+    };
+    BOOST_TEST(std::abs(order({4500, 8000, 18000}, {5.863, 5.972, 6.063}) - 1.53) < 0.005);
+    BOOST_TEST(std::abs(order({980, 4500, 18000}, {10.6050, 10.7250, 10.7880}) - 0.75) < 0.005);
+    BOOST_TEST(std::abs(order({980, 4500, 18000}, {6.0909, 5.9624, 6.0042}) - 1.51) < 0.005);
+}
+
+// A 95 % interval may miss one case of twenty, and of these the most extreme: p = ½, and a next
+// term as large as the first.
+BOOST_AUTO_TEST_CASE(the_limit_of_a_power_with_a_next_term_is_held) {
+    int cases = 0;
+    int held = 0;
+    for (const double p : {0.5, 1.0, 2.0, 3.5, 6.0})
+        for (const double next : {-0.5, 0.0, 1.0})
+            for (const int levels : {4, 6, 10}) {
+                const auto value = [&](double h) { return 7 - std::pow(h, p) * (1 + next * h); };
+                const auto limit = estimate_limit(sequence(levels, value));
+                BOOST_TEST(limit.limit.determined);
+                const double finest = value(std::exp2(1 - levels));
+                ++cases;
+                // The finest value's own interval has to hold it as well.
+                held +=
+                    holds(limit.limit, 7.0) && std::abs(finest - 7.0) <= limit.uncertainty ? 1 : 0;
+            }
+    BOOST_TEST(held >= cases - cases / 20);
+}
+
+// f = 7 + (−1)^k h²: the limit lies between the values, and the order is that of their distance.
+BOOST_AUTO_TEST_CASE(values_that_go_to_and_fro_have_a_limit_between_them) {
+    auto rows = sequence(6, [](double h) { return h * h; });
+    for (std::size_t k = 0; k < rows.size(); ++k)
+        rows[k].value = 7 + (k % 2 == 0 ? rows[k].value : -rows[k].value);
+    const auto limit = estimate_limit(rows);
+    BOOST_TEST(holds(limit.limit, 7.0));
+    BOOST_TEST(limit.limit.high - limit.limit.low <
+               4 * std::abs(rows.back().value - rows[rows.size() - 2].value));
+}
+
+// Replicates of one width are one level of their mean.
+BOOST_AUTO_TEST_CASE(replicates_are_one_level) {
+    const auto once = sequence(5, [](double h) { return 7 + h * h; });
+    auto twice = once;
+    for (auto row : once) {
+        row.value += 1e-3;
+        twice.push_back(row);
+        row.value -= 2e-3;
+        twice.push_back(row);
+    }
+    BOOST_TEST(std::abs(estimate_limit(once).limit.value - estimate_limit(twice).limit.value) <
+               1e-9);
+}
+
+BOOST_AUTO_TEST_CASE(two_widths_have_no_limit_and_the_status_says_so) {
+    const auto limit =
+        estimate_limit(std::vector<ValueRow>{{0.1, 1.0}, {0.1, 1.1}, {0.05, 1.2}, {0.025, NAN}});
+    BOOST_TEST(!limit.limit.determined);
+    BOOST_TEST(limit.limit.status == "a limit needs values at three different widths");
+}
+
+BOOST_AUTO_TEST_SUITE_END()

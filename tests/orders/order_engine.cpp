@@ -1,0 +1,194 @@
+// The engine for orders in any number of widths: what it calls determined holds the order, and what
+// the rows cannot show it says in words. Grids of the solver itself are in tests/orders/grids.
+
+#include "studies/orders/order_engine.hpp"
+
+#include <boost/test/data/monomorphic.hpp>
+#include <boost/test/data/test_case.hpp>
+#include <boost/test/unit_test.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <string>
+#include <vector>
+
+using namespace tvbeam;
+namespace data = boost::unit_test::data;
+
+namespace {
+
+std::vector<ErrorRow> sequence(int levels, const std::function<double(double)>& error) {
+    std::vector<ErrorRow> rows;
+    for (int k = 0; k < levels; ++k) {
+        const double h = 0.2 * std::exp2(-k);
+        rows.push_back({{h}, error(h)});
+    }
+    return rows;
+}
+
+std::vector<ErrorRow> grid(const std::function<double(double, double)>& error) {
+    std::vector<ErrorRow> rows;
+    for (const double h : {0.2, 0.1, 0.05, 0.025, 0.0125})
+        for (const double dt : {0.1, 0.05, 0.025, 0.0125, 0.00625})
+            rows.push_back({{h, dt}, error(h, dt)});
+    return rows;
+}
+
+bool holds(const OrderInterval& order, double truth) {
+    return order.low <= truth && truth <= order.high;
+}
+
+} // namespace
+
+BOOST_AUTO_TEST_SUITE(order_engine)
+
+BOOST_DATA_TEST_CASE(a_pure_power_is_known_to_the_narrowest_interval,
+                     data::make({0.5, 1.0, 1.7, 2.0, 4.0, 7.0}) * data::make({3, 5, 9}), p,
+                     levels) {
+    const auto order =
+        estimate_orders(sequence(levels, [p = p](double h) { return 3 * std::pow(h, p); })).front();
+    BOOST_TEST(order.determined);
+    BOOST_TEST(std::abs(order.value - p) < 1e-4);
+    BOOST_TEST(order.half_width() < 1.1 * OrderTuning{}.narrowest);
+}
+
+// Pairwise orders 0.911, 0.957, 0.979, which halve their distance to one: extrapolation gives 1.
+BOOST_AUTO_TEST_CASE(a_sequence_that_still_moves_holds_what_extrapolation_gives) {
+    const auto order =
+        estimate_orders(sequence(4, [](double h) { return h * (1 + 0.7 * h); })).front();
+    BOOST_TEST(order.determined);
+    BOOST_TEST(holds(order, 1.0));
+}
+
+// Orders 1.46, 1.57, 1.68 rise without slowing down: nothing says where they stop.
+BOOST_AUTO_TEST_CASE(
+    an_order_that_rises_without_slowing_down_is_not_determined_or_holds_what_follows) {
+    std::vector<ErrorRow> rows{{{0.1}, 1.0}};
+    for (const double order : {1.46, 1.57, 1.68})
+        rows.push_back({{rows.back().widths[0] / 2}, rows.back().error * std::exp2(-order)});
+    const auto order = estimate_orders(rows).front();
+    BOOST_TEST(!order.determined);
+    BOOST_TEST(order.status == "rising past 1.68");
+}
+
+BOOST_DATA_TEST_CASE(both_orders_of_a_grid_are_held_with_next_terms_and_correlation,
+                     data::make({-0.9, 0.0, 0.5, 1.0}) * data::make({-0.5, 0.0, 1.0}), rho, next) {
+    const auto orders = estimate_orders(grid([rho = rho, next = next](double h, double dt) {
+        const double space = h * h * (1 + next * h);
+        const double time = 0.3 * dt * (1 + next * dt);
+        return std::sqrt(space * space + 2 * rho * space * time + time * time);
+    }));
+    BOOST_TEST(orders[0].determined);
+    BOOST_TEST(orders[1].determined);
+    BOOST_TEST(holds(orders[0], 2.0));
+    BOOST_TEST(holds(orders[1], 1.0));
+}
+
+BOOST_AUTO_TEST_CASE(a_product_of_both_widths_does_not_pass_for_an_order) {
+    const auto orders =
+        estimate_orders(grid([](double h, double dt) { return h * h + 0.3 * dt + h * h * dt; }));
+    BOOST_TEST((!orders[0].determined || holds(orders[0], 2.0)));
+    BOOST_TEST((!orders[1].determined || holds(orders[1], 1.0)));
+}
+
+BOOST_AUTO_TEST_CASE(a_hidden_term_has_no_order) {
+    const auto orders = estimate_orders(
+        grid([](double h, double dt) { return h * h * (1 + 0.3 * h) + 1e-7 * dt; }));
+    BOOST_TEST(orders[0].determined);
+    BOOST_TEST(holds(orders[0], 2.0));
+    BOOST_TEST(!orders[1].determined);
+    BOOST_TEST(!orders[1].status.empty());
+}
+
+BOOST_AUTO_TEST_CASE(three_widths_have_three_orders) {
+    std::vector<ErrorRow> rows;
+    for (const double h : {0.2, 0.1, 0.05, 0.025})
+        for (const double dt : {0.1, 0.05, 0.025, 0.0125})
+            for (const double tolerance : {1e-2, 1e-3, 1e-4})
+                rows.push_back({{h, dt, tolerance}, h * h + 0.3 * dt + 2 * std::sqrt(tolerance)});
+    const auto orders = estimate_orders(rows);
+    BOOST_REQUIRE(orders.size() == 3);
+    BOOST_TEST(holds(orders[0], 2.0));
+    BOOST_TEST(holds(orders[1], 1.0));
+    BOOST_TEST(holds(orders[2], 0.5));
+}
+
+BOOST_AUTO_TEST_CASE(one_row_ten_times_out_of_line_moves_no_order) {
+    auto rows = grid([](double h, double dt) { return h * h + 0.3 * dt; });
+    for (const std::size_t out : {std::size_t{0}, std::size_t{12}, rows.size() - 1}) {
+        auto spoilt = rows;
+        spoilt[out].error *= 10;
+        const auto orders = estimate_orders(spoilt);
+        BOOST_TEST((!orders[0].determined || holds(orders[0], 2.0)));
+        BOOST_TEST((!orders[1].determined || holds(orders[1], 1.0)));
+    }
+}
+
+BOOST_AUTO_TEST_CASE(rows_of_nearly_one_width_are_one_piece_of_information) {
+    const std::vector<ErrorRow> close{
+        {{0.1}, 1.0}, {{0.098}, 0.99}, {{0.096}, 0.91}, {{0.095}, 0.90}};
+    const auto order = estimate_orders(close).front();
+    BOOST_TEST(!order.determined);
+    BOOST_TEST(order.status.find("three widths") != std::string::npos);
+}
+
+BOOST_AUTO_TEST_CASE(every_row_doubled_changes_nothing) {
+    const auto once = sequence(4, [](double h) { return h * h * (1 + h); });
+    auto twice = once;
+    twice.insert(twice.end(), once.begin(), once.end());
+    const auto of_once = estimate_orders(once).front();
+    const auto of_twice = estimate_orders(twice).front();
+    BOOST_TEST(std::abs(of_once.low - of_twice.low) < 1e-9);
+    BOOST_TEST(std::abs(of_once.high - of_twice.high) < 1e-9);
+}
+
+BOOST_AUTO_TEST_CASE(the_order_of_rows_and_the_units_change_nothing) {
+    const auto rows =
+        grid([](double h, double dt) { return h * h * (1 + h) + 0.3 * dt * (1 + dt); });
+    auto other = rows;
+    std::reverse(other.begin(), other.end());
+    for (auto& row : other) {
+        row.widths[0] *= 1000;
+        row.error *= 1e-6;
+    }
+    const auto here = estimate_orders(rows);
+    const auto there = estimate_orders(other);
+    for (std::size_t i = 0; i < 2; ++i)
+        BOOST_TEST(std::abs(here[i].value - there[i].value) < 1e-3 * here[i].half_width() + 1e-6);
+}
+
+// What is measured is then h² − h_ref²: without the reference's share the order would rise without
+// end.
+BOOST_AUTO_TEST_CASE(the_error_of_a_reference_is_part_of_the_model) {
+    const double finest = 0.2 / 64;
+    const auto rows = sequence(5, [finest](double h) { return h * h - finest * finest; });
+    const auto order = estimate_orders(rows, {finest}).front();
+    BOOST_TEST(order.determined);
+    BOOST_TEST(holds(order, 2.0));
+    BOOST_TEST(order.half_width() < 2 * OrderTuning{}.narrowest);
+}
+
+BOOST_AUTO_TEST_CASE(a_forecast_holds_what_finer_runs_give) {
+    const auto error = [](double h, double dt) {
+        const double space = h * h * (1 + 0.5 * h * h);
+        const double time = 0.3 * dt * (1 + 0.2 * dt);
+        return std::sqrt(space * space - 1.8 * space * time + time * time);
+    };
+    const OrderEnsemble ensemble(grid(error));
+    for (const auto& [h, dt] : {std::pair{0.00625, 0.003125}, {0.003, 0.001}, {0.0125, 0.0001}}) {
+        const auto forecast = ensemble.forecast({h, dt});
+        BOOST_TEST(forecast.determined);
+        BOOST_TEST(holds(forecast, error(h, dt)), "at h = " << h << ", dt = " << dt);
+        BOOST_TEST(forecast.high < 1.5 * forecast.low);
+    }
+}
+
+BOOST_AUTO_TEST_CASE(without_a_positive_error_the_status_says_so) {
+    BOOST_TEST(
+        estimate_orders(std::vector<ErrorRow>{{{0.1}, 0.0}, {{0.05}, NAN}, {{0.025}, INFINITY}})
+            .front()
+            .status == "no row has a positive error");
+}
+
+BOOST_AUTO_TEST_SUITE_END()
