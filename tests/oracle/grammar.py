@@ -66,10 +66,10 @@ def scene_of(seed, time_scheme):
     else:
         scene["text of solution"] = solution_of(draw, beam, final_time, ends)
     scene["scheme"] = {"time": time_scheme, "thermal_mass": draw.choice(["lumped", "consistent"])}
-    if draw.chance(0.3):
-        scene["scheme"]["basis"] = "nodal"
-    if draw.chance(0.1) and float(beam["alpha"]) < 0.5:
+    if draw.chance(0.1) and beam["alpha"] < 0.5:
         scene["scheme"] |= {"algorithm": "fixed-point", "tolerance": 1e-13}
+    elif draw.chance(0.3):
+        scene["scheme"]["basis"] = "nodal"
     dt = [fractions.Fraction(final_time) / (steps * 2**level) for level in range(3)]
     with_reference = given and not mesh
     if with_reference:
@@ -155,6 +155,7 @@ def solution_of(draw, beam, final_time, ends):
     bumps = [bump + more for more in later(draw, texts, BUMPS, ["0.02", "0.1"])]
     lever = draw.fill(draw.choice(LEVERS))
     regimes = regimes_of(draw, beam, len(ends) + 1)
+    penalised = "contact" in beam and draw.chance(0.7)  # else the solution is one of rigid stops
     begins, stops = ["0", *texts], [*texts, final_time]
     lines = []
     if len(set(thetas)) == 1:
@@ -163,8 +164,7 @@ def solution_of(draw, beam, final_time, ends):
         lines += ["[parameters]"] + [f'{name} = "{value}"' for name, value in names.items()]
     for index, regime in enumerate(regimes):
         s = f"((t - {begins[index]})/({stops[index]} - {begins[index]}))" if begins[index] != "0" else f"(t/{stops[index]})"
-        borders = (index > 0 and regimes[index - 1][0] == "free", index + 1 < len(regimes) and regimes[index + 1][0] == "free")
-        tip, sigma = motion(draw, beam, regime, s, any(borders))
+        tip, sigma = motion(draw, beam, regime, s, penalised, len(regimes) > 1)
         u = f"({tip})*{lever} {bumps[index]}"
         if draw.chance(0.15):
             sigma = f"{sigma} + {draw.choice(['0.2', '1'])}*(1 - x)*{draw.fill(draw.choice(TIMES + MIXED))}"
@@ -199,18 +199,15 @@ def regimes_of(draw, beam, count):
     return result
 
 
-def motion(draw, beam, regime, s, borders_free):
+def motion(draw, beam, regime, s, penalised, has_neighbours):
     """Texts of u(1,t) and sigma(1,t) in one phase; s: the text that goes from 0 to 1 in it."""
     kind, begin, end = regime
     if kind == "free":
-        if begin == end or (begin not in ("g1", "g2") and draw.chance(0.2)):
-            other = f"{draw.uniform(0.2, 0.8):.2f}"
-            if begin == end:
-                return f"{begin}*(1 - {other}*sin(pi*{s})^2)", "0"
+        if begin == end:  # away from a stop and back
+            return f"{begin}*(1 - {draw.decimal(0.2, 0.8)}*sin(pi*{s})^2)", "0"
         return f"{begin} + ({end} - ({begin}))*({draw.fill(draw.choice(RISES), s=s)})", "0"
-    penalised = "contact" in beam and draw.chance(0.7)
-    # A penalised tip that goes on freely is on the stop then: its force has to die away.
-    force = draw.fill(draw.choice(FORCES[:CLOSED_FORCES] if penalised and borders_free else FORCES), s=s)
+    # A penalised tip is on the stop where its phase borders on another one: there the force has died away.
+    force = draw.fill(draw.choice(FORCES[:CLOSED_FORCES] if penalised and has_neighbours else FORCES), s=s)
     sigma = f"{'' if kind == 'g1' else '-'}{draw.choice(['0.1', '0.5', '2'])}*({force})"
     if penalised:
         return f"{kind} - {beam['contact']['epsilon']}*({sigma})", sigma
