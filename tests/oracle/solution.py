@@ -10,6 +10,7 @@ The text is Python's but for `^`, so that Python's own parser gives the tree; Sy
 
 import ast
 import fractions
+import functools
 import math
 import tomllib
 import warnings
@@ -141,7 +142,7 @@ class Problem:
         return len(self.phases) - 1
 
     def least_precise(self, final_time, count=6):
-        """(error, name) of the function that double precision evaluates worst, at points of no pattern."""
+        """(relative error, name) of the function that double precision evaluates worst, at points of no pattern."""
         worst = (0.0, "")
         steps = [math.modf(k * (math.sqrt(5.0) - 1.0) / 2.0)[0] for k in range(1, count + 1)]
         for index, phase in enumerate(self.phases):
@@ -183,10 +184,11 @@ def beam_names(beam):
     return names
 
 
+@functools.lru_cache(maxsize=2)
 def read_solution(text, beam):
-    """The Problem of a solution file on a beam (alpha, zeta, theta_A, g1, g2 as Fractions)."""
+    """The Problem of a solution file on a beam, which is pairs of names (alpha, zeta, theta_A, g1, g2) and Fractions."""
     document = parse_toml(text)
-    names = beam_names(beam)
+    names = beam_names(dict(beam))
     for name, value in document.get("parameters", {}).items():
         names[name] = expression(value, {})
     phases = []
