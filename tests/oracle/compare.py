@@ -5,7 +5,7 @@ import json
 import math
 import subprocess
 
-import norms
+import events
 import scheme
 
 RELATIVE = 1e-6  # of an error
@@ -59,6 +59,7 @@ def figures(case, result, rungs=None):
         theirs = result["evolution"]["probes"]
         for probe, ours in values.items():
             yield from history(probe, ours, theirs[probe], march)
+        yield from event_times(events.events(march), result["evolution"]["events"], march)
 
 
 def history(probe, ours, theirs, march):
@@ -71,6 +72,19 @@ def history(probe, ours, theirs, march):
     k = max(range(first, len(ours)), key=lambda n: abs(ours[n] - theirs[n]))
     round_off = stress_floor(march) if probe == "stress" else 1e-13
     yield Figure(f"{probe}, sample {k}", ours[k], theirs[k], 1e-8 * size + round_off)
+
+
+def event_times(ours, theirs, march):
+    """Nothing where round-off decides about contact."""
+    if ours is None:
+        return
+    names = [f"{kind} {stop}" for kind, stop, _ in ours]
+    found = [f"{event['kind']} {event['stop']}" for event in theirs]
+    if names != found:
+        yield Figure(f"events: {', '.join(found) or 'none'}; oracle {', '.join(names) or 'none'}", len(ours), None, 0.0)
+        return
+    for name, (_, _, t), event in zip(names, ours, theirs):
+        yield Figure(name, t, event["t"], 1e-6 * float(march.times[-1]))
 
 
 def root(name, value):
