@@ -5,11 +5,13 @@ import json
 import math
 import subprocess
 
+import numpy
+
 import events
 import scheme
 
 RELATIVE = 1e-6  # of an error
-ROUND_OFF = 1e-11  # of the exact solution's own norm: no error below it is looked at more closely
+ROUND_OFF = 1e-11  # of the exact solution's own norm: no error below it is looked at more closely; more on fine meshes
 TIME_LIMIT = 300.0  # seconds a scene
 
 Figure = collections.namedtuple("Figure", "what ours theirs floor")
@@ -70,8 +72,8 @@ def history(probe, ours, theirs, march):
         return
     size = max(abs(value) for value in ours[first:])
     k = max(range(first, len(ours)), key=lambda n: abs(ours[n] - theirs[n]))
-    round_off = stress_floor(march) if probe == "stress" else 1e-13
-    yield Figure(f"{probe}, sample {k}", ours[k], theirs[k], 1e-8 * size + round_off)
+    least = stress_floor(march) if probe == "stress" else 1e-13
+    yield Figure(f"{probe}, sample {k}", ours[k], theirs[k], 1e-8 * size + least)
 
 
 def event_times(ours, theirs, march):
@@ -92,17 +94,22 @@ def root(name, value):
     return math.sqrt(value) if value is not None and (name.endswith("_sq") or name == "corollary") else value
 
 
+def round_off(march):
+    """The condition h^-4 of the oracle's own matrix, in its precision, passes ROUND_OFF from about 60 elements on."""
+    return max(ROUND_OFF, 10.0 * float(numpy.finfo(scheme.Extended).eps) * len(march.space.nodes) ** 4)
+
+
 def stress_floor(march):
     """The stress is what moves the tip back by lambda kappa/3; the tip is known to its round-off."""
     leading = 1.0 / scheme.GAMMA
     compliance = 1.0 / (3.0 * (1.0 + march.beam["zeta"] * leading / march.dt)) + march.beam["epsilon"]
-    return ROUND_OFF * abs(march.U).max() / compliance
+    return round_off(march) * abs(march.U).max() / compliance
 
 
 def floor(case, march, name, sizes):
     if name.startswith("sigma"):
-        return ROUND_OFF * root(name, sizes[name]) + stress_floor(march) * math.sqrt(float(march.times[-1]))
-    found = ROUND_OFF * root(name, sizes[name]) + 1e-15
+        return round_off(march) * root(name, sizes[name]) + stress_floor(march) * math.sqrt(float(march.times[-1]))
+    found = round_off(march) * root(name, sizes[name]) + 1e-15
     options = case.scene.get("scheme", {})
     if options.get("algorithm") == "fixed-point":
         # A nodal value is off by about the tolerance, a curvature by 12/h^2 times as much.

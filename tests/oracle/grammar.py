@@ -40,7 +40,7 @@ class Draw(random.Random):
     def fill(self, pattern, **more):
         c = self.decimal(0.1, 0.9)
         # The sum that is raised to a high power stays below one.
-        values = {"i": self.randint(1, 3), "k": self.choice([5, 8, 12, 20, 30, 40]), "n": self.choice([2, 3, 5, 12, 40, 103]), "a": self.decimal(0.1, 2),
+        values = {"i": self.randint(1, 3), "k": self.choice([5, 8, 12, 20, 30, 40]), "n": self.choice([2, 3, 5, 12, 40, 103, 154]), "a": self.decimal(0.1, 2),
                   "c": c, "d": f"{1 - float(c):.2f}", "e": self.choice(["0.01", "0.05", "0.001", "0.1"])}
         return pattern.format(**values, **more)
 

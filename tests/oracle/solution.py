@@ -61,7 +61,8 @@ class Compiled:
     def __init__(self, formula):
         self.formula = sympy.sympify(formula)
         self.is_zero = self.formula == 0
-        self.fast = sympy.lambdify((X, T), self.formula, "numpy", cse=True)
+        # Without cse: that of SymPy 1.11 changes the value of some sums with derivatives of tanh.
+        self.fast = sympy.lambdify((X, T), self.formula, "numpy")
         self.careful = None
 
     def __call__(self, x, t):
@@ -82,7 +83,7 @@ class Compiled:
 
     def with_digits(self, x, t, digits=50):
         if self.careful is None:
-            self.careful = sympy.lambdify((X, T), self.formula, "mpmath", cse=True)
+            self.careful = sympy.lambdify((X, T), self.formula, "mpmath")
         with mpmath.workdps(digits):
             return float(mpmath.re(self.careful(mpmath.mpf(float(x)), mpmath.mpf(float(t)))))
 
