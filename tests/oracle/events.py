@@ -1,0 +1,48 @@
+"""When the tip meets a stop and leaves it, from the levels of a march.
+
+An onset is where the line through the tip at the two last free levels since the last contact reaches the stop, a release where the line
+through the two last stresses of a contact reaches zero; each within its step, at whose end it is put where there are no such levels.
+A tip that starts on a stop and is held there by the first step has its onset at t = 0.
+"""
+
+import math
+
+ROUND_OFF = 1e-9
+
+
+def events(march):
+    """[(kind, stop, t)], or None where round-off decides whether a level is in contact."""
+    lower, upper = march.beam.get("g1", -math.inf), march.beam.get("g2", math.inf)
+    levels = [(float(t), float(tip), float(stress)) for t, tip, stress in zip(march.times, march.U[:, -2], march.stress)]
+    largest = max(abs(stress) for _, _, stress in levels[1:])
+    for _, tip, stress in levels[1:]:
+        touches = min(abs(tip - lower), abs(tip - upper)) <= ROUND_OFF * abs(tip)
+        if (stress == 0.0 and touches) or 0.0 < abs(stress) <= ROUND_OFF * largest:
+            return None
+    free, pressed, found = [levels[0][:2]], [], []
+    before = 0.0
+    for t, tip, stress in levels[1:]:
+        if pressed and stress * pressed[-1][1] <= 0.0:
+            found.append(("release", "g1" if pressed[-1][1] > 0.0 else "g2", crossing(pressed, 0.0, before, t)))
+            free, pressed = [], []
+        if stress == 0.0:
+            free.append((t, tip))
+        else:
+            if not pressed:
+                name, stop = ("g1", lower) if stress > 0.0 else ("g2", upper)
+                starts_there = len(free) == 1 and free[0][0] == 0.0 and abs(free[0][1] - stop) <= 1e-12 * abs(stop)
+                found.append(("onset", name, 0.0 if starts_there else crossing(free, stop, before, t)))
+            pressed.append((t, stress))
+        before = t
+    return found
+
+
+def crossing(levels, value, first, last):
+    """Where the line through the two last levels takes the value, if between first and last; else last."""
+    if len(levels) >= 2:
+        (t0, y0), (t1, y1) = levels[-2:]
+        if y0 != y1:
+            t = t1 + (value - y1) * (t1 - t0) / (y1 - y0)
+            if first <= t <= last:
+                return t
+    return last
