@@ -43,8 +43,8 @@ Number penalised_stress(const Number& tip, const Stops& stops) {
     Number stress{0.0L, 0.0L};
     const auto add = [&](const Number& excess, long double sign) {
         const long double epsilon = stops.epsilon;
-        stress = stress + Number{sign * std::max(excess.value, 0.0L) / epsilon,
-                                 excess.bound / epsilon};
+        stress =
+            stress + Number{sign * std::max(excess.value, 0.0L) / epsilon, excess.bound / epsilon};
     };
     if (std::isfinite(stops.upper))
         add(tip - written(stops.upper), -1.0L);

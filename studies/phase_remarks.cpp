@@ -33,7 +33,7 @@ struct RateJump {
 };
 
 RateJump rate_jump(const ProblemData& data, double end) {
-    const GaussRule rule = element_rule().repeated(8);
+    const GaussRule rule = GaussRule::of(48);
     const ArrayXd& x = rule.points;
     const double after = std::nextafter(end, std::numeric_limits<double>::infinity());
     const auto jump = [&](const auto& of) -> ArrayXd {

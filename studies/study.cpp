@@ -85,8 +85,7 @@ std::vector<Algorithm> algorithms_of(const Scene& scene) {
 StudyResult run_study(const Scene& scene, const ProblemData& data, const Execution& execution) {
     require_runnable(scene, data);
     execution.expect(work_of(scene));
-    StudyResult result{.scene = scene,
-                       .law_distance = data.exact ? data.exact->law_distance : 0.0};
+    StudyResult result{.scene = scene, .law_distance = data.exact ? data.exact->law_distance : 0.0};
     const Method own = method_of(scene.scheme);
     ProblemData resolved = data;
     if (scene.poses_problem())

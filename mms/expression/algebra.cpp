@@ -80,13 +80,14 @@ double expanded_size(const ex& expression) {
     } else if (is_a<GiNaC::mul>(expression)) {
         for (const ex& factor : expression)
             size *= expanded_size(factor);
-    } else if (is_a<GiNaC::power>(expression) &&
-               expression.op(1).info(GiNaC::info_flags::positive) &&
-               is_a<numeric>(expression.op(1))) {
-        // Of a fractional power too, the integer part is multiplied out.
+    } else if (is_a<GiNaC::power>(expression)) {
         const double base = expanded_size(expression.op(0));
-        if (base > 1)
-            size = std::pow(base, ex_to<numeric>(expression.op(1)).to_double());
+        const ex& exponent = expression.op(1);
+        // Of a fractional power too, the integer part is multiplied out; of any other, the base.
+        if (is_a<numeric>(exponent) && exponent.info(GiNaC::info_flags::positive) && base > 1)
+            size = std::pow(base, ex_to<numeric>(exponent).to_double());
+        else if (base > largest_expansion)
+            size = base;
     }
     return size;
 }

@@ -79,9 +79,10 @@ public:
 
 private:
     static std::size_t index(int i, int j) {
-        return static_cast<std::size_t>(i * (most_t + 1) + j);
+        return static_cast<std::size_t>(i) * times + static_cast<std::size_t>(j);
     }
-    std::array<Bounded<Real>, (most_x + 1) * (most_t + 1)> coefficients_{};
+    static constexpr std::size_t times = most_t + 1;
+    std::array<Bounded<Real>, times*(most_x + 1)> coefficients_{};
 };
 
 template <typename Real>

@@ -2,7 +2,7 @@
 
 #include "reports/files/line_file.hpp"
 #include "studies/runs/execution.hpp"
-#include "studies/runs/rung.hpp"
+#include "studies/runs/run.hpp"
 #include "studies/scene/scene.hpp"
 #include "studies/stress/stress_case.hpp"
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "studies/runs/rung.hpp"
+#include "studies/runs/run.hpp"
 #include "studies/stress/stress_case.hpp"
 
 #include <nlohmann/json_fwd.hpp>

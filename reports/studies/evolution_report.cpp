@@ -31,11 +31,10 @@ Json json_of(const EvolutionResult& result) {
     }
     Json events = Json::array();
     for (const auto& event : result.events)
-        events.push_back(
-            {{"kind", name_of(event.kind)},
-             {"stop", name_of(event.stop)},
-             {"t", event.t},
-             {"beyond", event.beyond}});
+        events.push_back({{"kind", name_of(event.kind)},
+                          {"stop", name_of(event.stop)},
+                          {"t", event.t},
+                          {"beyond", event.beyond}});
     Json periods = Json::array();
     for (const auto& period : result.periods) {
         Json changes = Json::object();

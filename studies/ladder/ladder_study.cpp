@@ -101,6 +101,7 @@ struct LadderStudy final : KindOf<LadderBlock, LadderResult> {
         return LadderResult{.rungs = run_series(series_of(block_in(block), context.method),
                                                 context.solver.run, context.execution),
                             .norms = {},
+                            .quadrature_remark = {},
                             .reference_remark = {}};
     }
     void conclude(const std::any& block, std::any& record, const StudyResult& all,

@@ -49,8 +49,8 @@ bool dips(const Sequence& orders, double level) {
 
 /// The orders from the first that leaves on, in words: up or down, and how they end. Why is said
 /// only where the orders themselves show it; explained: a model says it already.
-std::string departure(const Norm& norm, std::span<const Refinement> roots, const Sequence& orders,
-                      bool explained) {
+std::string departure(const Measure& norm, std::span<const Refinement> roots,
+                      const Sequence& orders, bool explained) {
     const double power = norm.squared ? 2.0 : 1.0;
     const auto at = [&](const Observed& seen) {
         return order_text(power * seen.order) + " at " + rung_name(roots, roots[seen.rung]);

@@ -83,9 +83,8 @@ std::vector<Norm> norms_of(const std::vector<Measure>& measures) {
 }
 
 RungResult rung_result(const Rung& rung, const RunResult& run, double seconds) {
-    return {rung,       status_of(run.status), run.reason,
-            seconds,    named(run.counters),   run.errors,
-            run.uncertainties};
+    return {rung,       status_of(run.status), run.reason, seconds, named(run.counters),
+            run.errors, run.uncertainties};
 }
 
 StudiedSolver beam_runs(const Scene& scene, const ProblemData& data, const ProblemData& measured) {
