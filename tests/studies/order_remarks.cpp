@@ -1,6 +1,7 @@
 // What the orders of a ladder mean, in words: a reason is given only where the orders show it.
 
 #include "studies/ladder/order_remarks.hpp"
+#include "studies/runs/beam_runs.hpp"
 
 #include <boost/test/data/monomorphic.hpp>
 #include <boost/test/data/test_case.hpp>
@@ -67,7 +68,7 @@ BOOST_DATA_TEST_CASE(a_reason_is_the_one_that_the_orders_show, data::make(cases)
     std::vector<Refinement> ladder;
     for (const double elements : {10.0, 20.0, 40.0, 80.0, 160.0, 320.0, 640.0})
         ladder.push_back({.h = 1.0 / elements, .error = sample.error(1.0 / elements)});
-    const auto remarks = order_remarks({.name = "theta_L2L2"}, ladder, nullptr);
+    const auto remarks = order_remarks(measure_of(*Norm::named("theta_L2L2")), ladder, nullptr);
     BOOST_REQUIRE(remarks.size() == 1U);
     BOOST_TEST(remarks[0].find(sample.said) != std::string::npos, remarks[0]);
     for (const auto& wrong : sample.not_said)

@@ -125,7 +125,7 @@ BOOST_DATA_TEST_CASE(a_penalised_solution_is_approached_in_every_norm,
     scene.blocks.remove<EvolutionBlock>();
     const StudyResult study = run_study(scene);
     const auto* result = study.get<LadderResult>();
-    BOOST_REQUIRE(result->rungs[1].status == RunStatus::ok);
+    BOOST_REQUIRE(result->rungs[1].status == RungStatus::ok);
     for (const auto& norm : result->norms) {
         const double expected = norm.norm.name == "theta_L2H1"  ? 1.0
                                 : norm.norm.name == "corollary" ? 4.0

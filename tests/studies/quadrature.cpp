@@ -1,6 +1,7 @@
 // A ladder over what quadrature resolves, and over what it does not.
 
 #include "mms/manufactured_problem.hpp"
+#include "studies/ladder/ladder.hpp"
 #include "studies/study.hpp"
 #include "tests/temporary_directory.hpp"
 
@@ -30,7 +31,7 @@ elements = [8, 16, 32]
 dt = "0.1/s"
 norms = ["theta_L2L2", "theta_LinfL2_sq"]
 )"));
-    return *run_study(scene).ladder;
+    return *run_study(scene).get<LadderResult>();
 }
 
 bool says(const LadderNorm& norm, Verdict verdict) {

@@ -3,6 +3,7 @@
 // order, it stands below with its reason.
 
 #include "mms/expected_orders.hpp"
+#include "studies/evolution/evolution.hpp"
 #include "studies/grid/grid.hpp"
 #include "studies/ladder/ladder.hpp"
 #include "studies/runs/beam_runs.hpp"
