@@ -7,10 +7,13 @@
 
 #include <memory>
 #include <new>
+#include <stdexcept>
 
 namespace tvbeam {
 
 GaussRule GaussRule::of(Eigen::Index points) {
+    if (points < 1)
+        throw std::domain_error("a Gauss rule has at least one point");
     using Table = std::unique_ptr<gsl_integration_glfixed_table,
                                   decltype(&gsl_integration_glfixed_table_free)>;
     const Table table(gsl_integration_glfixed_table_alloc(static_cast<std::size_t>(points)),

@@ -330,12 +330,13 @@ double Resolution::uncertainty(const Mesh& mesh) const {
 namespace {
 
 constexpr Index profile_places = 8192;
-constexpr Index gentle_places = 32;    // of what is known to hold nothing narrow
-constexpr Index step_places = 128;     // at every time
-constexpr Index once_places = 2048;    // at one time
-constexpr double narrow = 1.0 / 256.0; // an interval in which more places are worth while
-constexpr std::size_t first_times = 5; // of every phase
-constexpr std::size_t more_times = 4;  // that must show nothing new; twice as many after they do
+constexpr Index gentle_places = 32;      // of what is known to hold nothing narrow
+constexpr Index step_places = 128;       // at every time
+constexpr Index once_places = 2048;      // at one time
+constexpr double noise = 64.0 * epsilon; // of the greatest field: what terms leave that cancel
+constexpr double narrow = 1.0 / 256.0;   // an interval in which more places are worth while
+constexpr std::size_t first_times = 5;   // of every phase
+constexpr std::size_t more_times = 4;    // that must show nothing new; twice as many after they do
 // The last of these are not cut for: they tell what is left.
 constexpr std::size_t most_times = 129;
 
@@ -441,19 +442,26 @@ Resolution resolve(const ProblemData& data, const std::vector<const Field*>& fie
             in_time.emplace_back(*field, field == &data.curvature_initial);
     SampleTimes times(data.phase_ends, final_time);
     std::size_t count = first_times;
+    double greatest = 0.0; // of all fields
     for (bool fresh = !in_time.empty(); fresh;) {
         const bool first = times.drawn() == 0;
         const bool last = times.drawn() + count >= most_times;
         const std::vector<double> sampled = times.next(count);
         fresh = first;
+        std::vector<Resolver::Look> looks;
         for (auto& field : in_time)
-            for (const auto& look : field.at(sampled, !first && resolver.finest() < narrow))
-                if (last)
-                    resolver.test(look, Resolution::step_tolerance,
-                                  Resolution::most_step_intervals);
-                else if (!resolver.cut_for(look, Resolution::step_tolerance,
-                                           Resolution::most_step_intervals))
-                    fresh = true;
+            for (auto& look : field.at(sampled, !first && resolver.finest() < narrow))
+                looks.push_back(std::move(look));
+        for (const auto& look : looks)
+            greatest = std::max(greatest, look.sampled.greatest);
+        for (const auto& look : looks)
+            if (look.sampled.greatest <= noise * greatest)
+                continue;
+            else if (last)
+                resolver.test(look, Resolution::step_tolerance, Resolution::most_step_intervals);
+            else if (!resolver.cut_for(look, Resolution::step_tolerance,
+                                       Resolution::most_step_intervals))
+                fresh = true;
         count = first ? more_times : 2 * count;
         fresh = fresh && !last;
     }

@@ -225,6 +225,9 @@ ReferenceResult measure_against_reference(const Scene& scene, ProblemData& data,
     const ReferenceBlock& block = *scene.reference;
     const auto measured = scene.measured_series();
     ReferenceResult result;
+    if (!data.resolution)
+        data.resolution = std::make_shared<const Resolution>(
+            resolution_of(data, {scene.scheme.algorithm}, {}, longest_time(measured)));
     std::shared_ptr<const ReferenceSolution> reference;
     ProblemData with_fields = data; // whose fields are not separable: what norms then need
     with_fields.exact = looked_up(nullptr, block.elements);

@@ -121,7 +121,8 @@ BOOST_DATA_TEST_CASE(errors_are_those_of_the_nodal_form,
     const ProblemData problem =
         manufactured_problem(read_solution(find_file(Shipped::solution, name)), beam, 2.0);
     const auto norms = norms_of(sine_norms);
-    const Mesh mesh = Mesh::uniform(elements);
+    const Mesh mesh =
+        resolution_of(problem, {Algorithm::direct}, norms, 2.0).on(Mesh::uniform(elements));
     Scheme scheme{Algorithm::direct, mass, 0.0, TimeScheme::named(time)};
     if (!SineForm::suits(problem, mesh, scheme, norms))
         return; // a source that does not separate

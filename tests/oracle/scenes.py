@@ -69,12 +69,12 @@ class Case:
         self.beam = {name: rational(beam.get(name, 0)) for name in ("alpha", "zeta", "theta_A")}
         for name, value in zip(("g1", "g2"), beam.get("stops", [])):
             self.beam[name] = rational(value)
+        self.beam["epsilon"] = rational(beam.get("contact", {}).get("epsilon", 0))
         self.mesh = scene.get("mesh", {})
         if "text of solution" in scene:
             self.problem = solution.read_solution(scene["text of solution"], tuple(sorted(self.beam.items())))
         else:
             self.problem = solution.read_data(scene["data"], self.beam)
-        self.beam["epsilon"] = rational(beam.get("contact", {}).get("epsilon", 0))
 
     def final_time(self):
         return max(float(self.scene[block]["final_time"]) for block in ("ladder", "evolution") if block in self.scene)

@@ -203,8 +203,24 @@ def read_solution(text, beam):
         held = {**document, **part}
         end = end_of_phase(expression(part["until"], names)) if "until" in part else None
         theta, u, sigma = (expression(held.get(key, "0"), names) for key in ("theta", "u", "sigma"))
+        if "sigma" not in held and dict(beam).get("epsilon", 0) > 0:
+            sigma = penalised_stress(u.subs(X, 1), names, dict(beam)["epsilon"])
         phases.append(Phase(end, theta, u, sigma, names))
     return Problem(phases)
+
+
+def positive_part(value):
+    return (value + sympy.Abs(value)) / 2
+
+
+def penalised_stress(tip, names, epsilon):
+    """sigma(1,t) = -((u(1,t) - g2)^+ - (g1 - u(1,t))^+)/epsilon."""
+    stress = sympy.Integer(0)
+    if "g2" in names:
+        stress -= positive_part(tip - names["g2"])
+    if "g1" in names:
+        stress += positive_part(names["g1"] - tip)
+    return stress / sympy.Rational(epsilon.numerator, epsilon.denominator)
 
 
 def read_data(data, beam):
