@@ -1,6 +1,7 @@
 #include "mms/coverage.hpp"
 
 #include "mms/admissible/admissibility_check.hpp"
+#include "mms/admissible/sampled_rules.hpp"
 #include "mms/expression/algebra.hpp"
 #include "mms/expression/piecewise_tape.hpp"
 #include "mms/expression/symbols.hpp"
@@ -18,7 +19,6 @@ using GiNaC::ex;
 
 namespace {
 
-constexpr Index time_points = 257; ///< of what depends on time only
 constexpr double tolerance = 1e-12;
 
 /// What the rows of the two tapes are.
