@@ -13,9 +13,9 @@
 #include <cmath>
 #include <functional>
 #include <map>
+#include <memory>
 #include <numbers>
 #include <random>
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -201,8 +201,8 @@ BOOST_DATA_TEST_CASE(a_solution_in_cpp_has_the_errors_of_its_text, data::make(na
     ProblemData in_code = in_cpp(name, beam);
     const ProblemData in_text = as_text(name, beam);
     // Once for all runs, as a study has it.
-    in_code.resolution = std::make_shared<const Resolution>(resolution_of(
-        in_code, {Algorithm::direct, Algorithm::fixed_point}, all_norms(), 2.0));
+    in_code.resolution = std::make_shared<const Resolution>(
+        resolution_of(in_code, {Algorithm::direct, Algorithm::fixed_point}, all_norms(), 2.0));
     for (const Scheme& scheme : schemes_of("sdirk2")) {
         const RunRequest request{beam, Mesh::uniform(6), scheme, 2.0, 20, all_norms()};
         const RunResult found = run(request, in_code);
