@@ -102,7 +102,11 @@ struct KindOf : StudyKind {
         return std::any_cast<const Record&>(record);
     }
     bool has(std::type_index type) const final {
-        return type == typeid(Block) || type == typeid(Record);
+        for (const std::type_index mine :
+             {std::type_index(typeid(Block)), std::type_index(typeid(Record))})
+            if (type == mine)
+                return true;
+        return false;
     }
 };
 
