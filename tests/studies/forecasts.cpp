@@ -122,7 +122,7 @@ void check_forecast(const Problem& problem, const std::string& scheme, std::int6
 /// steps resolves.
 std::vector<std::string> shipped() {
     if (TVBEAM_SHORT_TESTS) // the orders are those of any build
-        return {"penalised-stops", "three-phases"};
+        return {"three-phases"};
     std::vector<std::string> names;
     for (const auto& file : shipped_files(Shipped::solution))
         if (file.name != "stiff-layer")
@@ -133,8 +133,6 @@ std::vector<std::string> shipped() {
 /// Elements enough for the error of space to be small; a source that does not separate is evaluated
 /// at every point in every step.
 std::int64_t elements_for(const std::string& name) {
-    if (TVBEAM_SHORT_TESTS)
-        return 1024;
     return name.ends_with("-front") ? 256 : 4096;
 }
 
