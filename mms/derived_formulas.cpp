@@ -42,12 +42,12 @@ ex collected(const ex& expression) {
 }
 
 /// The times of a phase, as text and in LaTeX.
-struct Interval {
+struct WrittenTimes {
     std::string text;
     std::string latex;
 };
 
-Interval interval_of(const PhaseExpressions& phase, bool first, bool last) {
+WrittenTimes times_of(const PhaseExpressions& phase, bool first, bool last) {
     const auto written = [&](const auto& formula, const std::string& at_most) -> std::string {
         const std::string end = last ? std::string() : formula(phase.end);
         if (first)
@@ -74,11 +74,11 @@ std::vector<DerivedFormula> derived_formulas(const Solution& solution, bool pena
     SolutionExpressions expressions = expressions_of(solution);
     const GiNaC::realsymbol sigma("sigma");
     std::vector<DerivedFormula> formulas;
-    const auto add = [&formulas](const std::string& symbol, const Interval& interval,
+    const auto add = [&formulas](const std::string& symbol, const WrittenTimes& times,
                                  const ex& formula) {
         const ex readable = collected(formula);
-        formulas.push_back({symbol, interval.text, interval.latex, formula_text(readable),
-                            formula_latex(readable)});
+        formulas.push_back(
+            {symbol, times.text, times.latex, formula_text(readable), formula_latex(readable)});
     };
     const ModelSymbols& s = model_symbols();
     const bool driven =
@@ -89,19 +89,19 @@ std::vector<DerivedFormula> derived_formulas(const Solution& solution, bool pena
         const bool by_law = penalised_stops && !solution.phases[i].sigma;
         if (by_law)
             phase.sigma = sigma;
-        const Interval interval = interval_of(phase, i == 0, i + 1 == expressions.phases.size());
+        const WrittenTimes times = times_of(phase, i == 0, i + 1 == expressions.phases.size());
         const DerivedPhase derived = derive(phase, solution.phases[i], s.alpha, s.zeta);
-        add("f", interval, derived.heat_source);
-        add("G", interval, derived.couple_load);
+        add("f", times, derived.heat_source);
+        add("G", times, derived.couple_load);
         if (driven)
-            add("q", interval, derived.body_force);
-        add("m", interval, derived.end_moment);
+            add("q", times, derived.body_force);
+        add("m", times, derived.end_moment);
         if (by_law)
-            formulas.push_back({"sigma", interval.text, interval.latex,
+            formulas.push_back({"sigma", times.text, times.latex,
                                 "-(max(u(1,t) - g2, 0) - max(g1 - u(1,t), 0))/epsilon",
                                 "-\\frac{(u(1,t) - g_2)^+ - (g_1 - u(1,t))^+}{\\varepsilon}"});
     }
-    const Interval at_zero{"t = 0", "t = 0"};
+    const WrittenTimes at_zero{"t = 0", "t = 0"};
     add("theta0", at_zero,
         at_start(expressions.phases.front().theta, solution.phases.front().theta));
     add("u0", at_zero, at_start(expressions.phases.front().u, solution.phases.front().u));

@@ -16,7 +16,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr const char* schema = "tvbeam-baseline/1";
+constexpr const char* baseline_schema = "tvbeam-baseline/1";
 
 /// Figures of the size of round-off, which another compiler changes; they want a band of [expect].
 bool is_round_off(const std::string& figure) {
@@ -60,7 +60,7 @@ std::string baseline_of(const std::vector<StudyResult>& results) {
                              "with figures");
         scenes[name] = std::move(errors);
     }
-    return Json{{"schema", schema}, {"scenes", std::move(scenes)}}.dump(2) + "\n";
+    return Json{{"schema", baseline_schema}, {"scenes", std::move(scenes)}}.dump(2) + "\n";
 }
 
 Baseline::Baseline(const std::string& file) : file_(file) {
@@ -72,8 +72,9 @@ Baseline::Baseline(const std::string& file) : file_(file) {
     text_ = text.str();
     const Json json = Json::parse(text_, nullptr, false);
     if (json.is_discarded() || !json.is_object() || !json.contains("schema") ||
-        json["schema"] != schema || !json.contains("scenes") || !json["scenes"].is_object())
-        throw InputError({file}, std::string("is not a baseline (schema ") + schema +
+        json["schema"] != baseline_schema || !json.contains("scenes") ||
+        !json["scenes"].is_object())
+        throw InputError({file}, std::string("is not a baseline (schema ") + baseline_schema +
                                      "); record one with --record");
 }
 
