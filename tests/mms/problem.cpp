@@ -127,6 +127,32 @@ BOOST_DATA_TEST_CASE(profiles_and_amplitudes_are_finite_and_distinct, data::make
             BOOST_TEST((amplitudes.row(i) - amplitudes.row(j)).abs().maxCoeff() > 1e-9);
 }
 
+// GiNaC writes (0.86 x + 0.14)^n as (43 x + 7)^n/50^n, and a profile that is a sum of such powers
+// leaves the 1/50^n to the amplitude. The norms of an error need the squares of both.
+BOOST_DATA_TEST_CASE(profiles_of_powers_of_sums_have_squares,
+                     data::make({-103, -40, 40, 103, 154, 180, 300, 500})) {
+    const std::string power = "(0.86*x + 0.14)^(" + std::to_string(sample) + ")";
+    const Beam beam = {0.4, 0.1, 0.0, {}};
+    for (const std::string scale : {"t", "1e-30*(1 + 1.15*t)"}) {
+        const ProblemData problem = manufactured_problem(
+            parse_solution("theta = \"x*(1 - x)*" + power + "*" + scale + "\"\nu = \"x^2*(1 - x)*" +
+                               power + "*" + scale + "\"\n",
+                           "power.toml"),
+            beam, 1.0);
+        const ArrayXd x = ArrayXd::LinSpaced(200, 0.0, 1.0);
+        for (const SpaceFunction& profile : problem.profiles) {
+            const double square = profile(x).square().maxCoeff();
+            BOOST_TEST(std::isnormal(square));
+            BOOST_TEST(std::isfinite(square));
+        }
+    }
+    // The body force has its profile, and its moment one too.
+    const ProblemData pushed =
+        given_problem(given("t*(1 + x)*(1 - (x + 1)*" + power + ")"), beam, 1.0);
+    for (const SpaceFunction& profile : pushed.profiles)
+        BOOST_TEST(std::isnormal(profile(ArrayXd::LinSpaced(200, 0.0, 1.0)).square().maxCoeff()));
+}
+
 // The two descriptions of the load: μ in closed form against ∫_y^1 (G + (x − y) q) dx − m by
 // quadrature.
 BOOST_DATA_TEST_CASE(moment_load_is_the_integral_of_the_couple_load, data::make(shipped())) {
