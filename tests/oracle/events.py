@@ -2,7 +2,7 @@
 
 An onset is where the line through the tip at the two last free levels since the last contact reaches the stop, a release where the line
 through the two last stresses of a contact reaches zero; each within its step, at whose end it is put where there are no such levels.
-A tip that starts on a stop and is held there by the first step has its onset at t = 0.
+A tip that starts on a stop, or in a penalised one, and is held there by the first step has its onset at t = 0.
 """
 
 import math
@@ -30,11 +30,16 @@ def events(march):
         else:
             if not pressed:
                 name, stop = ("g1", lower) if stress > 0.0 else ("g2", upper)
-                starts_there = len(free) == 1 and free[0][0] == 0.0 and abs(free[0][1] - stop) <= 1e-12 * abs(stop)
+                starts_there = len(free) == 1 and free[0][0] == 0.0 and on_stop(free[0][1] - stop, stop, march.beam["epsilon"] > 0.0)
                 found.append(("onset", name, 0.0 if starts_there else crossing(free, stop, before, t)))
             pressed.append((t, stress))
         before = t
     return found
+
+
+def on_stop(distance, stop, yields):
+    beyond = distance if stop > 0.0 else -distance  # g1 < 0 < g2
+    return abs(distance) <= 1e-12 * abs(stop) or (yields and beyond > 0.0)
 
 
 def crossing(levels, value, first, last):
