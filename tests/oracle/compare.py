@@ -101,10 +101,12 @@ def is_nodal(scene):
 
 def round_off(march, scene):
     """The condition h^-4 of the oracle's own matrix, in its precision, passes ROUND_OFF from about 60 elements on; that of the paper's
-    algorithm, in double precision, from 8 on."""
+    algorithm, in double precision, from a few on, and each step adds its own."""
+    extended = 10.0 * float(numpy.finfo(scheme.Extended).eps) * len(march.space.nodes) ** 4
+    if not is_nodal(scene):
+        return max(ROUND_OFF, extended)
     nodes = max(len(march.space.nodes), scene.get("reference", {}).get("elements", 0))
-    precision = float if is_nodal(scene) else scheme.Extended
-    return max(ROUND_OFF, 10.0 * float(numpy.finfo(precision).eps) * nodes**4)
+    return max(ROUND_OFF, len(march.times) * float(numpy.finfo(float).eps) * nodes**4)
 
 
 def stress_floor(march, scene):
