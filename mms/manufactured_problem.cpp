@@ -64,20 +64,20 @@ void require_as_written(const ProblemData& problem, const PlainSolution& plain) 
     const ExactSolution& exact = *problem.exact;
     for (std::size_t phase = 0; phase < plain.phase_count(); ++phase) {
         const SampledFields sampled(problem, plain.x(phase), plain.t(phase));
-        const auto require = [&](const auto& field, Quantity quantity, const std::string& what) {
+        const auto require = [&](const auto& field, Computed quantity, const std::string& what) {
             plain.require(phase, quantity, what, sampled.of(field));
         };
-        require(exact.theta, Quantity::theta, "theta");
-        require(exact.theta_x, Quantity::theta_x, "theta_x");
-        require(exact.u, Quantity::u, "u");
-        require(exact.u_x, Quantity::u_x, "u_x");
-        require(exact.u_xx, Quantity::u_xx, "u_xx");
-        require(exact.stress, Quantity::contact_stress, "sigma(1,t)");
-        require(problem.heat_source, Quantity::heat_source, "f of (1)");
-        require(problem.moment_load, Quantity::moment_load, "the integral of G of (3)");
-        require(problem.couple_load, Quantity::couple_load, "G of (3)");
-        require(problem.body_force, Quantity::body_force, "q of (2)");
-        require(problem.end_moment, Quantity::end_moment, "m of (9)");
+        require(exact.theta, Computed::theta, "theta");
+        require(exact.theta_x, Computed::theta_x, "theta_x");
+        require(exact.u, Computed::u, "u");
+        require(exact.u_x, Computed::u_x, "u_x");
+        require(exact.u_xx, Computed::u_xx, "u_xx");
+        require(exact.stress, Computed::contact_stress, "sigma(1,t)");
+        require(problem.heat_source, Computed::heat_source, "f of (1)");
+        require(problem.moment_load, Computed::moment_load, "the integral of G of (3)");
+        require(problem.couple_load, Computed::couple_load, "G of (3)");
+        require(problem.body_force, Computed::body_force, "q of (2)");
+        require(problem.end_moment, Computed::end_moment, "m of (9)");
     }
 }
 

@@ -16,22 +16,22 @@ namespace {
 using Number = Bounded<long double>;
 using Jet = BoundedJet<long double>;
 
-std::size_t index(Quantity quantity) {
+std::size_t index(Computed quantity) {
     return static_cast<std::size_t>(quantity);
 }
 
 /// The text that a quantity comes from.
-const SourceText& source_of(const SolutionPhase& phase, Quantity quantity) {
+const SourceText& source_of(const SolutionPhase& phase, Computed quantity) {
     switch (quantity) {
-    case Quantity::theta:
-    case Quantity::theta_x:
-    case Quantity::theta_t:
-    case Quantity::theta_xx:
-    case Quantity::heat_source:
+    case Computed::theta:
+    case Computed::theta_x:
+    case Computed::theta_t:
+    case Computed::theta_xx:
+    case Computed::heat_source:
         return phase.theta;
-    case Quantity::sigma:
-    case Quantity::body_force:
-    case Quantity::contact_stress:
+    case Computed::sigma:
+    case Computed::body_force:
+    case Computed::contact_stress:
         return phase.sigma ? *phase.sigma : phase.u;
     default:
         return phase.u;
@@ -90,16 +90,16 @@ PlainSolution::Samples PlainSolution::sampled(const PhaseExpressions& phase, boo
     for (Index k = 0; k < size; ++k) {
         Values& here = samples.values[static_cast<std::size_t>(k)];
         const Values& tip = samples.values[static_cast<std::size_t>(k - k % points_a_time + 1)];
-        const auto of_tip = [&tip](Quantity quantity) { return tip[index(quantity)]; };
-        const Number viscous = zeta_ * here[index(Quantity::u_xxt)];
-        const Number tip_theta = of_tip(Quantity::theta);
+        const auto of_tip = [&tip](Computed quantity) { return tip[index(quantity)]; };
+        const Number viscous = zeta_ * here[index(Computed::u_xxt)];
+        const Number tip_theta = of_tip(Computed::theta);
         const Number distance = {1.0L - samples.x(k), 1.0L};
-        here[index(Quantity::contact_stress)] = of_tip(Quantity::sigma);
-        here[index(Quantity::end_moment)] =
-            of_tip(Quantity::u_xx) + zeta_ * of_tip(Quantity::u_xxt);
-        here[index(Quantity::moment_load)] =
-            of_tip(Quantity::sigma) * distance + alpha_ * tip_theta -
-            (here[index(Quantity::u_xx)] + viscous + alpha_ * here[index(Quantity::theta)]);
+        here[index(Computed::contact_stress)] = of_tip(Computed::sigma);
+        here[index(Computed::end_moment)] =
+            of_tip(Computed::u_xx) + zeta_ * of_tip(Computed::u_xxt);
+        here[index(Computed::moment_load)] =
+            of_tip(Computed::sigma) * distance + alpha_ * tip_theta -
+            (here[index(Computed::u_xx)] + viscous + alpha_ * here[index(Computed::theta)]);
     }
     return samples;
 }
@@ -118,31 +118,31 @@ PlainSolution::Values PlainSolution::at(const PhaseExpressions& phase, Names& na
     const Jet u = jet(phase.plain_u, 3, 1);
     const Jet sigma = jet(phase.plain_sigma, 1, 0);
     Values values;
-    const auto set = [&values](Quantity quantity, const Number& value) {
+    const auto set = [&values](Computed quantity, const Number& value) {
         return values[index(quantity)] = value;
     };
-    set(Quantity::theta, theta.derivative(0, 0));
-    set(Quantity::u, u.derivative(0, 0));
-    set(Quantity::u_x, u.derivative(1, 0));
-    set(Quantity::u_xx, u.derivative(2, 0));
-    set(Quantity::body_force, sigma.derivative(1, 0));
+    set(Computed::theta, theta.derivative(0, 0));
+    set(Computed::u, u.derivative(0, 0));
+    set(Computed::u_x, u.derivative(1, 0));
+    set(Computed::u_xx, u.derivative(2, 0));
+    set(Computed::body_force, sigma.derivative(1, 0));
     const bool of_law = phase.plain_sigma.empty() && stops_.epsilon > 0.0;
     const Number stress =
-        set(Quantity::sigma,
+        set(Computed::sigma,
             of_law ? penalised_stress(jet(phase.plain_u, 0, 0, 1.0).derivative(0, 0), stops_)
                    : sigma.derivative(0, 0));
-    const Number theta_x = set(Quantity::theta_x, theta.derivative(1, 0));
-    const Number theta_t = set(Quantity::theta_t, theta.derivative(0, 1));
-    const Number theta_xx = set(Quantity::theta_xx, theta.derivative(2, 0));
-    const Number u_xxt = set(Quantity::u_xxt, u.derivative(2, 1));
-    const Number u_xxx = set(Quantity::u_xxx, u.derivative(3, 0));
-    const Number u_xxxt = set(Quantity::u_xxxt, u.derivative(3, 1));
-    set(Quantity::heat_source, theta_t - theta_xx - alpha_ * u_xxt);
-    set(Quantity::couple_load, stress + u_xxx + zeta_ * u_xxxt + alpha_ * theta_x);
+    const Number theta_x = set(Computed::theta_x, theta.derivative(1, 0));
+    const Number theta_t = set(Computed::theta_t, theta.derivative(0, 1));
+    const Number theta_xx = set(Computed::theta_xx, theta.derivative(2, 0));
+    const Number u_xxt = set(Computed::u_xxt, u.derivative(2, 1));
+    const Number u_xxx = set(Computed::u_xxx, u.derivative(3, 0));
+    const Number u_xxxt = set(Computed::u_xxxt, u.derivative(3, 1));
+    set(Computed::heat_source, theta_t - theta_xx - alpha_ * u_xxt);
+    set(Computed::couple_load, stress + u_xxx + zeta_ * u_xxxt + alpha_ * theta_x);
     return values;
 }
 
-void PlainSolution::require(std::size_t phase, Quantity quantity, const std::string& what,
+void PlainSolution::require(std::size_t phase, Computed quantity, const std::string& what,
                             const ComputedValues& computed, std::optional<double> only_x) const {
     const Samples& samples = samples_[phase];
     std::vector<Number> written_values;

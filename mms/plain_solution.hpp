@@ -21,7 +21,7 @@ std::map<std::string, BoundedJet<long double>> plain_constants(const Beam& beam)
 
 /// What is computed from the text of a solution: its parts, their derivatives, and what (1)–(3),
 /// (9) make of them, as DerivedPhase defines them.
-enum class Quantity : std::uint8_t {
+enum class Computed : std::uint8_t {
     theta,
     theta_x,
     theta_t,
@@ -57,7 +57,7 @@ public:
     ///
     /// @param computed of all samples of the phase, in their order
     /// @param only_x   if given, only samples at this end of the beam count
-    void require(std::size_t phase, Quantity quantity, const std::string& what,
+    void require(std::size_t phase, Computed quantity, const std::string& what,
                  const ComputedValues& computed, std::optional<double> only_x = {}) const;
 
     /// The samples of a phase: x and t of each.
@@ -70,7 +70,7 @@ public:
 private:
     using Number = Bounded<long double>;
     using Names = std::map<std::string, BoundedJet<long double>>;
-    using Values = std::array<Number, static_cast<std::size_t>(Quantity::count)>;
+    using Values = std::array<Number, static_cast<std::size_t>(Computed::count)>;
 
     struct Samples {
         Eigen::ArrayXd x, t;

@@ -75,11 +75,11 @@ private:
         const SolutionPhase& source = solution_.phases[i];
         const SourceText& sigma = source.sigma ? *source.sigma : source.u;
         const auto of = [&](const ex& formula, const SourceText& text, const std::string& what,
-                            Quantity quantity) {
+                            Computed quantity) {
             return largest(i, formula, text, what, quantity);
         };
         const auto scale = [](double& known, double largest) { known = std::max(known, largest); };
-        using Q = Quantity;
+        using Q = Computed;
         scale(scales_.theta, of(phase.theta, source.theta, "theta", Q::theta));
         scale(scales_.u, of(phase.u, source.u, "u", Q::u));
         scale(scales_.u_x, of(phase.u_x, source.u, "u_x", Q::u_x));
@@ -102,7 +102,7 @@ private:
     /// The largest absolute value on the grid; InputError where it is not finite, or not what the
     /// text says.
     double largest(std::size_t i, const ex& formula, const SourceText& source,
-                   const std::string& what, Quantity quantity) const {
+                   const std::string& what, Computed quantity) const {
         const Tape tape = located(source, what, [&] { return compile_tape({formula}); });
         if (formula.is_zero()) {
             require_as_written(i, tape, 0, quantity, what);
@@ -118,7 +118,7 @@ private:
     }
 
     /// That a row of a tape is what the text says; only_x: at this end of the beam.
-    void require_as_written(std::size_t i, const Tape& tape, Index row, Quantity quantity,
+    void require_as_written(std::size_t i, const Tape& tape, Index row, Computed quantity,
                             const std::string& what, std::optional<double> only_x = {}) const {
         const ArrayXd values = tape.evaluate(plain_.x(i), plain_.t(i)).row(row);
         plain_.require(i, quantity, what, ComputedValues::of(values), only_x);
@@ -153,15 +153,15 @@ private:
         const ex theta_1 = at(phase.theta, 1, source.theta, "(10): theta(1,t)");
         const std::string clamped = "0 at the clamped end: ";
         const std::string or_factor = ", or give u a factor x^2";
-        const auto as_written = [&](const ex& formula, double end, Quantity quantity,
+        const auto as_written = [&](const ex& formula, double end, Computed quantity,
                                     const SourceText& text, const std::string& what) {
             const Tape tape = located(text, what, [&] { return compile_tape({formula}); });
             require_as_written(i, tape, 0, quantity, what, end);
         };
-        as_written(u, 0.0, Quantity::u, source.u, "u(0,t)");
-        as_written(u_x, 0.0, Quantity::u_x, source.u, "u_x(0,t)");
-        as_written(theta_0, 0.0, Quantity::theta, source.theta, "theta(0,t)");
-        as_written(theta_1, 1.0, Quantity::theta, source.theta, "theta(1,t)");
+        as_written(u, 0.0, Computed::u, source.u, "u(0,t)");
+        as_written(u_x, 0.0, Computed::u_x, source.u, "u_x(0,t)");
+        as_written(theta_0, 0.0, Computed::theta, source.theta, "theta(0,t)");
+        as_written(theta_1, 1.0, Computed::theta, source.theta, "theta(1,t)");
         require_formula(i, u, 0.0, scales_.u, source.u, "(5): u(0,t)",
                         clamped + subtraction(u, "u(0,t)", "u") + or_factor);
         require_formula(i, u_x, 0.0, scales_.u_x, source.u, "(5): u_x(0,t)",
@@ -199,8 +199,8 @@ private:
             Tape tape = located(source.u, "u(1,t)", [&] {
                 return compile_tape({tip, phase.contact_stress});
             });
-            require_as_written(i, tape, 0, Quantity::u, "u(1,t)", 1.0);
-            require_as_written(i, tape, 1, Quantity::contact_stress, "sigma(1,t)");
+            require_as_written(i, tape, 0, Computed::u, "u(1,t)", 1.0);
+            require_as_written(i, tape, 1, Computed::contact_stress, "sigma(1,t)");
             ContactPhase contact;
             contact.times = times(i, time_points);
             contact.ends = [tape = std::move(tape)](const ArrayXd& in_time) {

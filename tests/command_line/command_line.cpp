@@ -14,14 +14,14 @@
 
 using namespace tvbeam;
 
+BOOST_AUTO_TEST_SUITE(command_line)
+
 namespace {
 
 const std::string small = "run table1 --set 'ladder.elements=[4,8]' --set ladder.dt=0.1 --set "
                           "'ladder.dt=[0.1,0.05]' --set 'ladder.printed={}'";
 
 } // namespace
-
-BOOST_AUTO_TEST_SUITE(command_line)
 
 BOOST_AUTO_TEST_CASE(a_run_prints_its_table_and_exits_with_zero) {
     const TemporaryDirectory directory;

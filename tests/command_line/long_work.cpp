@@ -15,6 +15,8 @@
 using namespace tvbeam;
 namespace data = boost::unit_test::data;
 
+BOOST_AUTO_TEST_SUITE(long_work)
+
 namespace {
 
 /// A ladder of the paper's problem in a file of the directory; how it is run.
@@ -46,8 +48,6 @@ std::vector<nlohmann::ordered_json> kept_lines(const TemporaryDirectory& directo
 }
 
 } // namespace
-
-BOOST_AUTO_TEST_SUITE(long_work)
 
 // Ctrl-C is SIGINT; a polite kill is SIGTERM.
 BOOST_DATA_TEST_CASE(a_run_that_is_asked_to_end_keeps_what_it_finished, data::make({"INT", "TERM"}),

@@ -12,6 +12,8 @@
 
 using namespace tvbeam;
 
+BOOST_AUTO_TEST_SUITE(out_directory)
+
 namespace {
 
 /// A ladder of two rungs and a grid, in some ten milliseconds.
@@ -55,8 +57,6 @@ std::size_t count(const std::string& text, const std::string& part) {
 }
 
 } // namespace
-
-BOOST_AUTO_TEST_SUITE(out_directory)
 
 BOOST_AUTO_TEST_CASE(without_a_block_every_kind_of_file_is_written) {
     const TemporaryDirectory directory;

@@ -19,6 +19,8 @@
 using namespace tvbeam;
 namespace data = boost::unit_test::data;
 
+BOOST_AUTO_TEST_SUITE(algorithms)
+
 namespace {
 
 const Beam paper_beam{.alpha = 0.017, .zeta = 0.1, .stops = {-0.02, 0.1}};
@@ -60,8 +62,6 @@ Difference difference(const Beam& beam, const ProblemData& problem, const TimeSc
 }
 
 } // namespace
-
-BOOST_AUTO_TEST_SUITE(algorithms)
 
 BOOST_DATA_TEST_CASE(moment_form_equals_hermite_form,
                      data::make(shipped_names()) * data::make(TimeScheme::names()) *

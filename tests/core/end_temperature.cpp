@@ -21,6 +21,8 @@
 using namespace tvbeam;
 namespace data = boost::unit_test::data;
 
+BOOST_AUTO_TEST_SUITE(end_temperature)
+
 namespace {
 
 constexpr double none = std::numeric_limits<double>::infinity();
@@ -86,8 +88,6 @@ Beam without_end_temperature(Beam beam) {
 }
 
 } // namespace
-
-BOOST_AUTO_TEST_SUITE(end_temperature)
 
 BOOST_DATA_TEST_CASE(every_step_is_that_of_the_transformed_problem,
                      data::make(all_schemes) * data::make(contacts) * data::make({0.7, -3.0}) *

@@ -15,6 +15,8 @@
 using namespace tvbeam;
 namespace data = boost::unit_test::data;
 
+BOOST_AUTO_TEST_SUITE(energy_law)
+
 namespace {
 
 /// Random Θ⁰ in S_0^h and w⁰ in P1disc of the size given.
@@ -62,8 +64,6 @@ double energy(const Solver& solver, const Mesh& mesh, ThermalMass mass) {
 }
 
 } // namespace
-
-BOOST_AUTO_TEST_SUITE(energy_law)
 
 BOOST_DATA_TEST_CASE(energy_never_grows_without_sources,
                      data::make({ThermalMass::consistent, ThermalMass::lumped}) *

@@ -16,6 +16,8 @@
 using namespace tvbeam;
 namespace data = boost::unit_test::data;
 
+BOOST_AUTO_TEST_SUITE(energy_law_with_sources)
+
 namespace {
 
 /// Loads that swing the tip from one stop to the other, a strong coupling and a heated end.
@@ -73,8 +75,6 @@ const std::vector<Scheme> direct_schemes = [] {
 }();
 
 } // namespace
-
-BOOST_AUTO_TEST_SUITE(energy_law_with_sources)
 
 BOOST_AUTO_TEST_CASE(tableaus_follow_from_the_rows) {
     // Alexander's SDIRK2: A = [γ, 0; 1 − γ, γ], b = (1 − γ, γ); so m_11 = 2γ(1 − γ) − (1 − γ)² =

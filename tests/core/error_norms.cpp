@@ -14,6 +14,8 @@
 using namespace tvbeam;
 namespace data = boost::unit_test::data;
 
+BOOST_AUTO_TEST_SUITE(error_norms)
+
 namespace {
 
 const Beam paper_beam{.alpha = 0.017, .zeta = 0.1, .stops = {-0.02, 0.1}};
@@ -26,8 +28,6 @@ std::vector<Norm> all_norms() {
 }
 
 } // namespace
-
-BOOST_AUTO_TEST_SUITE(error_norms)
 
 BOOST_AUTO_TEST_CASE(every_norm_has_a_square_except_the_corollary_which_is_one) {
     for (const auto& name : Norm::names()) {

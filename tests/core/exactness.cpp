@@ -14,6 +14,8 @@
 using namespace tvbeam;
 namespace data = boost::unit_test::data;
 
+BOOST_AUTO_TEST_SUITE(exactness)
+
 namespace {
 
 /// Implicit Euler differences a function linear in t exactly; U is a cubic and Θ linear in x, so
@@ -57,8 +59,6 @@ const std::vector<Patch> patches{
 };
 
 } // namespace
-
-BOOST_AUTO_TEST_SUITE(exactness)
 
 BOOST_DATA_TEST_CASE(representable_data_are_reproduced_to_round_off,
                      data::make(patches) * data::make(all_schemes) * data::make({1, 2, 5, 16}),

@@ -14,6 +14,8 @@
 
 using namespace tvbeam;
 
+BOOST_AUTO_TEST_SUITE(left_out)
+
 namespace {
 
 const std::string solution = "theta = 'exp(-t)*sin(pi*x)'\nu = '(x^3/6 - x^2/2)*cos(t)/100'";
@@ -35,8 +37,6 @@ const auto bases = boost::unit_test::data::make({Basis::automatic, Basis::nodal}
 const std::vector<std::string> both{"theta_L2L2", "u_LinfH2semi"};
 
 } // namespace
-
-BOOST_AUTO_TEST_SUITE(left_out)
 
 BOOST_DATA_TEST_CASE(a_full_scene_does_every_part, bases, basis) {
     const Scheme scheme{.basis = basis};

@@ -14,6 +14,8 @@
 using namespace tvbeam;
 namespace data = boost::unit_test::data;
 
+BOOST_AUTO_TEST_SUITE(oracles)
+
 namespace {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
@@ -27,8 +29,6 @@ ProblemData constant_loads(double heating, double shear) {
 }
 
 } // namespace
-
-BOOST_AUTO_TEST_SUITE(oracles)
 
 BOOST_DATA_TEST_CASE(long_steps_end_in_the_static_solution,
                      data::make(all_schemes) * data::make({0.0, 0.4, 1e3}) *

@@ -24,6 +24,8 @@ using Eigen::ArrayXd;
 using Eigen::Index;
 namespace data = boost::unit_test::data;
 
+BOOST_AUTO_TEST_SUITE(resolutions)
+
 namespace {
 
 struct Named {
@@ -97,8 +99,6 @@ double by_sixty_points(const SpaceFunction& g, double left, double right) {
 }
 
 } // namespace
-
-BOOST_AUTO_TEST_SUITE(resolutions)
 
 BOOST_DATA_TEST_CASE(loads_and_squares_of_a_sharp_function_are_those_of_sixty_points,
                      data::make(sharp_functions) * data::make({1, 2, 8}) *

@@ -19,6 +19,8 @@
 using namespace tvbeam;
 namespace data = boost::unit_test::data;
 
+BOOST_AUTO_TEST_SUITE(sine_form)
+
 namespace {
 
 std::vector<std::string> shipped_names() {
@@ -54,8 +56,6 @@ ProblemData swinging_problem() {
 }
 
 } // namespace
-
-BOOST_AUTO_TEST_SUITE(sine_form)
 
 BOOST_DATA_TEST_CASE(basis_diagonalises_mass_and_stiffness, data::make({1, 2, 3, 10, 13, 60, 125}),
                      elements) {

@@ -13,6 +13,8 @@
 using namespace tvbeam;
 namespace data = boost::unit_test::data;
 
+BOOST_AUTO_TEST_SUITE(sine_kernels_one_by_one)
+
 namespace {
 
 constexpr std::int64_t groups = 3;
@@ -111,8 +113,6 @@ double difference(const Packs& a, const Packs& b) {
 }
 
 } // namespace
-
-BOOST_AUTO_TEST_SUITE(sine_kernels_one_by_one)
 
 BOOST_AUTO_TEST_CASE(the_widest_kernel_of_the_processor_is_chosen) {
     BOOST_TEST(sine_kernels().back().runs_here);

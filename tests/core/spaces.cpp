@@ -18,6 +18,8 @@
 using namespace tvbeam;
 using Eigen::ArrayXd;
 
+BOOST_AUTO_TEST_SUITE(spaces)
+
 namespace {
 
 Eigen::MatrixXd dense(const Tridiagonal& matrix) {
@@ -38,8 +40,6 @@ Mesh uneven_mesh(Eigen::Index elements) {
 }
 
 } // namespace
-
-BOOST_AUTO_TEST_SUITE(spaces)
 
 BOOST_AUTO_TEST_CASE(element_rule_is_exact_to_degree_eleven_and_no_further) {
     const GaussRule& rule = element_rule();

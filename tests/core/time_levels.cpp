@@ -9,6 +9,8 @@
 
 using namespace tvbeam;
 
+BOOST_AUTO_TEST_SUITE(time_levels)
+
 namespace {
 
 /// Every scheme's levels of a run, and the times of its solves.
@@ -20,8 +22,6 @@ void for_all_schemes(const ProblemData& data, double final_time, std::int64_t st
 }
 
 } // namespace
-
-BOOST_AUTO_TEST_SUITE(time_levels)
 
 // T = k/10^q and t_n = j/10^q, as both are written: IEEE division of whole numbers gives the double
 // nearest to the decimal, as reading it does. Of the tenths up to 3, T * n / N misses a quarter.

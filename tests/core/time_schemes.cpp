@@ -14,6 +14,14 @@
 using namespace tvbeam;
 namespace data = boost::unit_test::data;
 
+namespace tvbeam {
+static std::ostream& operator<<(std::ostream& stream, const TimeScheme& scheme) {
+    return stream << scheme.name;
+}
+} // namespace tvbeam
+
+BOOST_AUTO_TEST_SUITE(time_schemes)
+
 namespace {
 
 /// A row that is not shipped: Alexander's SDIRK3 (1977), L-stable, γ the middle root of
@@ -58,14 +66,6 @@ std::vector<double> errors(const Scheme& scheme, std::int64_t steps) {
 }
 
 } // namespace
-
-namespace tvbeam {
-static std::ostream& operator<<(std::ostream& stream, const TimeScheme& scheme) {
-    return stream << scheme.name;
-}
-} // namespace tvbeam
-
-BOOST_AUTO_TEST_SUITE(time_schemes)
 
 BOOST_DATA_TEST_CASE(last_stage_ends_the_step_and_constants_are_kept, data::make(all_rows()), row) {
     // y* = y^{n−1} for a constant y whatever the weights, because they multiply differences; the

@@ -17,6 +17,8 @@
 namespace data = boost::unit_test::data;
 using namespace tvbeam;
 
+BOOST_AUTO_TEST_SUITE(mms_admissibility)
+
 namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
@@ -272,8 +274,6 @@ std::vector<std::string> shipped() {
 }
 
 } // namespace
-
-BOOST_AUTO_TEST_SUITE(mms_admissibility)
 
 // Penalised stops, ε = 1/10, and a tip of 3/20 at most: the law makes −1/2 of it.
 BOOST_AUTO_TEST_CASE(a_penalised_solution_obeys_the_law_of_its_stops) {

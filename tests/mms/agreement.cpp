@@ -13,6 +13,8 @@
 using Eigen::ArrayXd;
 using namespace tvbeam;
 
+BOOST_AUTO_TEST_SUITE(mms_agreement)
+
 namespace {
 
 const std::string document = "theta = \"sin(pi*x)*exp(-t)\"\nu = \"x^2*cos(t)/10\"\n";
@@ -25,8 +27,6 @@ PlainExpression plain(const std::string& text) {
 
 } // namespace
 
-BOOST_AUTO_TEST_SUITE(mms_agreement)
-
 // sin(π x) e^-t with its value right to round-off, then 1e-10 off at one point.
 BOOST_AUTO_TEST_CASE(a_wrong_value_is_named_with_expression_and_point) {
     const Solution solution = parse_solution(document, "my.toml");
@@ -34,10 +34,10 @@ BOOST_AUTO_TEST_CASE(a_wrong_value_is_named_with_expression_and_point) {
     const DerivedSolution derived = derive_on(solution, beam);
     const PlainSolution text(solution, derived, beam, 2.0);
     ArrayXd values = (std::numbers::pi * text.x(0)).sin() * (-text.t(0)).exp();
-    BOOST_CHECK_NO_THROW(text.require(0, Quantity::theta, "theta", ComputedValues::of(values)));
+    BOOST_CHECK_NO_THROW(text.require(0, Computed::theta, "theta", ComputedValues::of(values)));
     const Eigen::Index inside = 2;
     values(inside) *= 1 + 1e-10;
-    BOOST_CHECK_EXCEPTION(text.require(0, Quantity::theta, "theta", ComputedValues::of(values)),
+    BOOST_CHECK_EXCEPTION(text.require(0, Computed::theta, "theta", ComputedValues::of(values)),
                           InputError, [](const InputError& error) {
                               const std::string what = error.what();
                               return what.find("my.toml:1:10: theta at x = 0.0") == 0 &&

@@ -23,6 +23,8 @@ namespace data = boost::unit_test::data;
 using Eigen::ArrayXd;
 using namespace tvbeam;
 
+BOOST_AUTO_TEST_SUITE(mms_autodiff)
+
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -154,8 +156,6 @@ std::vector<Norm> all_norms() {
 }
 
 } // namespace
-
-BOOST_AUTO_TEST_SUITE(mms_autodiff)
 
 // Two derivations that share nothing but the formula: GiNaC's and Boost.Math's. The second
 // derivative in x and the first in t of functions that vary over a length of 1/5 and a time of

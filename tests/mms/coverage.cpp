@@ -19,6 +19,8 @@
 namespace data = boost::unit_test::data;
 using namespace tvbeam;
 
+BOOST_AUTO_TEST_SUITE(mms_coverage)
+
 namespace {
 
 const Beam coupled = {0.4, 0.15, 0.8, {-0.02, 0.1}};
@@ -62,8 +64,6 @@ std::vector<std::string> smooth() {
 }
 
 } // namespace
-
-BOOST_AUTO_TEST_SUITE(mms_coverage)
 
 // θ̃ = t x (1 − x), u = x² t/100: each size is the largest of a polynomial on [0,1] × [0,2].
 BOOST_AUTO_TEST_CASE(sizes_of_terms_are_those_of_their_formulas) {

@@ -25,6 +25,8 @@ namespace data = boost::unit_test::data;
 using Eigen::ArrayXd;
 using namespace tvbeam;
 
+BOOST_AUTO_TEST_SUITE(mms_derivation)
+
 namespace {
 
 constexpr double pi = 3.14159265358979323846;
@@ -315,8 +317,6 @@ void check_start(const Formula& formula, const Beam& beam, const ProblemData& pr
 }
 
 } // namespace
-
-BOOST_AUTO_TEST_SUITE(mms_derivation)
 
 BOOST_DATA_TEST_CASE(every_shipped_solution_has_a_counterpart, data::make(shipped())) {
     BOOST_TEST(counterparts.contains(sample));

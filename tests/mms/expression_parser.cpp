@@ -18,6 +18,8 @@
 namespace data = boost::unit_test::data;
 using namespace tvbeam;
 
+BOOST_AUTO_TEST_SUITE(mms_expression_parser)
+
 namespace {
 
 GiNaC::ex parsed(const std::string& text) {
@@ -146,8 +148,6 @@ const std::vector<Refused> refused = {
 };
 
 } // namespace
-
-BOOST_AUTO_TEST_SUITE(mms_expression_parser)
 
 BOOST_DATA_TEST_CASE(values_agree_with_the_language_of_the_grammar, data::make(valued)) {
     const GiNaC::ex expression = parsed(sample.text);

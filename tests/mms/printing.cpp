@@ -20,6 +20,8 @@ namespace data = boost::unit_test::data;
 using Eigen::ArrayXd;
 using namespace tvbeam;
 
+BOOST_AUTO_TEST_SUITE(mms_printing)
+
 namespace {
 
 GiNaC::ex parsed(const std::string& text) {
@@ -71,8 +73,6 @@ std::vector<std::string> shipped() {
 }
 
 } // namespace
-
-BOOST_AUTO_TEST_SUITE(mms_printing)
 
 BOOST_DATA_TEST_CASE(formulas_read_well, data::make(printed)) {
     BOOST_TEST(formula_text(parsed(sample.formula)) == sample.text);

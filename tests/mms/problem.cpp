@@ -21,6 +21,8 @@ using Eigen::ArrayXd;
 using Eigen::Index;
 using namespace tvbeam;
 
+BOOST_AUTO_TEST_SUITE(mms_problem)
+
 namespace {
 
 constexpr double pi = 3.14159265358979323846;
@@ -67,8 +69,6 @@ GivenData given(const std::string& q) {
 }
 
 } // namespace
-
-BOOST_AUTO_TEST_SUITE(mms_problem)
 
 BOOST_AUTO_TEST_CASE(the_papers_problem_is_a_few_products) {
     const ProblemData problem = manufactured_problem(papers_solution(), papers_beam, 2.0);

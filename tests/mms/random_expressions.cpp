@@ -25,6 +25,8 @@ using Eigen::ArrayXd;
 using Eigen::Index;
 using namespace tvbeam;
 
+BOOST_AUTO_TEST_SUITE(mms_random_expressions)
+
 namespace {
 
 using Digits50 = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<50>,
@@ -190,8 +192,6 @@ void compare(const std::string& text, const PlainExpression& plain, const GiNaC:
 }
 
 } // namespace
-
-BOOST_AUTO_TEST_SUITE(mms_random_expressions)
 
 BOOST_AUTO_TEST_CASE(a_tape_is_what_the_text_says_or_is_refused) {
     const char* wanted = std::getenv("TVBEAM_RANDOM_EXPRESSIONS");

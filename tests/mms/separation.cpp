@@ -19,6 +19,8 @@ namespace data = boost::unit_test::data;
 using Eigen::ArrayXd;
 using namespace tvbeam;
 
+BOOST_AUTO_TEST_SUITE(mms_separation)
+
 namespace {
 
 GiNaC::ex parsed(const std::string& text) {
@@ -87,8 +89,6 @@ std::set<std::string> profiles(const std::string& text) {
 }
 
 } // namespace
-
-BOOST_AUTO_TEST_SUITE(mms_separation)
 
 BOOST_DATA_TEST_CASE(products_and_rest_add_up_to_the_function, data::make(cases)) {
     const GiNaC::ex expression = parsed(sample.text);

@@ -15,6 +15,8 @@
 namespace data = boost::unit_test::data;
 using namespace tvbeam;
 
+BOOST_AUTO_TEST_SUITE(mms_solution)
+
 namespace {
 
 struct Refused {
@@ -91,8 +93,6 @@ const std::vector<Refused> refused = {
 };
 
 } // namespace
-
-BOOST_AUTO_TEST_SUITE(mms_solution)
 
 BOOST_DATA_TEST_CASE(what_breaks_a_rule_is_refused_at_its_place, data::make(refused)) {
     BOOST_CHECK_EXCEPTION(parse_solution(sample.document, "my.toml"), InputError,

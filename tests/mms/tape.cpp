@@ -18,6 +18,8 @@ namespace data = boost::unit_test::data;
 using Eigen::ArrayXd;
 using namespace tvbeam;
 
+BOOST_AUTO_TEST_SUITE(mms_tape)
+
 namespace {
 
 GiNaC::ex parsed(const std::string& text) {
@@ -67,8 +69,6 @@ const std::vector<std::string> formulas = {
 };
 
 } // namespace
-
-BOOST_AUTO_TEST_SUITE(mms_tape)
 
 // Against GiNaC's own evaluation in 30 digits. The conditioning of these formulas is below 30 or
 // so; a tape with a wrong operation is off by far more than 1e-13.

@@ -17,6 +17,8 @@
 
 using namespace tvbeam;
 
+BOOST_AUTO_TEST_SUITE(coverage)
+
 namespace {
 
 constexpr int draws = TVBEAM_SHORT_TESTS ? 500 : 2000;
@@ -70,8 +72,6 @@ Share two_term_share(const TwoTermModel& truth, double sigma, bool all_records) 
 }
 
 } // namespace
-
-BOOST_AUTO_TEST_SUITE(coverage)
 
 // Four points leave two degrees of freedom: with the normal quantile 1.96 in place of Student's
 // 4.30 only four fifths would be covered.

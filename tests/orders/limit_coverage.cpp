@@ -20,6 +20,8 @@
 
 using namespace tvbeam;
 
+BOOST_AUTO_TEST_SUITE(limit_engine)
+
 namespace {
 
 constexpr int sequences = TVBEAM_SHORT_TESTS ? 300 : 2000;
@@ -98,8 +100,6 @@ struct Score {
 };
 
 } // namespace
-
-BOOST_AUTO_TEST_SUITE(limit_engine)
 
 BOOST_AUTO_TEST_CASE(
     intervals_hold_the_limit_in_every_family_and_are_narrower_than_those_of_the_named_methods) {

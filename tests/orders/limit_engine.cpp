@@ -11,6 +11,8 @@
 
 using namespace tvbeam;
 
+BOOST_AUTO_TEST_SUITE(limit_engine)
+
 namespace {
 
 std::vector<ValueRow> sequence(int levels, const std::function<double(double)>& value) {
@@ -25,8 +27,6 @@ bool holds(const OrderInterval& interval, double truth) {
 }
 
 } // namespace
-
-BOOST_AUTO_TEST_SUITE(limit_engine)
 
 // NASA Glenn, "Examining spatial (grid) convergence": order 1.786, limit 0.97130, GCI 0.1031 % of
 // the finest value.

@@ -16,6 +16,8 @@
 using namespace tvbeam;
 namespace data = boost::unit_test::data;
 
+BOOST_AUTO_TEST_SUITE(order_engine)
+
 namespace {
 
 std::vector<ErrorRow> sequence(int levels, const std::function<double(double)>& error) {
@@ -40,8 +42,6 @@ bool holds(const OrderInterval& order, double truth) {
 }
 
 } // namespace
-
-BOOST_AUTO_TEST_SUITE(order_engine)
 
 BOOST_DATA_TEST_CASE(a_pure_power_is_known_to_the_narrowest_interval,
                      data::make({0.5, 1.0, 1.7, 2.0, 4.0, 7.0}) * data::make({3, 5, 9}), p,

@@ -8,6 +8,8 @@
 
 using namespace tvbeam;
 
+BOOST_AUTO_TEST_SUITE(pairwise_orders)
+
 namespace {
 
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
@@ -17,8 +19,6 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double few_ulp = 1e-14;
 
 } // namespace
-
-BOOST_AUTO_TEST_SUITE(pairwise_orders)
 
 // e = C hᵖ makes ln(e₁/e₂) = p ln(h₁/h₂), whatever C and the ratio: 1.01 and 10 as well as 2.
 void has_its_exponent(double p, double ratio) {

@@ -9,6 +9,8 @@
 
 using namespace tvbeam;
 
+BOOST_AUTO_TEST_SUITE(power_law)
+
 namespace {
 
 std::vector<Refinement> ladder_of(const std::vector<double>& widths, auto error) {
@@ -22,8 +24,6 @@ std::vector<Refinement> ladder_of(const std::vector<double>& widths, auto error)
 const std::vector<double> uneven{0.5, 0.3, 0.1, 0.08, 0.01, 0.004};
 
 } // namespace
-
-BOOST_AUTO_TEST_SUITE(power_law)
 
 // On data that obey the model the least squares are zero at the truth, and the truth is the answer.
 BOOST_AUTO_TEST_CASE(a_power_law_is_recovered_with_its_sign) {

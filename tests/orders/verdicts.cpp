@@ -10,6 +10,8 @@
 
 using namespace tvbeam;
 
+BOOST_AUTO_TEST_SUITE(verdicts)
+
 namespace {
 
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
@@ -72,8 +74,6 @@ std::string word(const std::vector<Refinement>& ladder, const VerdictOptions& op
 }
 
 } // namespace
-
-BOOST_AUTO_TEST_SUITE(verdicts)
 
 BOOST_AUTO_TEST_CASE(order_one_on_a_ladder_of_ratio_ten_is_asymptotic) {
     std::vector<Refinement> ladder;

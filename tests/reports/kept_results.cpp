@@ -13,6 +13,8 @@
 
 using namespace tvbeam;
 
+BOOST_AUTO_TEST_SUITE(kept_results)
+
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -56,8 +58,6 @@ void refused(const Json& right, const std::vector<Wrong>& all, const Read& read)
 }
 
 } // namespace
-
-BOOST_AUTO_TEST_SUITE(kept_results)
 
 BOOST_AUTO_TEST_CASE(a_run_comes_back_bit_for_bit) {
     const RungResult before = run();

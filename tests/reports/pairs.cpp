@@ -19,6 +19,8 @@
 using namespace tvbeam;
 namespace data = boost::unit_test::data;
 
+BOOST_AUTO_TEST_SUITE(pairs_of_blocks)
+
 namespace {
 
 /// A block, or a choice within one, as overrides of a scene.
@@ -111,8 +113,6 @@ std::vector<std::string> together(std::vector<std::string> first,
 }
 
 } // namespace
-
-BOOST_AUTO_TEST_SUITE(pairs_of_blocks)
 
 BOOST_DATA_TEST_CASE(runs_or_is_refused_before_anything_runs, data::make(parts), first) {
     for (const auto& problem : problems)

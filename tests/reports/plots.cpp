@@ -19,6 +19,8 @@
 
 using namespace tvbeam;
 
+BOOST_AUTO_TEST_SUITE(plots)
+
 namespace {
 
 bool has(const std::string& text, const std::string& part) {
@@ -83,8 +85,6 @@ StressCase stress_case(double alpha, double zeta, double dt, Outcome outcome) {
 }
 
 } // namespace
-
-BOOST_AUTO_TEST_SUITE(plots)
 
 BOOST_AUTO_TEST_CASE(the_points_of_a_convergence_figure_are_the_errors_and_the_printed_figures) {
     const auto plots = convergence_plots(paper());

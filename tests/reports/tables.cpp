@@ -17,6 +17,8 @@
 
 using namespace tvbeam;
 
+BOOST_AUTO_TEST_SUITE(tables)
+
 namespace {
 
 bool has(const std::string& text, const std::string& part) {
@@ -45,8 +47,6 @@ std::string words_of(const std::string& norm) {
 }
 
 } // namespace
-
-BOOST_AUTO_TEST_SUITE(tables)
 
 BOOST_AUTO_TEST_CASE(a_written_number_has_its_parts) {
     const auto number = written_number("-1.25e-3");

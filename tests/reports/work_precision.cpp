@@ -14,6 +14,8 @@
 
 using namespace tvbeam;
 
+BOOST_AUTO_TEST_SUITE(work_precision_report)
+
 namespace {
 
 bool has(const std::string& text, const std::string& part) {
@@ -77,8 +79,6 @@ std::size_t shown(const std::string& line) {
 }
 
 } // namespace
-
-BOOST_AUTO_TEST_SUITE(work_precision_report)
 
 BOOST_AUTO_TEST_CASE(every_line_fits_into_80_columns) {
     Study wide = study({"theta_LinfL2_sq", "u_LinfH2semi_sq", "theta_L2L2", "u_L2H2_sq"});

@@ -12,6 +12,8 @@
 
 using namespace tvbeam;
 
+BOOST_AUTO_TEST_SUITE(any_solver)
+
 namespace {
 
 const std::vector<Measure> norms{{"L2", false, "the error in L²", ""},
@@ -47,8 +49,6 @@ std::vector<Rung> levels(const std::vector<std::int64_t>& elements) {
 }
 
 } // namespace
-
-BOOST_AUTO_TEST_SUITE(any_solver)
 
 BOOST_AUTO_TEST_CASE(a_ladder_of_calls_shows_the_order_of_what_is_called) {
     // Δt = h²: e = 5h².

@@ -11,6 +11,8 @@
 
 using namespace tvbeam;
 
+BOOST_AUTO_TEST_SUITE(expectations)
+
 namespace {
 
 const std::string head = R"(solution = "copetti-fernandez-2011"
@@ -51,8 +53,6 @@ std::string message_of(const std::string& expect) {
 }
 
 } // namespace
-
-BOOST_AUTO_TEST_SUITE(expectations)
 
 BOOST_AUTO_TEST_CASE(right_bands_hold) {
     const auto all =

@@ -26,6 +26,8 @@
 using namespace tvbeam;
 namespace data = boost::unit_test::data;
 
+BOOST_AUTO_TEST_SUITE(evolution_study)
+
 namespace {
 
 using Kind = ContactEvent::Kind;
@@ -69,8 +71,6 @@ double greatest_difference(const ProbeHistory& a, const ProbeHistory& b) {
 const std::vector<std::string> time_schemes = TimeScheme::names();
 
 } // namespace
-
-BOOST_AUTO_TEST_SUITE(evolution_study)
 
 // At t = 0 the temperature is the interpolant of θ̃, and the deflection the H² projection of u,
 // which is u itself where u is a cubic. On this mesh (j/4)², t = 0.5 at step 1 of 2.

@@ -16,6 +16,8 @@
 using namespace tvbeam;
 namespace data = boost::unit_test::data;
 
+BOOST_AUTO_TEST_SUITE(execution)
+
 namespace {
 
 /// Counts work, and asks for the end when so much of it is done.
@@ -87,8 +89,6 @@ const std::string sweep = "[stress.sweep.a]\nalpha = [0.0, 1.0, 10.0]\nelements 
                           "dt = [1e-3]\nsteps = 20\nsampling = \"product\"\n";
 
 } // namespace
-
-BOOST_AUTO_TEST_SUITE(execution)
 
 // Both bases of the direct algorithm, and the fixed point.
 BOOST_DATA_TEST_CASE(work_that_is_done_is_work_that_was_expected,

@@ -16,6 +16,8 @@
 using namespace tvbeam;
 namespace data = boost::unit_test::data;
 
+BOOST_AUTO_TEST_SUITE(order_remarks_in_words)
+
 namespace {
 
 struct Case {
@@ -61,8 +63,6 @@ const std::vector<Case> cases = {
 };
 
 } // namespace
-
-BOOST_AUTO_TEST_SUITE(order_remarks_in_words)
 
 BOOST_DATA_TEST_CASE(a_reason_is_the_one_that_the_orders_show, data::make(cases)) {
     std::vector<Refinement> ladder;

@@ -12,6 +12,8 @@
 
 using namespace tvbeam;
 
+BOOST_AUTO_TEST_SUITE(orders_study)
+
 namespace {
 
 const NormOrders& orders_of(const OrdersResult& orders, const std::string& norm) {
@@ -20,8 +22,6 @@ const NormOrders& orders_of(const OrdersResult& orders, const std::string& norm)
 }
 
 } // namespace
-
-BOOST_AUTO_TEST_SUITE(orders_study)
 
 BOOST_DATA_TEST_CASE(the_paper_s_scheme_has_order_two_in_h_and_one_in_dt,
                      boost::unit_test::data::make({"lumped", "consistent"}), mass) {

@@ -10,6 +10,8 @@
 
 using namespace tvbeam;
 
+BOOST_AUTO_TEST_SUITE(solvers)
+
 namespace {
 
 using Errors = std::map<std::string, double>;
@@ -53,8 +55,6 @@ std::vector<Widths> steps(int first, int count) {
 }
 
 } // namespace
-
-BOOST_AUTO_TEST_SUITE(solvers)
 
 BOOST_AUTO_TEST_CASE(orders_of_a_ladder_are_those_of_the_methods) {
     const SolverAnalysis analysis = analyse(ordinary, steps(32, 5));

@@ -15,6 +15,8 @@
 
 using namespace tvbeam;
 
+BOOST_AUTO_TEST_SUITE(own_problem)
+
 namespace {
 
 const std::string beam = R"([beam]
@@ -89,8 +91,6 @@ std::string message_of(const Action& action) {
 }
 
 } // namespace
-
-BOOST_AUTO_TEST_SUITE(own_problem)
 
 BOOST_AUTO_TEST_CASE(every_study_of_it_is_that_of_the_same_solution_as_text) {
     const Scene scene = own_scene(beam + studies);

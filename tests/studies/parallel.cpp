@@ -22,6 +22,8 @@
 using namespace tvbeam;
 namespace data = boost::unit_test::data;
 
+BOOST_AUTO_TEST_SUITE(runs_side_by_side)
+
 namespace {
 
 void require_same(const std::vector<Rung>& rungs, const std::vector<RungResult>& first,
@@ -67,8 +69,6 @@ const std::vector<Study> studies{
 };
 
 } // namespace
-
-BOOST_AUTO_TEST_SUITE(runs_side_by_side)
 
 BOOST_DATA_TEST_CASE(results_do_not_depend_on_the_number_of_jobs, data::make(studies), study) {
     const Scene scene = read_scene(study.scene, study.overrides);

@@ -24,6 +24,8 @@
 using namespace tvbeam;
 namespace data = boost::unit_test::data;
 
+BOOST_AUTO_TEST_SUITE(penalty)
+
 namespace {
 
 /// What is compared; the stress, which jumps when a contact begins or ends, as its mean over time.
@@ -71,8 +73,6 @@ double greatest_stress(const EvolutionResult& result) {
 constexpr int decades = 12;
 
 } // namespace
-
-BOOST_AUTO_TEST_SUITE(penalty)
 
 BOOST_DATA_TEST_CASE(the_rigid_solution_is_approached_like_epsilon_and_stably,
                      data::make({"figure1", "table1", "impact", "pressed-on-g1", "released-from-g2",

@@ -21,6 +21,8 @@
 using namespace tvbeam;
 namespace data = boost::unit_test::data;
 
+BOOST_AUTO_TEST_SUITE(phases)
+
 namespace {
 
 const Beam beam{0.3, 0.2, 0.5, {-2.0, 2.0}};
@@ -135,8 +137,6 @@ std::string scene(const std::string& time, const std::string& ladder) {
 }
 
 } // namespace
-
-BOOST_AUTO_TEST_SUITE(phases)
 
 // Euler and SDIRK2 are exact for a motion in straight lines whose corner is a level.
 BOOST_DATA_TEST_CASE(a_corner_at_a_level_is_met_exactly, data::make(all_runs), scheme) {

@@ -12,6 +12,8 @@
 
 using namespace tvbeam;
 
+BOOST_AUTO_TEST_SUITE(quadrature)
+
 namespace {
 
 /// The ladder of θ(x, t) on [0, 1], with u = 0.
@@ -40,8 +42,6 @@ bool says(const LadderNorm& norm, Verdict verdict) {
 }
 
 } // namespace
-
-BOOST_AUTO_TEST_SUITE(quadrature)
 
 BOOST_AUTO_TEST_CASE(a_spike_between_the_points_is_not_taken_for_nothing) {
     // ‖θ‖ of the spike is (1/5) sin(0.337 π) (10⁻⁴ √(π/2))^½ e^−t = 1.9e-3 e^−t. Half an element

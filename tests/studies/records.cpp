@@ -11,6 +11,8 @@
 
 using namespace tvbeam;
 
+BOOST_AUTO_TEST_SUITE(records)
+
 namespace {
 
 std::vector<Refinement> records_of_text(const std::string& text,
@@ -31,8 +33,6 @@ std::string message_of(const std::string& text, const std::optional<std::string>
 }
 
 } // namespace
-
-BOOST_AUTO_TEST_SUITE(records)
 
 BOOST_AUTO_TEST_CASE(columns_are_found_by_name_in_any_order) {
     const auto records =

@@ -25,6 +25,8 @@ using namespace tvbeam;
 using Eigen::ArrayXd;
 namespace data = boost::unit_test::data;
 
+BOOST_AUTO_TEST_SUITE(references)
+
 namespace {
 
 const std::string free_beam = R"(solution = "free-oscillation"
@@ -104,8 +106,6 @@ std::vector<double> distances(const Scene& scene) {
 }
 
 } // namespace
-
-BOOST_AUTO_TEST_SUITE(references)
 
 BOOST_AUTO_TEST_CASE(piecewise_cubics_reproduce_cubics_and_integrate_what_they_differentiate) {
     const auto f = [](const ArrayXd& x) -> ArrayXd { return x.cube() - 2.0 * x.square() + 0.5; };

@@ -16,6 +16,8 @@
 using namespace tvbeam;
 namespace data = boost::unit_test::data;
 
+BOOST_AUTO_TEST_SUITE(scenes)
+
 namespace {
 
 const std::string good = R"(title    = "a test"
@@ -153,8 +155,6 @@ std::string message_of(const std::string& file, const std::vector<std::string>& 
 }
 
 } // namespace
-
-BOOST_AUTO_TEST_SUITE(scenes)
 
 BOOST_AUTO_TEST_CASE(a_scene_is_read_as_written) {
     const TemporaryDirectory directory;

@@ -25,6 +25,8 @@
 using namespace tvbeam;
 namespace data = boost::unit_test::data;
 
+BOOST_AUTO_TEST_SUITE(shipped_solutions)
+
 namespace {
 
 std::vector<std::string> solutions() {
@@ -143,8 +145,6 @@ void check_orders(const std::vector<double>& found, double expected, const std::
 }
 
 } // namespace
-
-BOOST_AUTO_TEST_SUITE(shipped_solutions)
 
 // Against the exact solution. dt ~ h^(2/q), so that a time error of the order q falls like h², too.
 BOOST_DATA_TEST_CASE(space_error_has_order_two,

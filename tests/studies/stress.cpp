@@ -19,6 +19,8 @@
 
 using namespace tvbeam;
 
+BOOST_AUTO_TEST_SUITE(stress)
+
 namespace {
 
 StressBlock read_block(const std::string& text) {
@@ -27,8 +29,6 @@ StressBlock read_block(const std::string& text) {
 }
 
 } // namespace
-
-BOOST_AUTO_TEST_SUITE(stress)
 
 BOOST_AUTO_TEST_CASE(samplings_take_the_cases_that_they_say) {
     const std::string lists = "alpha = [0.0, 1.0, 2.0]\nelements = [2, 4]\ngap = [1.0, inf]\n"

@@ -9,6 +9,8 @@
 
 using namespace tvbeam;
 
+BOOST_AUTO_TEST_SUITE(table1)
+
 namespace {
 
 /// Error over figure − 1 of every rung, for one norm.
@@ -40,8 +42,6 @@ std::vector<double> first_rows(const Figures& figures) {
 }
 
 } // namespace
-
-BOOST_AUTO_TEST_SUITE(table1)
 
 BOOST_AUTO_TEST_CASE(lumped_mass_gives_the_printed_figures) {
     const LadderResult ladder = *run_study(read_scene("table1", rows())).get<LadderResult>();

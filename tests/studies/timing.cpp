@@ -12,6 +12,8 @@
 using namespace tvbeam;
 namespace data = boost::unit_test::data;
 
+BOOST_AUTO_TEST_SUITE(timings)
+
 namespace {
 
 constexpr double failed = std::numeric_limits<double>::quiet_NaN();
@@ -42,8 +44,6 @@ Timing timing(double q1, double median, double q3) {
 const auto tight = boost::test_tools::tolerance(1e-12);
 
 } // namespace
-
-BOOST_AUTO_TEST_SUITE(timings)
 
 BOOST_AUTO_TEST_CASE(quartiles_lie_a_quarter_of_the_way_along_the_sorted_values) {
     // (n − 1)/4 = 1 and 3(n − 1)/4 = 3: the second and fourth of five.

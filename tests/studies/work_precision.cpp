@@ -19,6 +19,8 @@
 using namespace tvbeam;
 namespace data = boost::unit_test::data;
 
+BOOST_AUTO_TEST_SUITE(work_precision)
+
 namespace {
 
 const std::string good = R"(solution = "copetti-fernandez-2011"
@@ -158,8 +160,6 @@ const ReachedError& at(const NormCosts& costs, double error) {
 }
 
 } // namespace
-
-BOOST_AUTO_TEST_SUITE(work_precision)
 
 BOOST_AUTO_TEST_CASE(the_block_is_read_as_written) {
     const WorkPrecisionBlock block = *scene_of(good).get<WorkPrecisionBlock>();
