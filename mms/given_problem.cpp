@@ -101,10 +101,7 @@ ex moment_of_polynomial(const ex& q) {
 }
 
 /// y ↦ ∫_y^1 (x − y) q dx for a profile q.
-SpaceFunction moment_of_profile(const ex& q) {
-    const auto profile = [tape = compile_tape({q})](const ArrayXd& x) -> ArrayXd {
-        return tape.evaluate(x, ArrayXd::Zero(1)).row(0);
-    };
+SpaceFunction moment_of_profile(const SpaceFunction& profile) {
     ProblemData alone;
     alone.profiles = {profile};
     alone.body_force.terms = {{0, 0}};
@@ -132,18 +129,24 @@ Field moment_of(const ex& q, double final_time, ProblemBuilder& builder) {
     const GiNaC::realsymbol& x = model_symbols().x;
     const Separation parts = separated(q);
     ex closed = 0;
+    ex rest = parts.rest;
     std::vector<Field::Term> integrated;
     for (const SeparatedProduct& product : parts.products) {
         if (product.profile.is_polynomial(x) && product.profile.degree(x) <= 16) {
             closed += product.amplitude * moment_of_polynomial(product.profile);
             continue;
         }
-        integrated.push_back(builder.term(product.amplitude, moment_of_profile(product.profile)));
+        const ScaledProfile scaled = scaled_profile(product.profile);
+        if (scaled.function)
+            integrated.push_back(
+                builder.term(product.amplitude * scaled.size, moment_of_profile(scaled.function)));
+        else
+            rest += product.amplitude * product.profile;
     }
     Field result = builder.field({closed});
     result.terms.insert(result.terms.end(), integrated.begin(), integrated.end());
-    if (!parts.rest.is_zero())
-        result.rest = moment_in_time(parts.rest, final_time);
+    if (!rest.is_zero())
+        result.rest = moment_in_time(rest, final_time);
     return result;
 }
 

@@ -1,5 +1,8 @@
 #include "mms/problem_builder.hpp"
 
+#include "mms/expression/algebra.hpp"
+#include "mms/expression/canonical.hpp"
+#include "mms/expression/magnitude.hpp"
 #include "mms/expression/symbols.hpp"
 #include "mms/expression/tape_compiler.hpp"
 #include "mms/sample_points.hpp"
@@ -14,6 +17,7 @@
 namespace tvbeam {
 
 using GiNaC::ex;
+using GiNaC::numeric;
 
 namespace {
 
@@ -92,6 +96,13 @@ SpaceFunction compiled_profile(const ex& formula) {
     };
 }
 
+/// The greatest size at sampled points; infinite if a value is not finite.
+double sampled_size(const SpaceFunction& profile) {
+    const Eigen::ArrayXd values = profile(sample_points(0.0, 1.0));
+    return values.isFinite().all() ? values.abs().maxCoeff()
+                                   : std::numeric_limits<double>::infinity();
+}
+
 SpaceTimeFunction compiled_rest(const std::vector<ex>& formulas,
                                 const std::vector<TimePhase>& phases) {
     std::vector<Tape> tapes;
@@ -133,7 +144,42 @@ bool all_equal(const std::vector<ex>& a, const std::vector<ex>& b) {
                       [](const ex& left, const ex& right) { return left.is_equal(right); });
 }
 
+/// Changes nothing where the largest value is of moderate size.
+void divide_by_size(ScaledProfile& profile, double largest) {
+    constexpr int moderate = 100;
+    // A peak between the points may be as much higher, and its square is still finite.
+    constexpr int highest_peak = 400;
+    if (largest == 0.0 || std::abs(std::ilogb(largest)) <= moderate)
+        return;
+    const int exponent = std::max(std::ilogb(largest), -highest_peak);
+    profile.size *= GiNaC::pow(numeric(2), numeric(exponent));
+    profile.function =
+        [function = std::move(profile.function), factor = std::ldexp(1.0, -exponent)](
+            const Eigen::ArrayXd& x) -> Eigen::ArrayXd { return function(x) * factor; };
+}
+
 } // namespace
+
+ScaledProfile scaled_profile(const ex& profile) {
+    ScaledProfile scaled;
+    // First as it is; then over about its size, because a number in it may be out of range.
+    for (const bool as_it_is : {true, false}) {
+        if (!as_it_is)
+            scaled.size = GiNaC::pow(
+                numeric(2), numeric(static_cast<long>(magnitude(*canonical(profile)).whole)));
+        try {
+            scaled.function = compiled_profile(profile / scaled.size);
+        } catch (const AlgebraError&) {
+            continue;
+        }
+        const double largest = sampled_size(scaled.function);
+        if (std::isfinite(largest)) {
+            divide_by_size(scaled, largest);
+            return scaled;
+        }
+    }
+    return {};
+}
 
 ProblemBuilder::ProblemBuilder(std::vector<TimePhase> phases, double final_time)
     : phases_(std::move(phases)), final_time_(final_time) {}
@@ -147,30 +193,27 @@ bool ProblemBuilder::is_finite(const ex& amplitude, const TimePhase& phase) cons
 }
 
 Field ProblemBuilder::field(const std::vector<ex>& formulas) {
-    const Eigen::ArrayXd points = sample_points(0.0, 1.0);
     std::vector<ex> rests(phases_.size(), 0);
     std::vector<Eigen::Index> order;
     std::map<Eigen::Index, std::vector<ex>> amplitudes;
     for (std::size_t phase = 0; phase < phases_.size(); ++phase) {
         const Separation parts = separated(formulas[phase]);
-        rests[phase] = parts.rest;
-        for (const SeparatedProduct& product : parts.products) {
-            const bool usable = compiled_profile(product.profile)(points).isFinite().all() &&
-                                is_finite(product.amplitude, phases_[phase]);
-            if (!usable) {
-                rests[phase] = formulas[phase];
-                break;
-            }
-        }
-        if (!parts.products.empty() && rests[phase].is_equal(formulas[phase]))
+        const bool usable = std::all_of(
+            parts.products.begin(), parts.products.end(), [&](const SeparatedProduct& product) {
+                const ScaledProfile& scaled = known_profile(product.profile).scaled;
+                return scaled.function &&
+                       is_finite(product.amplitude * scaled.size, phases_[phase]);
+            });
+        rests[phase] = usable ? parts.rest : formulas[phase];
+        if (!usable)
             continue;
         for (const SeparatedProduct& product : parts.products) {
-            const Eigen::Index profile = profile_index(product.profile);
+            Profile& profile = known_profile(product.profile);
             const auto [entry, is_new] =
-                amplitudes.try_emplace(profile, std::vector<ex>(phases_.size(), 0));
+                amplitudes.try_emplace(index_of(profile), std::vector<ex>(phases_.size(), 0));
             if (is_new)
-                order.push_back(profile);
-            entry->second[phase] = product.amplitude;
+                order.push_back(entry->first);
+            entry->second[phase] = product.amplitude * profile.scaled.size;
         }
     }
     Field result;
@@ -192,19 +235,23 @@ std::optional<Eigen::Index> ProblemBuilder::amplitude(const std::vector<ex>& for
 
 Field::Term ProblemBuilder::term(const ex& amplitude, SpaceFunction profile) {
     // No expression equals this one, so that the profile is shared with none.
-    profiles_.push_back({GiNaC::symbol(), std::move(profile)});
-    return {amplitude_index(std::vector<ex>(phases_.size(), amplitude)),
-            static_cast<Eigen::Index>(profiles_.size()) - 1};
+    Profile& added = profiles_.emplace_back(Profile{GiNaC::symbol(), {std::move(profile)}});
+    return {amplitude_index(std::vector<ex>(phases_.size(), amplitude)), index_of(added)};
 }
 
-Eigen::Index ProblemBuilder::profile_index(const ex& formula) {
+ProblemBuilder::Profile& ProblemBuilder::known_profile(const ex& formula) {
     const auto same = std::find_if(profiles_.begin(), profiles_.end(), [&](const Profile& profile) {
         return profile.formula.is_equal(formula);
     });
-    const Eigen::Index index = same - profiles_.begin();
-    if (same == profiles_.end())
-        profiles_.push_back({formula, compiled_profile(formula)});
-    return index;
+    return same != profiles_.end()
+               ? *same
+               : profiles_.emplace_back(Profile{formula, scaled_profile(formula)});
+}
+
+Eigen::Index ProblemBuilder::index_of(Profile& profile) {
+    if (!profile.index)
+        profile.index = profile_count_++;
+    return *profile.index;
 }
 
 Eigen::Index ProblemBuilder::amplitude_index(const std::vector<ex>& formulas) {
@@ -218,9 +265,14 @@ Eigen::Index ProblemBuilder::amplitude_index(const std::vector<ex>& formulas) {
 }
 
 void ProblemBuilder::finish(ProblemData& problem) const {
+    problem.profiles.resize(static_cast<std::size_t>(profile_count_));
+    problem.gentle_profiles.resize(problem.profiles.size());
     for (const Profile& profile : profiles_) {
-        problem.profiles.push_back(profile.function);
-        problem.gentle_profiles.push_back(is_gentle(profile.formula, final_time_));
+        if (!profile.index)
+            continue;
+        const auto index = static_cast<std::size_t>(*profile.index);
+        problem.profiles[index] = profile.scaled.function;
+        problem.gentle_profiles[index] = is_gentle(profile.formula, final_time_);
     }
     problem.amplitude_count = static_cast<Eigen::Index>(amplitudes_.size());
     if (amplitudes_.empty())

@@ -15,6 +15,15 @@ struct TimePhase {
     double end; ///< infinite in the last phase
 };
 
+/// φ over a power of two, where its greatest value on the beam is beyond 2^±100: no double holds
+/// the square of (43*x + 7)^103, a term of a sum that its amplitude divides by 50^103.
+struct ScaledProfile {
+    SpaceFunction function;  ///< φ/size; none if that is not finite
+    GiNaC::numeric size = 1; ///< goes to the amplitude
+};
+
+ScaledProfile scaled_profile(const GiNaC::ex& profile);
+
 /// Turns symbolic functions of x and t, one formula a phase, into the profiles, amplitudes and
 /// fields of a ProblemData. Equal profiles and equal amplitudes of all fields become one.
 class ProblemBuilder {
@@ -41,16 +50,19 @@ private:
     /// A profile is symbolic, or else only a function.
     struct Profile {
         GiNaC::ex formula;
-        SpaceFunction function;
+        ScaledProfile scaled;
+        std::optional<Eigen::Index> index{}; ///< in the problem, if a term has it
     };
 
-    Eigen::Index profile_index(const GiNaC::ex& formula);
+    Profile& known_profile(const GiNaC::ex& formula);
+    Eigen::Index index_of(Profile& profile);
     Eigen::Index amplitude_index(const std::vector<GiNaC::ex>& formulas);
     [[nodiscard]] bool is_finite(const GiNaC::ex& amplitude, const TimePhase& phase) const;
 
     std::vector<TimePhase> phases_;
     double final_time_;
     std::vector<Profile> profiles_;
+    Eigen::Index profile_count_ = 0;                 ///< of those with an index
     std::vector<std::vector<GiNaC::ex>> amplitudes_; ///< for each amplitude one formula a phase
 };
 

@@ -2,14 +2,9 @@
 
 #include "mms/expression/algebra.hpp"
 #include "mms/expression/canonical.hpp"
-#include "mms/expression/magnitude.hpp"
 #include "mms/expression/symbols.hpp"
-#include "mms/expression/tape_compiler.hpp"
-#include "mms/sample_points.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <optional>
 #include <string>
 
@@ -182,39 +177,6 @@ std::optional<Products> products_of(const ex& expression) {
     return std::nullopt;
 }
 
-/// The greatest size of a profile at sampled points; infinite where doubles cannot hold it, or a
-/// number in it.
-double sampled_size(const ex& profile) {
-    const Eigen::ArrayXd x = sample_points(0.0, 1.0);
-    try {
-        return compile_tape({profile}).evaluate(x, Eigen::ArrayXd::Zero(1)).abs().maxCoeff();
-    } catch (const AlgebraError&) {
-        return std::numeric_limits<double>::infinity();
-    }
-}
-
-/// The power of two that a profile is divided by: 1 for one of moderate size, or of none.
-numeric excess_size(const ex& profile) {
-    constexpr int moderate = 100;
-    // A peak between the points may be as much higher, and its square is still finite.
-    constexpr int highest_peak = 400;
-    const auto power_of_two = [](double exponent) {
-        return GiNaC::pow(numeric(2), numeric(static_cast<long>(exponent)));
-    };
-    numeric size = 1;
-    double largest = sampled_size(profile);
-    if (!std::isfinite(largest)) {
-        size = power_of_two(magnitude(*canonical(profile)).whole);
-        largest = sampled_size(profile / size);
-    }
-    if (largest == 0.0 || !std::isfinite(largest))
-        return 1;
-    const int exponent = std::ilogb(largest);
-    if (std::abs(exponent) > moderate)
-        size *= power_of_two(std::max(exponent, -highest_peak));
-    return size;
-}
-
 /// Normalises the profiles, adds the amplitudes of equal ones, and drops what is zero.
 Products merged(const Products& products) {
     Products result;
@@ -226,11 +188,6 @@ Products merged(const Products& products) {
     }
     std::erase_if(result,
                   [](const SeparatedProduct& r) { return is_identically_zero(r.amplitude); });
-    for (SeparatedProduct& product : result) {
-        const numeric size = excess_size(product.profile);
-        product.amplitude *= size;
-        product.profile /= size;
-    }
     return result;
 }
 

@@ -25,9 +25,7 @@ struct Separation {
 /// powers of sums (exponent 8 at most), exp and powers of constants of a sum are split into
 /// factors, sin, cos, sinh and cosh of a sum by their addition theorems; a term with any other
 /// mixed factor goes to the rest. What depends on x only or on t only is left as it is written:
-/// (x-1)^10 stays. If more than 32 products arise, all is rest. A profile whose greatest
-/// value on the beam is beyond 2^±100 is divided by a power of two: no double holds the square of
-/// (43*x + 7)^103, a term of a sum that the amplitude divides by 50^103.
+/// (x-1)^10 stays. If more than 32 products arise, all is rest.
 Separation separated(const GiNaC::ex& expression);
 
 /// c and φ with profile = c φ, where φ is the same for x-1, 1-x and 3*(1-x): the leading terms of
