@@ -71,11 +71,16 @@ void TimeLevels::evaluate_from(std::int64_t n) {
     count_ = std::min({block_size, last - n + 1, steps_ - n + 1});
     stages_ = static_cast<std::int64_t>(scheme.stages.size());
     times_.resize(count_ * stages_);
+    // Few blocks meet the end of a phase.
+    const auto& ends = data_.phase_ends;
+    const auto end = std::lower_bound(ends.begin(), ends.end(), level(n - 1) - dt());
+    const bool meets_end = end != ends.end() && *end <= level(n + count_ - 1) + dt();
+    const auto moved = [&](double t) { return meets_end ? at_phase_end(t) : t; };
     for (std::int64_t k = 0; k < count_; ++k)
         for (std::int64_t i = 0; i < stages_; ++i) {
             const double fraction = scheme.stages[static_cast<std::size_t>(i)].fraction;
             times_(k * stages_ + i) =
-                fraction == 1.0 ? time(n + k) : at_phase_end(time(n + k - 1) + fraction * dt());
+                moved(fraction == 1.0 ? level(n + k) : moved(level(n + k - 1)) + fraction * dt());
         }
     if (data_.amplitude_count > 0)
         amplitudes_ = data_.amplitudes(times_);

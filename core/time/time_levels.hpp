@@ -28,9 +28,7 @@ public:
     /// data must outlive the object.
     TimeLevels(const ProblemData& data, TimeScheme scheme, double final_time, std::int64_t steps);
 
-    [[nodiscard]] double time(std::int64_t n) const {
-        return at_phase_end(numerator_ * static_cast<double>(n) / denominator_);
-    }
+    [[nodiscard]] double time(std::int64_t n) const { return at_phase_end(level(n)); }
     [[nodiscard]] double dt() const { return final_time_ / static_cast<double>(steps_); }
     [[nodiscard]] std::int64_t steps() const { return steps_; }
 
@@ -45,6 +43,10 @@ public:
     std::int64_t available(std::int64_t n);
 
 private:
+    /// T n/N, rounded.
+    [[nodiscard]] double level(std::int64_t n) const {
+        return numerator_ * static_cast<double>(n) / denominator_;
+    }
     void find_fraction();
     [[nodiscard]] double at_phase_end(double t) const;
     void evaluate_from(std::int64_t n);

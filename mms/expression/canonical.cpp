@@ -3,6 +3,7 @@
 #include "mms/expression/symbols.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <sstream>
 #include <tuple>
 #include <utility>
@@ -16,6 +17,8 @@ using GiNaC::numeric;
 using Kind = CanonicalNode::Kind;
 
 std::string number_text(const numeric& value) {
+    if (value.is_integer() && value.int_length() < std::numeric_limits<int>::digits)
+        return std::to_string(value.to_int());
     std::ostringstream stream;
     stream << value;
     return stream.str();

@@ -90,12 +90,14 @@ Series<Real> power_series(const Real& b, const Real& a) {
     using std::pow;
     Series<Real> f;
     Real choose = 1;
-    for (std::size_t k = 0; k < f.size; ++k) {
+    Real power = pow(b, a);
+    for (std::size_t k = 0; k < f.size && choose != 0; ++k) {
         const Real order = static_cast<int>(k);
-        f.coefficients[k] = choose == 0 ? Real(0) : Real(choose * pow(b, Real(a - order)));
+        f.coefficients[k] = choose * power;
         // By products a^n has n roundings.
         f.sizes[k] = (abs(a) + 1) * abs(f.coefficients[k]);
         choose *= (a - order) / (order + 1);
+        power = b == 0 ? Real(pow(b, Real(a - order - 1))) : Real(power / b);
     }
     return f;
 }

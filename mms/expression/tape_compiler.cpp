@@ -58,22 +58,24 @@ public:
     }
 
     Tape compile(const std::vector<ex>& expressions) {
-        std::vector<Canonical> nodes;
+        std::vector<Sized> nodes;
         std::vector<int> outputs;
         nodes.reserve(expressions.size());
         outputs.reserve(expressions.size());
-        for (const ex& expression : expressions)
-            nodes.push_back(roomy(balanced(expression)));
+        for (const ex& expression : expressions) {
+            const Canonical node = canonical(expression);
+            nodes.push_back(roomy(has_quotient(*node) ? canonical(balanced(expression)) : node));
+        }
         choose_width(nodes);
-        for (const Canonical& node : nodes)
-            outputs.push_back(value_of(*node));
+        for (const Sized& sized : nodes)
+            outputs.push_back(value_of(*sized.node));
         return allocate(outputs);
     }
 
     double constant(const ex& expression) {
-        const Canonical node = roomy(expression);
-        choose_width({node});
-        const auto& value = values_[index(value_of(*node))].constant;
+        const Sized sized = roomy(canonical(expression));
+        choose_width({sized});
+        const auto& value = values_[index(value_of(*sized.node))].constant;
         if (!value)
             throw AlgebraError("it is not a number");
         const auto result = static_cast<double>(*value);
@@ -95,19 +97,33 @@ private:
 
     static std::size_t index(int value) { return static_cast<std::size_t>(value); }
 
-    /// An expression with its sums rescaled if doubles have no room for them.
-    static Canonical roomy(const ex& expression) {
-        const Canonical node = canonical(expression);
-        return fits_doubles(magnitude(*node)) ? node : rescaled(node);
+    struct Sized {
+        Canonical node;
+        Magnitude size;
+    };
+
+    /// The same with its sums rescaled if doubles have no room for them.
+    static Sized roomy(const Canonical& node) {
+        const Magnitude size = magnitude(*node);
+        if (fits_doubles(size))
+            return {node, size};
+        const Canonical changed = rescaled(node);
+        return {changed, magnitude(*changed)};
+    }
+
+    static bool has_quotient(const CanonicalNode& node) {
+        if (node.kind == Kind::Power && node.operands[1]->coefficient.is_negative())
+            return true;
+        return std::any_of(node.operands.begin(), node.operands.end(),
+                           [](const Canonical& operand) { return has_quotient(*operand); });
     }
 
     /// Long double is for what has a size within the range of doubles but parts that may leave it.
-    void choose_width(const std::vector<Canonical>& nodes) {
+    void choose_width(const std::vector<Sized>& nodes) {
         constexpr double range = 1020.0;
         bool fits = true;
         bool representable = true;
-        for (const Canonical& node : nodes) {
-            const Magnitude size = magnitude(*node);
+        for (const auto& [node, size] : nodes) {
             fits = fits && fits_doubles(size);
             representable = representable && size.whole <= range;
         }
