@@ -19,6 +19,8 @@ using Kind = CanonicalNode::Kind;
 std::string number_text(const numeric& value) {
     if (value.is_integer() && value.int_length() < std::numeric_limits<int>::digits)
         return std::to_string(value.to_int());
+    if (value.is_rational() && !value.is_integer())
+        return number_text(value.numer()) + "/" + number_text(value.denom());
     std::ostringstream stream;
     stream << value;
     return stream.str();
