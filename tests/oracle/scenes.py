@@ -14,7 +14,7 @@ import scheme
 import solution
 from solution import rational
 
-GAUSS_POINTS = (10, 14, 20, 30, 45, 65, 95, 140)
+GAUSS_POINTS = (10, 14, 20, 30, 45, 65, 95, 140, 200)
 
 
 class Unresolved(Exception):
