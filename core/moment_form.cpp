@@ -27,7 +27,7 @@ MomentForm::MomentForm(const Beam& beam, const ProblemData& data, const Mesh& me
             projections_.push_back(project(mesh_, profile));
     counters_.doubles_allocated =
         static_cast<std::int64_t>(projections_.size()) * 2 * mesh_.elements() +
-        2 * factor_.order() + inverse_lengths_.size() + loads_.size() + lever_load_.size() +
+        2 * factor_.order() + inverse_lengths_.size() + loads_.size() + arm_load_.size() +
         response_.size() + state_.size() + increment_.size() + balance_.size();
 }
 
@@ -70,24 +70,24 @@ void MomentForm::load_initial_state() {
 
 void MomentForm::load_profiles() {
     const Eigen::Index inner = mesh_.elements() - 1;
-    const auto lever = static_cast<Eigen::Index>(data_.profiles.size());
-    const auto lever_function = [](const Eigen::ArrayXd& x) -> Eigen::ArrayXd { return 1.0 - x; };
-    const bool lever_used = stops_ || (coupled_ && beam_.theta_A != 0.0);
+    const auto arm = static_cast<Eigen::Index>(data_.profiles.size());
+    const auto arm_function = [](const Eigen::ArrayXd& x) -> Eigen::ArrayXd { return 1.0 - x; };
+    const bool arm_used = stops_ || (coupled_ && beam_.theta_A != 0.0);
 
-    tip_moments_ = Eigen::VectorXd::Zero(lever + 1);
+    tip_moments_ = Eigen::VectorXd::Zero(arm + 1);
     std::vector<Eigen::VectorXd> loads;
-    for (Eigen::Index r = 0; r <= lever; ++r) {
+    for (Eigen::Index r = 0; r <= arm; ++r) {
         const bool bends =
-            r == lever ? lever_used
-                       : bending_ && (data_.moment_load.uses(r) || data_.curvature_initial.uses(r));
-        const bool heats = r < lever && heat_ && data_.heat_source.uses(r);
+            r == arm ? arm_used
+                     : bending_ && (data_.moment_load.uses(r) || data_.curvature_initial.uses(r));
+        const bool heats = r < arm && heat_ && data_.heat_source.uses(r);
         if (!bends && !heats)
             continue;
         LoadProfile profile = load_profile(
-            mesh_, r == lever ? lever_function : data_.profiles[static_cast<std::size_t>(r)]);
+            mesh_, r == arm ? arm_function : data_.profiles[static_cast<std::size_t>(r)]);
         tip_moments_(r) = profile.tip_moment;
-        if (r == lever && stops_)
-            lever_load_ = profile.hat_load;
+        if (r == arm && stops_)
+            arm_load_ = profile.hat_load;
         if (heats || (bends && coupled_)) {
             columns_.push_back(r);
             loads.emplace_back(profile.hat_load.segment(1, inner));
@@ -120,9 +120,9 @@ void MomentForm::find_contact_response() {
         return;
     const Eigen::Index inner = mesh_.elements() - 1;
     response_ = Eigen::VectorXd::Zero(mesh_.elements() + 1);
-    response_.segment(1, inner) = beam_.alpha * leading_ * kappa_ * lever_load_.segment(1, inner);
+    response_.segment(1, inner) = beam_.alpha * leading_ * kappa_ * arm_load_.segment(1, inner);
     factor_.solve_in_place(response_.segment(1, inner));
-    compliance_ -= kappa_ * beam_.alpha * response_.dot(lever_load_);
+    compliance_ -= kappa_ * beam_.alpha * response_.dot(arm_load_);
 }
 
 std::string MomentForm::solve(double c, double t,
@@ -226,8 +226,8 @@ void MomentForm::make_contact() {
 double MomentForm::tip_displacement() const {
     double tip = w_.weights.dot(tip_moments_);
     if (coupled_)
-        tip += lever_load_.size() > 0
-                   ? w_.nodal.dot(lever_load_)
+        tip += arm_load_.size() > 0
+                   ? w_.nodal.dot(arm_load_)
                    : w_.nodal.dot(hat_loads(
                          mesh_, [](const Eigen::ArrayXd& x) -> Eigen::ArrayXd { return 1.0 - x; }));
     if (w_.rest.size() > 0)

@@ -13,15 +13,14 @@ namespace tvbeam {
 
 /// The curvature w = U_xx of the moment form, as the sum of parts that it keeps apart:
 ///
-///     w = a + Σ_r c_r Πφ_r + c_lever (1 − x) + p
+///     w = a + Σ_r c_r Πφ_r + c_arm (1 − x) + p
 ///
 /// a is continuous and piecewise linear with a(0) = a(1) = 0, Π the L² projection on P1disc, p in
 /// P1disc.
 struct SplitCurvature {
     using Vector = Eigen::Map<Eigen::VectorXd>;
-    Vector nodal{nullptr, 0}; ///< a at the nodes; shape: s + 1, or empty: zero (alpha = 0)
-    Vector weights{nullptr,
-                   0}; ///< c_r for every profile of ProblemData, then c_lever; shape: R + 1
+    Vector nodal{nullptr, 0};   ///< a at the nodes; shape: s + 1, or empty: zero (alpha = 0)
+    Vector weights{nullptr, 0}; ///< c_r for every profile of ProblemData, then c_arm; shape: R + 1
     Eigen::Map<DiscontinuousLinear> rest{
         nullptr, 2, 0}; ///< p; shape: 2 × s, or empty: zero (every moment load separates)
 };
@@ -82,8 +81,8 @@ private:
     std::vector<Eigen::Index>
         columns_;                 // profiles with a hat load, in the order of the columns of loads_
     Eigen::MatrixXd loads_;       // (φ_r, χ_i) at inner nodes
-    Eigen::VectorXd tip_moments_; // (φ_r, 1 − x) of every profile and of the lever
-    Eigen::VectorXd lever_load_;  // (1 − x, χ_i), all nodes
+    Eigen::VectorXd tip_moments_; // (φ_r, 1 − x) of every profile and of the moment arm
+    Eigen::VectorXd arm_load_;    // (1 − x, χ_i), all nodes
     Eigen::VectorXd response_;    // Θ that answers λ = 1
     double compliance_ = 0.0;     // u(1) that answers λ = 1
 

@@ -5,11 +5,10 @@
 #include "core/moment_form.hpp"
 #include "core/norms/error_norms.hpp"
 #include "core/norms/quadrature_uncertainty.hpp"
-#include "core/sine/form.hpp"
+#include "core/sine/sine_run.hpp"
 #include "core/time/time_levels.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <new>
 #include <optional>
 #include <sstream>
@@ -23,17 +22,8 @@ namespace {
 /// Steps between two calls of RunRequest::advance.
 constexpr std::int64_t steps_between = 64;
 
-RunResult failure(RunResult result, const std::string& reason,
-                  RunStatus status = RunStatus::failed) {
-    result.status = status;
-    result.reason = reason;
-    result.errors.clear();
-    return result;
-}
-
-bool all_finite(const std::vector<double>& errors) {
-    return std::all_of(errors.begin(), errors.end(),
-                       [](double error) { return std::isfinite(error); });
+RunResult failure(const std::string& reason, const Counters& counters = {}) {
+    return {.status = RunStatus::failed, .reason = reason, .counters = counters};
 }
 
 /// The loads that an algorithm integrates.
@@ -83,91 +73,89 @@ std::unique_ptr<Solver> make_solver(const Beam& beam, const ProblemData& data, c
     return std::make_unique<MomentForm>(beam, data, mesh, scheme, dt, needs);
 }
 
-RunResult run(const RunRequest& request, const ProblemData& data, const Observer* observer) {
-    RunResult result;
-    const double dt = request.final_time / static_cast<double>(request.steps);
-    bool wanted = true;
-    const auto advance = [&](std::int64_t steps) {
-        wanted = wanted && (!request.advance || request.advance(steps));
-        return wanted;
-    };
-    const auto interrupted = [&] {
-        return failure(std::move(result), "it was interrupted", RunStatus::interrupted);
-    };
-    if (!advance(0))
-        return interrupted();
-    try {
-        const auto found = data.resolution ? data.resolution
-                                           : std::make_shared<const Resolution>(
-                                                 resolution_of(data, {request.scheme.algorithm},
-                                                               request.norms, request.final_time));
-        const Mesh mesh = found->on(request.mesh);
-        const auto measured = [&](std::vector<double> errors) {
-            result.errors = std::move(errors);
-            if (!result.errors.empty())
-                result.uncertainties = quadrature_uncertainties(
-                    data, loads_of(data, request.scheme.algorithm), *found, mesh, request.norms,
-                    result.errors, request.final_time);
-        };
-        Needs needs = ErrorNorms::needs(data, request.norms);
-        if (observer != nullptr)
-            needs = request.norms.empty() ? observer->needs : needs.with(observer->needs);
-        else if (SineForm::suits(data, mesh, request.scheme, request.norms)) {
-            SineForm form(request.beam, data, mesh, request.scheme, request.final_time,
-                          request.steps, request.norms, needs);
-            const bool finite = form.march(advance);
-            if (!wanted)
-                return interrupted();
-            if (finite) {
-                result.counters = form.counters();
-                if (!request.norms.empty())
-                    measured(form.errors());
-                if (all_finite(result.errors))
-                    return result;
-            }
-            // What is wrong, and where, the general form says.
-            result = {};
-        }
-        const auto solver = make_solver(request.beam, data, mesh, request.scheme, dt, needs);
-        std::optional<ErrorNorms> norms;
-        if (!request.norms.empty())
-            norms.emplace(request.beam, data, mesh, request.norms,
-                          dynamic_cast<const MomentForm*>(solver.get()));
+namespace {
 
+/// The run in nodal values.
+RunResult march(const RunRequest& request, const ProblemData& data, const Mesh& mesh,
+                const Needs& needs, const Observer* observer) {
+    const double dt = request.final_time / static_cast<double>(request.steps);
+    const auto solver = make_solver(request.beam, data, mesh, request.scheme, dt, needs);
+    std::optional<ErrorNorms> norms;
+    if (!request.norms.empty())
+        norms.emplace(request.beam, data, mesh, request.norms,
+                      dynamic_cast<const MomentForm*>(solver.get()));
+    if (observer != nullptr)
+        observer->visit(0.0, *solver);
+    TimeLevels levels(data, request.scheme.time, request.final_time, request.steps);
+    for (std::int64_t n = 1; n <= request.steps; ++n) {
+        const StepSources sources = levels.at(n);
+        const std::string reason = solver->step(sources);
+        if (!reason.empty())
+            return failure(located(reason, n, request.steps, levels.time(n)), solver->counters());
+        // The last solve of a step is at its end.
+        if (norms)
+            norms->add(levels.time(n), dt, *solver,
+                       sources.amplitudes.col(sources.amplitudes.cols() - 1));
         if (observer != nullptr)
-            observer->visit(0.0, *solver);
-        TimeLevels levels(data, request.scheme.time, request.final_time, request.steps);
-        for (std::int64_t n = 1; n <= request.steps; ++n) {
-            const StepSources sources = levels.at(n);
-            const std::string reason = solver->step(sources);
-            if (!reason.empty()) {
-                result.counters = solver->counters();
-                return failure(result, located(reason, n, request.steps, levels.time(n)));
-            }
-            // The last solve of a step is at its end.
-            if (norms)
-                norms->add(levels.time(n), dt, *solver,
-                           sources.amplitudes.col(sources.amplitudes.cols() - 1));
-            if (observer != nullptr)
-                observer->visit(levels.time(n), *solver);
-            if (n % steps_between == 0 && !advance(steps_between))
-                return interrupted();
-        }
-        result.counters = solver->counters();
-        if (norms) {
-            measured(norms->values());
-            result.counters.norm_evaluations = norms->evaluations();
-            result.counters.doubles_allocated += norms->doubles_allocated();
-            if (!all_finite(result.errors))
-                return failure(result, "an error norm is not finite at the end of the run");
-        }
-    } catch (const std::domain_error& error) {
-        return failure(result, error.what());
-    } catch (const std::bad_alloc&) {
-        return failure(result, "not enough memory for " + std::to_string(request.mesh.elements()) +
-                                   " elements");
+            observer->visit(levels.time(n), *solver);
+        if (n % steps_between == 0 && request.advance && !request.advance(steps_between))
+            return {.status = RunStatus::interrupted};
     }
-    return result;
+    RunResult result{.counters = solver->counters()};
+    if (norms) {
+        result.errors = norms->values();
+        result.counters.norm_evaluations = norms->evaluations();
+        result.counters.doubles_allocated += norms->doubles_allocated();
+    }
+    return all_finite(result.errors)
+               ? result
+               : failure("an error norm is not finite at the end of the run", result.counters);
+}
+
+/// What norms and observer read between them.
+Needs needs_of(const RunRequest& request, const ProblemData& data, const Observer* observer) {
+    if (observer != nullptr && request.norms.empty())
+        return observer->needs;
+    const Needs needs = ErrorNorms::needs(data, request.norms);
+    return observer == nullptr ? needs : needs.with(observer->needs);
+}
+
+/// Either way of running.
+RunResult attempt(const RunRequest& request, const ProblemData& data, const Observer* observer) {
+    if (request.advance && !request.advance(0))
+        return {.status = RunStatus::interrupted};
+    const auto resolution =
+        data.resolution ? data.resolution
+                        : std::make_shared<const Resolution>(resolution_of(
+                              data, {request.scheme.algorithm}, request.norms, request.final_time));
+    const Mesh mesh = resolution->on(request.mesh);
+    const Needs needs = needs_of(request, data, observer);
+    std::optional<RunResult> result;
+    if (observer == nullptr)
+        result = run_in_sines(request, data, mesh, needs);
+    if (!result)
+        result = march(request, data, mesh, needs, observer);
+    if (!result->errors.empty())
+        result->uncertainties =
+            quadrature_uncertainties(data, loads_of(data, request.scheme.algorithm), *resolution,
+                                     mesh, request.norms, result->errors, request.final_time);
+    return *std::move(result);
+}
+
+} // namespace
+
+RunResult run(const RunRequest& request, const ProblemData& data, const Observer* observer) {
+    try {
+        RunResult result = attempt(request, data, observer);
+        if (result.status == RunStatus::interrupted)
+            result = {.status = RunStatus::interrupted, .reason = "it was interrupted"};
+        return result;
+    } catch (const std::domain_error& error) {
+        return failure(error.what());
+    } catch (const std::bad_alloc&) {
+        return failure("not enough memory for " + std::to_string(request.mesh.elements()) +
+                       " elements");
+    }
 }
 
 } // namespace tvbeam

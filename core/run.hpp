@@ -37,12 +37,12 @@ struct RunRequest {
 
 struct RunResult {
     RunStatus status = RunStatus::ok;
-    std::string reason;         ///< empty when ok
-    std::vector<double> errors; ///< in the order of RunRequest::norms; empty when failed
+    std::string reason = {};         ///< empty when ok
+    std::vector<double> errors = {}; ///< in the order of RunRequest::norms; empty when failed
     /// The part of each error that quadrature leaves uncertain (quadrature_uncertainties); empty:
     /// none of any.
-    std::vector<double> uncertainties;
-    Counters counters;
+    std::vector<double> uncertainties = {};
+    Counters counters = {};
 };
 
 /// The solver for a scheme, at t = 0. Throws std::domain_error when it cannot start, and where the

@@ -42,17 +42,11 @@ public:
                            [&] { return PiecewiseTape(derived_, formulas); });
         };
         const PiecewiseTape inside = compiled([](const DerivedPhase& phase) {
-            const ex u_xxt = derivative(phase.u_xx, model_symbols().t);
-            std::vector<ex> rows = {phase.theta_terms[0],
-                                    phase.theta_terms[1],
-                                    u_xxt,
-                                    phase.heat_source,
-                                    phase.body_force,
-                                    phase.sigma,
-                                    phase.u_terms[0],
-                                    derivative(u_xxt, model_symbols().x),
-                                    phase.theta_x,
-                                    phase.couple_load};
+            std::vector<ex> rows = {phase.theta_t,    phase.theta_xx,
+                                    phase.u_xxt,      phase.heat_source,
+                                    phase.body_force, phase.sigma,
+                                    phase.u_xxx,      derivative(phase.u_xxt, model_symbols().x),
+                                    phase.theta_x,    phase.couple_load};
             std::transform(rows.begin(), rows.end(), rows.begin(), simplified);
             return rows;
         });

@@ -36,20 +36,18 @@ DerivedPhase derive(const PhaseExpressions& phase, const SolutionPhase& source, 
     result.contact_stress = at_tip(phase.sigma, of_sigma, "sigma");
     result.body_force = located(of_sigma, "sigma", [&] { return derivative(phase.sigma, x); });
 
-    const ex u_xxx = of_u(result.u_xx, x);
-    const ex u_xxt = of_u(result.u_xx, t);
-    const ex u_xxxt = zeta.is_zero() ? ex(0) : of_u(u_xxt, x);
-    result.theta_terms = {of_theta(phase.theta, t), of_theta(result.theta_x, x)};
-    result.u_terms = {u_xxx, u_xxxt};
-    if (!alpha.is_zero() || !zeta.is_zero())
-        result.u_terms.push_back(u_xxt);
+    result.theta_t = of_theta(phase.theta, t);
+    result.theta_xx = of_theta(result.theta_x, x);
+    result.u_xxx = of_u(result.u_xx, x);
+    result.u_xxt = of_u(result.u_xx, t);
+    result.u_xxxt = zeta.is_zero() ? ex(0) : of_u(result.u_xxt, x);
 
-    result.heat_source = result.theta_terms[0] - result.theta_terms[1] - alpha * u_xxt;
-    result.couple_load = phase.sigma + u_xxx + zeta * u_xxxt + alpha * result.theta_x;
+    result.heat_source = result.theta_t - result.theta_xx - alpha * result.u_xxt;
+    result.couple_load = phase.sigma + result.u_xxx + zeta * result.u_xxxt + alpha * result.theta_x;
     // A body force can be all that drives the beam.
     if (is_identically_zero(result.couple_load))
         result.couple_load = 0;
-    const ex viscoelastic = result.u_xx + zeta * u_xxt;
+    const ex viscoelastic = result.u_xx + zeta * result.u_xxt;
     result.end_moment = at_tip(viscoelastic, source.u, "u_xx + zeta*u_xxt");
     const ex theta_at_tip = at_tip(phase.theta, source.theta, "theta");
     result.moment_load = result.contact_stress * (1 - x) - viscoelastic - alpha * phase.theta;

@@ -26,9 +26,8 @@ struct DerivedPhase {
     /// by parts, ∫_y^1 (x − y) σ_x dx = σ(1,t)(1−y) − ∫_y^1 σ dx.
     GiNaC::ex moment_load;
 
-    /// The further derivatives that f, G, m are made of; those that α = 0 or ζ = 0 takes away are
-    /// left out.
-    std::vector<GiNaC::ex> theta_terms, u_terms;
+    /// The further derivatives that f, G and m are made of; u_xxxt is zero where ζ is.
+    GiNaC::ex theta_t, theta_xx, u_xxx, u_xxt, u_xxxt;
 };
 
 /// Derives all of it for given α and ζ, which may be symbols or numbers.

@@ -39,10 +39,9 @@ bool vanishes(const DerivedSolution& derived, ex DerivedPhase::*member, const Gi
 
 /// θ̃_t and u_xxt in every phase, over x.
 PiecewiseTape rates(const DerivedSolution& derived) {
-    return {
-        derived, [](const DerivedPhase& phase) {
-            return std::vector<ex>{phase.theta_terms[0], derivative(phase.u_xx, model_symbols().t)};
-        }};
+    return {derived, [](const DerivedPhase& phase) {
+                return std::vector<ex>{phase.theta_t, phase.u_xxt};
+            }};
 }
 
 std::vector<Switch> switches(const DerivedSolution& derived, double final_time) {

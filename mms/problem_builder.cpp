@@ -6,12 +6,10 @@
 #include "mms/expression/symbols.hpp"
 #include "mms/expression/tape_compiler.hpp"
 #include "mms/sample_points.hpp"
-#include "mms/separation.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <utility>
 
 namespace tvbeam {
@@ -192,33 +190,36 @@ bool ProblemBuilder::is_finite(const ex& amplitude, const TimePhase& phase) cons
     return compile_tape({amplitude}).evaluate(Eigen::ArrayXd::Zero(1), times).isFinite().all();
 }
 
+Separation ProblemBuilder::finite_separation(const ex& formula, const TimePhase& phase) {
+    Separation parts = separated(formula);
+    const auto usable = [&](const SeparatedProduct& product) {
+        const ScaledProfile& scaled = known_profile(product.profile).scaled;
+        return scaled.function && is_finite(product.amplitude * scaled.size, phase);
+    };
+    if (std::all_of(parts.products.begin(), parts.products.end(), usable))
+        return parts;
+    return {{}, formula};
+}
+
 Field ProblemBuilder::field(const std::vector<ex>& formulas) {
-    std::vector<ex> rests(phases_.size(), 0);
-    std::vector<Eigen::Index> order;
-    std::map<Eigen::Index, std::vector<ex>> amplitudes;
+    std::vector<ex> rests;
+    std::vector<std::pair<Eigen::Index, std::vector<ex>>> terms; // profile, amplitude by phase
     for (std::size_t phase = 0; phase < phases_.size(); ++phase) {
-        const Separation parts = separated(formulas[phase]);
-        const bool usable = std::all_of(
-            parts.products.begin(), parts.products.end(), [&](const SeparatedProduct& product) {
-                const ScaledProfile& scaled = known_profile(product.profile).scaled;
-                return scaled.function &&
-                       is_finite(product.amplitude * scaled.size, phases_[phase]);
-            });
-        rests[phase] = usable ? parts.rest : formulas[phase];
-        if (!usable)
-            continue;
+        const Separation parts = finite_separation(formulas[phase], phases_[phase]);
+        rests.push_back(parts.rest);
         for (const SeparatedProduct& product : parts.products) {
             Profile& profile = known_profile(product.profile);
-            const auto [entry, is_new] =
-                amplitudes.try_emplace(index_of(profile), std::vector<ex>(phases_.size(), 0));
-            if (is_new)
-                order.push_back(entry->first);
-            entry->second[phase] = product.amplitude * profile.scaled.size;
+            const Eigen::Index index = index_of(profile);
+            auto term = std::find_if(terms.begin(), terms.end(),
+                                     [&](const auto& one) { return one.first == index; });
+            if (term == terms.end())
+                term = terms.insert(term, {index, std::vector<ex>(phases_.size(), 0)});
+            term->second[phase] = product.amplitude * profile.scaled.size;
         }
     }
     Field result;
-    for (const Eigen::Index profile : order)
-        result.terms.push_back({amplitude_index(amplitudes.at(profile)), profile});
+    for (const auto& [profile, amplitude] : terms)
+        result.terms.push_back({amplitude_index(amplitude), profile});
     if (!all_zero(rests)) {
         result.rest = compiled_rest(rests, phases_);
         result.gentle = std::all_of(rests.begin(), rests.end(),

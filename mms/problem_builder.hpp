@@ -1,6 +1,7 @@
 #pragma once
 
 #include "core/problem.hpp"
+#include "mms/separation.hpp"
 
 #include <ginac/ginac.h>
 
@@ -56,6 +57,8 @@ private:
 
     Profile& known_profile(const GiNaC::ex& formula);
     Eigen::Index index_of(Profile& profile);
+    /// The products of a formula in its phase; none, and all of it the rest, where one overflows.
+    Separation finite_separation(const GiNaC::ex& formula, const TimePhase& phase);
     Eigen::Index amplitude_index(const std::vector<GiNaC::ex>& formulas);
     [[nodiscard]] bool is_finite(const GiNaC::ex& amplitude, const TimePhase& phase) const;
 

@@ -58,9 +58,8 @@ void EnergyLaw::add(const SolveRecord& record) {
     const double heating = record.heat_load.dot(theta);
     const double load = inner_product(mesh_, record.moment, rate.w);
     const double theta_A = beam_.alpha * beam_.theta_A / record.unit;
-    const double lever = tip_moment(mesh_, rate.w);
-    balances_.push_back(conduction + viscosity - heating + load +
-                        (theta_A - record.stress) * lever);
+    const double arm = tip_moment(mesh_, rate.w);
+    balances_.push_back(conduction + viscosity - heating + load + (theta_A - record.stress) * arm);
 
     // |ẇ| ≤ c (|w| + |w*|) term by term.
     const double rate_size =

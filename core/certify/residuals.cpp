@@ -43,9 +43,9 @@ double beam_residual(const Beam& beam, const Mesh& mesh, const SolveRecord& reco
                      double underflow, double unit_theta_A) {
     const Eigen::Index s = mesh.elements();
     const double viscous = beam.zeta * record.leading;
-    const Eigen::VectorXd lever = (1.0 - mesh.nodes).matrix();
+    const Eigen::VectorXd arm = (1.0 - mesh.nodes).matrix();
     const Eigen::VectorXd continuous =
-        beam.alpha * record.now.theta + (beam.alpha * unit_theta_A - record.stress) * lever;
+        beam.alpha * record.now.theta + (beam.alpha * unit_theta_A - record.stress) * arm;
     DiscontinuousLinear residual =
         record.now.w + viscous * (record.now.w - record.star.w) + record.moment;
     residual.row(0) += continuous.head(s).transpose().array();

@@ -103,12 +103,12 @@ private:
     Eigen::VectorXd error_;
 };
 
-/// ‖w − u_xx‖² for w = a + Σ c_r Πφ_r + c_lever(1 − x) and u_xx = Σ τ_r φ_r: with γ = c − τ the
-/// error is (a + c_lever(1 − x) + Σ γ_r I_hφ_r) + Σ γ_r (Πφ_r − I_hφ_r) − Σ τ_r (φ_r − Πφ_r).
+/// ‖w − u_xx‖² for w = a + Σ c_r Πφ_r + c_arm(1 − x) and u_xx = Σ τ_r φ_r: with γ = c − τ the
+/// error is (a + c_arm(1 − x) + Σ γ_r I_hφ_r) + Σ γ_r (Πφ_r − I_hφ_r) − Σ τ_r (φ_r − Πφ_r).
 class ErrorNorms::SplitCurvatureError {
 public:
     SplitCurvatureError(const ProblemData& data, const Mesh& mesh)
-        : mesh_(mesh), field_(data.exact->u_xx), lever_((1.0 - mesh.nodes).matrix()) {
+        : mesh_(mesh), field_(data.exact->u_xx), arm_((1.0 - mesh.nodes).matrix()) {
         selection_.add(data, field_);
         selection_.add(data, data.moment_load);
         selection_.add(data, data.curvature_initial);
@@ -124,7 +124,7 @@ public:
         gamma_ = -tau_;
         for (Eigen::Index r = 0; r < gamma_.size(); ++r)
             gamma_(r) += w.weights(selection_.profiles[static_cast<std::size_t>(r)]);
-        error_ = w.weights.tail<1>()(0) * lever_;
+        error_ = w.weights.tail<1>()(0) * arm_;
         if (w.nodal.size() > 0)
             error_ += w.nodal;
         for (Eigen::Index r = 0; r < gamma_.size(); ++r)
@@ -134,8 +134,7 @@ public:
     }
 
     [[nodiscard]] std::int64_t size() const {
-        return profiles_.nodal.size() + profiles_.defect_load.size() + lever_.size() +
-               error_.size();
+        return profiles_.nodal.size() + profiles_.defect_load.size() + arm_.size() + error_.size();
     }
 
 private:
@@ -145,7 +144,7 @@ private:
     ErrorProfiles profiles_;
     Eigen::MatrixXd
         between_; // (Πφ_r − I_hφ_r, Πφ_s − I_hφ_s) = Q − P, as φ − Πφ is orthogonal to P1disc
-    Eigen::VectorXd lever_;
+    Eigen::VectorXd arm_;
     Eigen::VectorXd tau_;
     Eigen::VectorXd gamma_;
     Eigen::VectorXd error_;
@@ -178,7 +177,7 @@ public:
         const auto exact = data_.exact->fields();
         const Eigen::ArrayXd& xi = rule_.points;
         const Eigen::Index s = mesh_.elements();
-        Squares result{};
+        Squares result = unmeasured();
         const auto integrate = [&](Quantity quantity, const Eigen::ArrayXXd& discrete) {
             const std::size_t q = index(quantity);
             Eigen::ArrayXXd error = discrete;
@@ -302,7 +301,7 @@ Needs ErrorNorms::needs(const ProblemData& data, const std::vector<Norm>& norms)
 
 void ErrorNorms::add(double t, double dt, const Solver& solver,
                      const Eigen::Ref<const Eigen::VectorXd>& amplitudes) {
-    Squares squares{};
+    Squares squares = unmeasured();
     if (pointwise_)
         squares = pointwise_->squares(t, solver, amplitudes);
     if (temperature_)

@@ -16,6 +16,11 @@ QuantitySet quantities_of(const std::vector<Norm>& norms) {
     return set;
 }
 
+bool all_finite(const std::vector<double>& errors) {
+    return std::all_of(errors.begin(), errors.end(),
+                       [](double error) { return std::isfinite(error); });
+}
+
 NormSums::NormSums(std::vector<Norm> norms)
     : norms_(std::move(norms)), needed_(quantities_of(norms_)) {
     for (const auto& norm : norms_)

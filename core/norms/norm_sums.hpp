@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 namespace tvbeam {
@@ -14,6 +15,15 @@ constexpr std::size_t index(Quantity quantity) {
 
 /// The squared error of each Quantity at one time.
 using Squares = std::array<double, quantity_count>;
+
+/// Squares of which none is measured yet: NaN, so that a norm of one that nobody measures says so.
+inline Squares unmeasured() {
+    Squares squares;
+    squares.fill(std::numeric_limits<double>::quiet_NaN());
+    return squares;
+}
+
+bool all_finite(const std::vector<double>& errors);
 
 /// The quantities that some norms need between them.
 QuantitySet quantities_of(const std::vector<Norm>& norms);

@@ -63,7 +63,7 @@ void SineErrors::add(Eigen::Index steps, double dt, Eigen::VectorXd temperature_
     // A square that round-off made negative is zero; NaN stays NaN.
     const auto non_negative = [](double square) { return square < 0.0 ? 0.0 : square; };
     for (Eigen::Index n = 0; n < steps; ++n) {
-        Squares squares{};
+        Squares squares = unmeasured();
         if (of_temperature())
             squares[index(Quantity::theta)] = non_negative(temperature_squares(n));
         if (of_curvature())

@@ -13,7 +13,7 @@
 namespace tvbeam {
 
 /// The amplitudes' parts in a field; shape: amplitudes × rows, a column a profile. The last column
-/// is the lever's and zero.
+/// is the moment arm's and zero.
 Eigen::MatrixXd by_profile(const Field& field, Eigen::Index amplitudes, Eigen::Index rows);
 
 /// The error norms of a run in the sine basis. With the functions g_j of SineProfiles and the
@@ -25,6 +25,9 @@ Eigen::MatrixXd by_profile(const Field& field, Eigen::Index amplitudes, Eigen::I
 /// where u_xx = Σ_j τ_j g_j. The sums over the modes are the kernel's; they read v.
 class SineErrors {
 public:
+    /// The quantities that it can measure; a norm of any other is for the general form.
+    static constexpr std::array measured{Quantity::theta, Quantity::u_xx, Quantity::stress};
+
     /// data and profiles must outlive the object. coupled: a is not zero.
     SineErrors(const Beam& beam, const ProblemData& data, const SineProfiles& profiles,
                const std::vector<Norm>& norms, bool coupled, Eigen::Index most_steps);
@@ -32,7 +35,7 @@ public:
     [[nodiscard]] bool of_temperature() const { return needs(Quantity::theta); }
     [[nodiscard]] bool of_curvature() const { return needs(Quantity::u_xx); }
 
-    /// v of both errors after every step, from the amplitudes and the weights c_r, c_lever then.
+    /// v of both errors after every step, from the amplitudes and the weights c_r, c_arm then.
     void weigh(Eigen::Index steps, const TimeSeries& amplitudes, const TimeSeries& weights);
     [[nodiscard]] const TimeSeries& temperature_weights() const { return temperature_weights_; }
     [[nodiscard]] const TimeSeries& curvature_weights() const { return curvature_weights_; }

@@ -88,8 +88,10 @@ bool SineForm::suits(const ProblemData& data, const Mesh& mesh, const Scheme& sc
         !data.curvature_initial.is_separable())
         return false;
     const QuantitySet needed = quantities_of(norms);
-    if (wants(needed, Quantity::theta_x) || wants(needed, Quantity::u) ||
-        wants(needed, Quantity::u_x))
+    QuantitySet others = needed;
+    for (const Quantity quantity : SineErrors::measured)
+        others[index(quantity)] = false;
+    if (others != QuantitySet{})
         return false;
     if (wants(needed, Quantity::theta) && !data.exact->theta.is_separable())
         return false;
@@ -107,10 +109,14 @@ SineForm::SineForm(const Beam& beam, const ProblemData& data, const Mesh& mesh,
                 heat_, measures_fields(norms)),
       levels_(data, scheme.time, final_time, steps), most_steps_(std::min(block_steps, steps)),
       errors_(beam, data, profiles_, norms, coupled_, most_steps_) {
-    start(mesh);
+    find_sources();
+    find_initial_state(mesh);
+    make_room();
+    counters_.doubles_allocated += mesh.nodes.size() + mesh.lengths.size();
 }
 
-void SineForm::start(const Mesh& mesh) {
+/// The sources by amplitude, and which amplitudes anything reads.
+void SineForm::find_sources() {
     const Eigen::Index rows = profile_count(data_) + 1;
     const Eigen::Index amplitudes = data_.amplitude_count;
     if (bending_)
@@ -129,11 +135,16 @@ void SineForm::start(const Mesh& mesh) {
     for (Eigen::Index k = 0; k < amplitudes; ++k)
         if (read[static_cast<std::size_t>(k)])
             amplitudes_.push_back(k);
+}
+
+void SineForm::find_initial_state(const Mesh& mesh) {
+    const Eigen::Index rows = profile_count(data_) + 1;
     const Eigen::Index increments = scheme_.time.increments();
     weights_ = Eigen::MatrixXd::Zero(rows, 1 + increments);
     if (bending_ && !data_.curvature_initial.terms.empty())
-        weights_.col(0) = by_profile(data_.curvature_initial, amplitudes, rows).transpose() *
-                          data_.amplitudes(Eigen::ArrayXd::Zero(1)).matrix();
+        weights_.col(0) =
+            by_profile(data_.curvature_initial, data_.amplitude_count, rows).transpose() *
+            data_.amplitudes(Eigen::ArrayXd::Zero(1)).matrix();
     next_weights_ = weights_;
     for (Eigen::Index r = 0; r + 1 < rows; ++r)
         if (bending_ && (data_.moment_load.uses(r) || data_.curvature_initial.uses(r)))
@@ -150,7 +161,11 @@ void SineForm::start(const Mesh& mesh) {
                              beam_.theta_A * (1.0 - mesh.nodes))
                                 .matrix());
     }
+}
 
+void SineForm::make_room() {
+    const Eigen::Index rows = weights_.rows();
+    const Eigen::Index amplitudes = data_.amplitude_count;
     const std::size_t most_stages =
         std::max(scheme_.time.stages.size(), scheme_.time.at_step(1).stages.size());
     const Eigen::Index solves = static_cast<Eigen::Index>(most_stages) * most_steps_;
@@ -173,8 +188,8 @@ void SineForm::start(const Mesh& mesh) {
         block_.tip.size() + block_.temperature_square.size() + block_.curvature_square.size();
     counters_.doubles_allocated =
         profiles_.table.size() + operators_.size() + 2 * state_.size() + 8 * basis_.size() +
-        mesh.nodes.size() + mesh.lengths.size() + block_.amplitudes.size() + block_.weights.size() +
-        block_.changes.size() + block_.loads.size() + errors_.temperature_weights().size() +
+        block_.amplitudes.size() + block_.weights.size() + block_.changes.size() +
+        block_.loads.size() + errors_.temperature_weights().size() +
         errors_.curvature_weights().size() + static_cast<std::int64_t>(packs) * Pack::size;
 }
 
@@ -204,28 +219,28 @@ void SineForm::use(const TimeScheme& scheme) {
     inverse = inverse.inverse().eval();
 }
 
-bool SineForm::march(const std::function<bool(std::int64_t steps)>& advance) {
+RunStatus SineForm::march(const std::function<bool(std::int64_t steps)>& advance) {
     for (std::int64_t n = 1; n <= levels_.steps();) {
         const TimeScheme& scheme = scheme_.time.at_step(n);
         if (&scheme != running_) {
             use(scheme);
             if (heat_ && !operators_[1].isFinite().all())
-                return false;
+                return RunStatus::failed;
         }
         const bool starting = n <= scheme_.time.history;
         const std::int64_t steps = starting ? 1 : std::min(block_steps, levels_.available(n));
         read_amplitudes(n, steps);
         if (!march_block(steps))
-            return false;
+            return RunStatus::failed;
         if (starting)
             remember_starting_step();
         std::swap(state_, next_);
         std::swap(weights_, next_weights_);
         n += steps;
-        if (!advance(steps))
-            return false;
+        if (advance && !advance(steps))
+            return RunStatus::interrupted;
     }
-    return true;
+    return RunStatus::ok;
 }
 
 void SineForm::read_amplitudes(std::int64_t n, std::int64_t steps) {
@@ -234,33 +249,35 @@ void SineForm::read_amplitudes(std::int64_t n, std::int64_t steps) {
         block_.amplitudes.col(k).head(sources.times.size()) = sources.amplitudes.row(k);
 }
 
+/// Marches from state_ and weights_ to next_ and next_weights_, and adds to the norms. False: not
+/// finite.
 bool SineForm::march_block(std::int64_t steps) {
     const std::int64_t solves = steps * stages();
+    const Start now{weights_, state_, true};
     count(steps);
     block_.stress.setZero();
-    march_weights(solves, true);
-    // A tip on a stop mostly stays there: then this march is only for its free positions.
-    const bool only_tips = coupled_ && in_contact_;
-    if (!only_tips)
+    march_weights(solves, now);
+    // A tip on a stop mostly stays there: the first march is then for its free positions alone.
+    const bool on_stop = coupled_ && in_contact_;
+    bool finite = true;
+    if (on_stop) {
+        march_modes(steps, now, Wanted::tips);
+    } else {
         weigh_errors(steps);
-    march_modes(steps, state_, stops_, !only_tips);
-    if (stops_) {
-        const bool contact = find_contact(tips(solves));
-        if (contact)
-            march_weights(solves, true);
-        if (contact || only_tips)
-            weigh_errors(steps);
-        if (only_tips || (contact && coupled_))
-            march_modes(steps, state_, false, true);
-        in_contact_ = block_.stress(solves - 1) != 0.0;
-        for (std::int64_t n = 1; n <= steps; ++n)
-            counters_.contact_steps += block_.stress(n * stages() - 1) != 0.0 ? 1 : 0;
+        finite = march_modes(steps, now, stops_ ? Wanted::tips_and_end : Wanted::end);
     }
+    if (stops_ && (find_contact(tips(solves)) || on_stop)) {
+        march_weights(solves, now);
+        weigh_errors(steps);
+        if (coupled_)
+            finite = march_modes(steps, now, Wanted::end);
+    }
+    in_contact_ = block_.stress(solves - 1) != 0.0;
+    for (std::int64_t n = 1; n <= steps; ++n)
+        counters_.contact_steps += block_.stress(n * stages() - 1) != 0.0 ? 1 : 0;
     add_errors(steps);
     // What is not finite once stays so: the end of the block shows it.
-    return next_weights_.allFinite() && std::isfinite(block_.stress.sum()) &&
-           std::all_of(std::begin(sum_.lanes), std::end(sum_.lanes),
-                       [](double lane) { return std::isfinite(lane); });
+    return finite && next_weights_.allFinite() && std::isfinite(block_.stress.sum());
 }
 
 void SineForm::count(std::int64_t steps) {
@@ -275,22 +292,20 @@ void SineForm::count(std::int64_t steps) {
         !data_.heat_source.is_zero() || !data_.moment_load.is_zero() ? solves : 0;
 }
 
-/// The weights c_r through the block, as MomentForm::solve has them, and what they load the modes
-/// with. Not driven: λ alone acts, on a beam at rest.
-void SineForm::march_weights(std::int64_t solves, bool driven) {
-    const Eigen::Index rows = weights_.rows();
+/// The weights c_r through the block, as MomentForm::solve has them, to next_weights_, and what
+/// they load the modes with.
+void SineForm::march_weights(std::int64_t solves, const Start& start) {
+    const Eigen::Index arm = weights_.rows() - 1;
     if (bending_) {
         // First what drives them, which is used up where it stands.
         for (const Eigen::Index r : moving_)
             block_.changes.col(r).head(solves).setZero();
-        if (driven) {
+        if (start.driven) {
             add_product(block_.changes, block_.amplitudes, moment_, solves);
-            block_.changes.col(rows - 1).array() += beam_.alpha * beam_.theta_A;
-            next_weights_ = weights_;
-        } else {
-            next_weights_.setZero();
+            block_.changes.col(arm).array() += beam_.alpha * beam_.theta_A;
         }
-        block_.changes.col(rows - 1).head(solves) -= block_.stress.head(solves);
+        block_.changes.col(arm).head(solves) -= block_.stress.head(solves);
+        next_weights_ = start.weights;
         for (std::int64_t step = 0; step < solves / stages(); ++step)
             step_weights(step);
     }
@@ -299,7 +314,7 @@ void SineForm::march_weights(std::int64_t solves, bool driven) {
     block_.loads.setZero();
     if (coupled_)
         add_product(block_.loads, block_.changes, change_loads_, solves);
-    if (driven)
+    if (start.driven)
         add_product(block_.loads, block_.amplitudes, heat_source_, solves);
 }
 
@@ -334,13 +349,15 @@ void SineForm::step_weights(std::int64_t step) {
     }
 }
 
-/// Marches the modes from `state` with the loads of the block: for the tips, or for the state after
-/// it and the squares of the errors.
-void SineForm::march_modes(std::int64_t steps, const ModeArrays& state, bool tips, bool result) {
+/// Marches the modes with the loads of the block: for the tips, for the end, which is next_ and the
+/// squares of the errors, or for both. False: a temperature at the end is not finite.
+bool SineForm::march_modes(std::int64_t steps, const Start& start, Wanted wanted) {
     if (!heat_)
-        return;
-    if (result)
-        sum_ = {};
+        return true;
+    const ModeArrays& state = start.modes;
+    const bool tips = wanted != Wanted::end;
+    const bool end = wanted != Wanted::tips;
+    Pack sum{};
     SineBlock block;
     block.groups = state.groups();
     block.stride = state.stride();
@@ -362,20 +379,22 @@ void SineForm::march_modes(std::int64_t steps, const ModeArrays& state, bool tip
     block.load_stride = block_.loads.rows();
     block.weight_stride = most_steps_;
     block.before = state.data();
-    block.after = result ? next_.data() : nullptr;
-    block.sum = &sum_;
+    block.after = end ? next_.data() : nullptr;
+    block.sum = &sum;
     if (tips && coupled_)
         block.tip = cleared(block_.tip, steps * stages());
-    if (result && errors_.of_temperature()) {
+    if (end && errors_.of_temperature()) {
         block.temperature_square = cleared(block_.temperature_square, steps);
         block.temperature_weights = errors_.temperature_weights().data();
         block.first_temperature_column = errors_.first_temperature_column();
     }
-    if (result && coupled_ && errors_.of_curvature()) {
+    if (end && coupled_ && errors_.of_curvature()) {
         block.curvature_square = cleared(block_.curvature_square, steps);
         block.curvature_weights = errors_.curvature_weights().data();
     }
     tvbeam::march(block);
+    return std::all_of(std::begin(sum.lanes), std::end(sum.lanes),
+                       [](double lane) { return std::isfinite(lane); });
 }
 
 /// u(1) after every solve.
@@ -406,13 +425,15 @@ bool SineForm::find_contact(const Eigen::VectorXd& free_tips) {
 }
 
 void SineForm::find_responses(std::int64_t solves) {
-    const ModeArrays rest(heat_ ? basis_.size() : 0, (coupled_ ? 2 : 1) * weights_.cols());
+    const Eigen::MatrixXd no_weights = Eigen::MatrixXd::Zero(weights_.rows(), weights_.cols());
+    const ModeArrays no_modes(heat_ ? basis_.size() : 0, (coupled_ ? 2 : 1) * weights_.cols());
+    const Start rest{no_weights, no_modes, false};
     Eigen::MatrixXd responses(solves, stages());
     for (Eigen::Index i = 0; i < stages(); ++i) {
         block_.stress.setZero();
         block_.stress(i) = 1.0;
-        march_weights(solves, false);
-        march_modes(solves / stages(), rest, true, false);
+        march_weights(solves, rest);
+        march_modes(solves / stages(), rest, Wanted::tips);
         responses.col(i).head(solves - i) = tips(solves).tail(solves - i);
     }
     block_.stress.setZero();

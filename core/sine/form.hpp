@@ -1,6 +1,7 @@
 #pragma once
 
 #include "core/problem.hpp"
+#include "core/run.hpp"
 #include "core/scheme.hpp"
 #include "core/sine/basis.hpp"
 #include "core/sine/errors.hpp"
@@ -32,7 +33,7 @@ namespace tvbeam {
 class SineForm {
 public:
     /// Whether a run can be done in this form: a uniform mesh with a fast transform, sources that
-    /// are sums of products, and no norms but those of θ, u_xx and the contact stress.
+    /// are sums of products, and norms of what SineErrors measures.
     static bool suits(const ProblemData& data, const Mesh& mesh, const Scheme& scheme,
                       const std::vector<Norm>& norms);
 
@@ -41,10 +42,9 @@ public:
              double final_time, std::int64_t steps, const std::vector<Norm>& norms,
              const Needs& needs);
 
-    /// Marches to the end, and tells after every block how many steps it had. False as soon as
-    /// something is not finite, and the general form can then say where and what; or where advance
-    /// returns false.
-    [[nodiscard]] bool march(const std::function<bool(std::int64_t steps)>& advance);
+    /// Marches to the end, and tells after every block how many steps it had (RunRequest::advance).
+    /// Fails as soon as something is not finite; the general form can then say where and what.
+    [[nodiscard]] RunStatus march(const std::function<bool(std::int64_t steps)>& advance);
 
     [[nodiscard]] std::vector<double> errors() const { return errors_.sums().values(); }
     [[nodiscard]] Counters counters() const;
@@ -53,8 +53,8 @@ private:
     /// One block of steps, by solve.
     struct Block {
         TimeSeries amplitudes; // a column an amplitude
-        TimeSeries weights;    // c_r and c_lever
-        TimeSeries changes;    // κ (−c* − μ + λ) by profile and for the lever
+        TimeSeries weights;    // c_r and c_arm
+        TimeSeries changes;    // κ (−c* − μ + λ) by profile and for the moment arm
         TimeSeries loads;      // of the g_j
         Eigen::VectorXd stress;
         TimeSeries end_amplitudes; // these two by step, where a step has several solves
@@ -64,7 +64,17 @@ private:
         std::vector<Pack> curvature_square;   // by step
     };
 
-    void start(const Mesh& mesh);
+    /// What a march of a block begins with.
+    struct Start {
+        const Eigen::MatrixXd& weights;
+        const ModeArrays& modes;
+        bool driven; // by the sources; the contact stress of the block always drives it
+    };
+    enum class Wanted { tips, end, tips_and_end };
+
+    void find_sources();
+    void find_initial_state(const Mesh& mesh);
+    void make_room();
     void use(const TimeScheme& scheme);
     [[nodiscard]] Eigen::Index stages() const {
         return static_cast<Eigen::Index>(running_->stages.size());
@@ -72,9 +82,9 @@ private:
     void read_amplitudes(std::int64_t n, std::int64_t steps);
     [[nodiscard]] bool march_block(std::int64_t steps);
     void count(std::int64_t steps);
-    void march_weights(std::int64_t solves, bool driven);
+    void march_weights(std::int64_t solves, const Start& start);
     void step_weights(std::int64_t step);
-    void march_modes(std::int64_t steps, const ModeArrays& state, bool tips, bool result);
+    bool march_modes(std::int64_t steps, const Start& start, Wanted wanted);
     [[nodiscard]] Eigen::VectorXd tips(std::int64_t solves) const;
     bool find_contact(const Eigen::VectorXd& free_tips);
     void find_responses(std::int64_t solves);
@@ -110,13 +120,12 @@ private:
 
     ModeArrays state_; // θ, a, then their increments
     ModeArrays next_;
-    Eigen::MatrixXd weights_; // c_r and c_lever, then their increments, by column
+    Eigen::MatrixXd weights_; // c_r and c_arm, then their increments, by column
     Eigen::MatrixXd next_weights_;
     std::vector<Eigen::Index> moving_; // weights that are not zero for ever
     Block block_;
     bool in_contact_ = false;
     Counters counters_;
-    Pack sum_{};
 };
 
 } // namespace tvbeam

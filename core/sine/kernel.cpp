@@ -138,13 +138,60 @@ template <Index increments, bool coupled>
         }
 }
 
+/// What a group reads in every step.
+struct Group {
+    const Pack* table;
+    Index columns;
+    Modes stiffness;
+    Modes inverse;
+};
+
+/// One solve: θ*, a* become θ, a.
+template <bool coupled>
+[[gnu::always_inline]] inline void solve(const SineBlock& block, const Group& group, Index at,
+                                         Modes& theta, Modes& bend) {
+    // The loads first: they wait for nothing, while the state of one step waits for that of the
+    // step before.
+    Modes rest = combined(Modes{}, block, group.table, block.loads + at, block.load_stride, 0,
+                          group.columns);
+    rest -= group.stiffness * theta;
+    Modes balance;
+    if constexpr (coupled) {
+        balance = bend + block.alpha * theta;
+        rest -= block.exchange * balance;
+    }
+    const Modes change = rest * group.inverse;
+    theta += change;
+    if constexpr (coupled) {
+        bend -= block.kappa * (balance + block.alpha * change);
+        if (block.tip != nullptr)
+            (bend * Modes(group.table)).add_to(block.tip[at]);
+    }
+}
+
+/// Adds the squares of the errors after a step.
+template <bool coupled>
+[[gnu::always_inline]] inline void add_squares(const SineBlock& block, const Group& group,
+                                               Index step, const Modes& theta, const Modes& bend) {
+    if (block.temperature_square != nullptr) {
+        const Modes error =
+            combined(theta, block, group.table, block.temperature_weights + step,
+                     block.weight_stride, block.first_temperature_column, group.columns);
+        (error * error).add_to(block.temperature_square[step]);
+    }
+    if constexpr (coupled)
+        if (block.curvature_square != nullptr) {
+            const Modes error = combined(bend, block, group.table, block.curvature_weights + step,
+                                         block.weight_stride, 0, group.columns);
+            (error * error).add_to(block.curvature_square[step]);
+        }
+}
+
 template <Index increments, bool coupled>
-[[gnu::always_inline]] inline void march_group(const SineBlock& block, Index group) {
-    const Index place = group * packs_in_group;
-    const Pack* table = block.table + place;
-    const Index columns = block.active_columns[group];
-    const Modes stiffness(block.stiffness + place);
-    const Modes inverse(block.inverse + place);
+[[gnu::always_inline]] inline void march_group(const SineBlock& block, Index index) {
+    const Index place = index * packs_in_group;
+    const Group group{block.table + place, block.active_columns[index],
+                      Modes(block.stiffness + place), Modes(block.inverse + place)};
     State<increments> state;
     load<increments, coupled>(state, block, place);
 
@@ -152,7 +199,6 @@ template <Index increments, bool coupled>
         Modes theta = state.theta;
         Modes bend = state.bend;
         for (Index stage = 0; stage < block.stages; ++stage) {
-            const Index solve = step * block.stages + stage;
             if (increments > 0 && stage > 0) {
                 theta = state.theta;
                 bend = state.bend;
@@ -163,23 +209,7 @@ template <Index increments, bool coupled>
                 if constexpr (coupled)
                     bend += weight * state.bend_increments[e];
             }
-            // The loads first: they wait for nothing, while the state of one step waits for that
-            // of the step before.
-            Modes rest =
-                combined(Modes{}, block, table, block.loads + solve, block.load_stride, 0, columns);
-            rest -= stiffness * theta;
-            Modes balance;
-            if constexpr (coupled) {
-                balance = bend + block.alpha * theta;
-                rest -= block.exchange * balance;
-            }
-            const Modes change = rest * inverse;
-            theta += change;
-            if constexpr (coupled) {
-                bend -= block.kappa * (balance + block.alpha * change);
-                if (block.tip != nullptr)
-                    (bend * Modes(table)).add_to(block.tip[solve]);
-            }
+            solve<coupled>(block, group, step * block.stages + stage, theta, bend);
             if (increments > 0 && stage + 1 < block.stages)
                 remember<increments, coupled>(state, block.history + stage, theta, bend);
         }
@@ -194,18 +224,7 @@ template <Index increments, bool coupled>
         state.theta = theta;
         if constexpr (coupled)
             state.bend = bend;
-        if (block.temperature_square != nullptr) {
-            const Modes error =
-                combined(theta, block, table, block.temperature_weights + step, block.weight_stride,
-                         block.first_temperature_column, columns);
-            (error * error).add_to(block.temperature_square[step]);
-        }
-        if constexpr (coupled)
-            if (block.curvature_square != nullptr) {
-                const Modes error = combined(bend, block, table, block.curvature_weights + step,
-                                             block.weight_stride, 0, columns);
-                (error * error).add_to(block.curvature_square[step]);
-            }
+        add_squares<coupled>(block, group, step, theta, bend);
     }
     if (block.after != nullptr)
         store<increments, coupled>(state, block, place);

@@ -117,6 +117,73 @@ double remainder_entry(const Column& i, const Column& j, const ErrorProfiles& er
     return errors.interpolation(i.error, j.error) - (i.deviation * j.deviation).sum();
 }
 
+/// The profiles without their linear parts.
+struct Split {
+    Eigen::MatrixXd at_ends;   // of the profiles, then the moment arm; shape: 2 × (R + 1)
+    std::vector<Column> inner; // those of which anything is left
+    std::vector<SpaceFunction> functions;
+};
+
+/// used: the others keep zeros.
+Split split(const Mesh& mesh, const std::vector<SpaceFunction>& profiles,
+            const std::vector<bool>& used) {
+    const auto arm = static_cast<Eigen::Index>(profiles.size());
+    Split parts{Eigen::MatrixXd::Zero(2, arm + 1), {}, {}};
+    parts.at_ends(0, arm) = 1.0;
+    for (Eigen::Index r = 0; r < arm; ++r) {
+        if (!used[static_cast<std::size_t>(r)])
+            continue;
+        const SpaceFunction& phi = profiles[static_cast<std::size_t>(r)];
+        const Eigen::ArrayXd values = phi(mesh.nodes);
+        const double scale = values.abs().maxCoeff();
+        for (Eigen::Index end = 0; end < 2; ++end)
+            if (const double value = values(end * mesh.elements());
+                !(std::abs(value) <= round_off * scale))
+                parts.at_ends(end, r) = value;
+        if (is_linear(mesh, phi, values, round_off * scale))
+            continue;
+        SpaceFunction function = without_ends(phi, parts.at_ends(0, r), parts.at_ends(1, r));
+        Column column;
+        column.profile = r;
+        column.hat_load = hat_loads(mesh, function);
+        // Of a linear profile nothing is left but round-off.
+        if (column.hat_load.cwiseAbs().maxCoeff() <= round_off * scale * mesh.lengths(0))
+            continue;
+        parts.inner.push_back(std::move(column));
+        parts.functions.push_back(std::move(function));
+    }
+    return parts;
+}
+
+ModeArrays table_of(const std::vector<Column>& columns, Eigen::Index modes) {
+    ModeArrays table(modes, static_cast<Eigen::Index>(columns.size()));
+    for (std::size_t j = 0; j < columns.size(); ++j)
+        table[static_cast<Eigen::Index>(j)].head(modes) = columns[j].modes;
+    return table;
+}
+
+/// How many columns each group of modes reads. The linear ones have all modes; the others are
+/// sorted by their extent.
+std::vector<std::int64_t> active_columns(const std::vector<Column>& columns, Eigen::Index groups,
+                                         Eigen::Index linear) {
+    std::vector<std::int64_t> active(static_cast<std::size_t>(groups), linear);
+    constexpr Eigen::Index group = packs_in_group * Pack::size;
+    for (std::size_t j = 0; j < columns.size(); ++j)
+        for (Eigen::Index g = 0; g * group < columns[j].extent; ++g)
+            active[static_cast<std::size_t>(g)] = static_cast<std::int64_t>(j) + 1;
+    return active;
+}
+
+template <typename Entry>
+Eigen::MatrixXd of_pairs(const std::vector<Column>& columns, const Entry& entry) {
+    return Eigen::MatrixXd::NullaryExpr(static_cast<Eigen::Index>(columns.size()),
+                                        static_cast<Eigen::Index>(columns.size()),
+                                        [&](Eigen::Index i, Eigen::Index j) {
+                                            return entry(columns[static_cast<std::size_t>(i)],
+                                                         columns[static_cast<std::size_t>(j)]);
+                                        });
+}
+
 } // namespace
 
 ModeArrays::ModeArrays(Eigen::Index modes, Eigen::Index arrays) {
@@ -138,88 +205,49 @@ std::int64_t ModeArrays::size() const {
 SineProfiles::SineProfiles(const Mesh& mesh, const SineBasis& basis,
                            const std::vector<SpaceFunction>& profiles,
                            const std::vector<bool>& used, bool with_modes, bool with_norms) {
-    const auto lever = static_cast<Eigen::Index>(profiles.size());
-    Eigen::MatrixXd at_ends = Eigen::MatrixXd::Zero(2, lever + 1);
-    at_ends(0, lever) = 1.0;
-
-    std::vector<Column> inner;
-    std::vector<SpaceFunction> functions;
-    for (Eigen::Index r = 0; r < lever; ++r) {
-        if (!used[static_cast<std::size_t>(r)])
-            continue;
-        const SpaceFunction& phi = profiles[static_cast<std::size_t>(r)];
-        const Eigen::ArrayXd values = phi(mesh.nodes);
-        const double scale = values.abs().maxCoeff();
-        for (Eigen::Index end = 0; end < 2; ++end)
-            if (const double value = values(end * mesh.elements());
-                !(std::abs(value) <= round_off * scale))
-                at_ends(end, r) = value;
-        if (is_linear(mesh, phi, values, round_off * scale))
-            continue;
-        SpaceFunction function = without_ends(phi, at_ends(0, r), at_ends(1, r));
-        Column column;
-        column.profile = r;
-        column.hat_load = hat_loads(mesh, function);
-        // Of a linear profile nothing is left but round-off.
-        if (column.hat_load.cwiseAbs().maxCoeff() <= round_off * scale * mesh.lengths(0))
-            continue;
-        inner.push_back(std::move(column));
-        functions.push_back(std::move(function));
-    }
-
+    Split parts = split(mesh, profiles, used);
     ErrorProfiles errors;
     if (with_norms) {
-        errors = error_profiles(mesh, functions);
-        read_defects(mesh, basis, errors, inner);
+        errors = error_profiles(mesh, parts.functions);
+        read_defects(mesh, basis, errors, parts.inner);
     } else if (with_modes) {
-        for (auto& column : inner)
+        for (auto& column : parts.inner)
             column.modes = basis.of_load(column.hat_load);
     }
-    for (auto& column : inner)
+    for (auto& column : parts.inner)
         cut_off(column);
     // Those that reach far come first, so that every group of modes reads a head of them.
-    std::stable_sort(inner.begin(), inner.end(), [](const Column& left, const Column& right) {
-        return left.extent > right.extent;
-    });
+    std::stable_sort(
+        parts.inner.begin(), parts.inner.end(),
+        [](const Column& left, const Column& right) { return left.extent > right.extent; });
 
-    const bool right = (at_ends.row(1).array() != 0.0).any();
+    const bool right = (parts.at_ends.row(1).array() != 0.0).any();
     std::vector<Column> columns = linear_columns(mesh, basis, right);
     linear = static_cast<Eigen::Index>(columns.size());
-    std::move(inner.begin(), inner.end(), std::back_inserter(columns));
-    const auto count = static_cast<Eigen::Index>(columns.size());
+    std::move(parts.inner.begin(), parts.inner.end(), std::back_inserter(columns));
 
-    expansion = Eigen::MatrixXd::Zero(count, lever + 1);
-    expansion.topRows(linear) = at_ends.topRows(linear);
-    tip_moments = (at_ends.row(0) / 3.0 + at_ends.row(1) / 6.0).transpose();
+    const auto count = static_cast<Eigen::Index>(columns.size());
+    expansion = Eigen::MatrixXd::Zero(count, parts.at_ends.cols());
+    expansion.topRows(linear) = parts.at_ends.topRows(linear);
+    tip_moments = (parts.at_ends.row(0) / 3.0 + parts.at_ends.row(1) / 6.0).transpose();
     for (Eigen::Index j = linear; j < count; ++j) {
         const Column& column = columns[static_cast<std::size_t>(j)];
         expansion(j, column.profile) = 1.0;
         tip_moments(column.profile) += column.hat_load.dot(columns.front().nodal);
     }
     if (with_modes) {
-        table = ModeArrays(basis.size(), count);
-        active.assign(static_cast<std::size_t>(table.groups()), linear);
-        const Eigen::Index group = packs_in_group * Pack::size;
-        for (Eigen::Index j = 0; j < count; ++j) {
-            const Column& column = columns[static_cast<std::size_t>(j)];
-            table[j].head(basis.size()) = column.modes;
-            for (Eigen::Index g = 0; g * group < column.extent; ++g)
-                active[static_cast<std::size_t>(g)] = j + 1;
-        }
+        table = table_of(columns, basis.size());
+        active = active_columns(columns, table.groups(), linear);
     }
     if (with_norms) {
-        remainder.resize(count, count);
-        modes_gram.resize(count, count);
-        projection = Eigen::MatrixXd::Zero(count, count);
-        for (Eigen::Index i = 0; i < count; ++i)
-            for (Eigen::Index j = 0; j < count; ++j) {
-                const Column& row = columns[static_cast<std::size_t>(i)];
-                const Column& column = columns[static_cast<std::size_t>(j)];
-                remainder(i, j) = remainder_entry(row, column, errors);
-                modes_gram(i, j) = (row.modes * column.modes).sum();
-                if (i >= linear && j >= linear)
-                    projection(i, j) = errors.projection(row.error, column.error);
-            }
+        remainder = of_pairs(columns, [&](const Column& i, const Column& j) {
+            return remainder_entry(i, j, errors);
+        });
+        modes_gram = of_pairs(
+            columns, [](const Column& i, const Column& j) { return (i.modes * j.modes).sum(); });
+        projection = of_pairs(columns, [&](const Column& i, const Column& j) {
+            return i.is_linear() || j.is_linear() ? 0.0 : errors.projection(i.error, j.error);
+        });
     }
 }
 

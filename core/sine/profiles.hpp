@@ -32,7 +32,7 @@ private:
     std::vector<Pack> packs_;
 };
 
-/// The profiles φ_r of a problem and the lever 1 − x, seen in the sine basis. With
+/// The profiles φ_r of a problem and the moment arm 1 − x, seen in the sine basis. With
 ///
 ///     φ_r = φ_r(0) (1 − x) + φ_r(1) x + φ_r°,     φ_r° zero at both ends,
 ///
@@ -41,11 +41,12 @@ private:
 /// S_0^h, leaves of a function is orthogonal to every mode, so squared norms add up: ‖v‖² = Σ_k (v,
 /// φ̂_k)² + ‖v − P_0v‖².
 struct SineProfiles {
-    Eigen::MatrixXd expansion; ///< the profiles, then the lever, in the g_j; shape: J × (R + 1)
-    Eigen::Index linear = 1;   ///< how many of the g_j are 1 − x and x
-    ModeArrays table;          ///< T_jk = (g_j, φ̂_k)
+    Eigen::MatrixXd
+        expansion;           ///< the profiles, then the moment arm, in the g_j; shape: J × (R + 1)
+    Eigen::Index linear = 1; ///< how many of the g_j are 1 − x and x
+    ModeArrays table;        ///< T_jk = (g_j, φ̂_k)
     std::vector<std::int64_t> active; ///< of each group: the g_j behind are zero there
-    Eigen::VectorXd tip_moments;      ///< (φ_r, 1 − x), then that of the lever; shape: R + 1
+    Eigen::VectorXd tip_moments; ///< (φ_r, 1 − x), then that of the moment arm; shape: R + 1
     Eigen::MatrixXd remainder; ///< (g_i − P_0g_i, g_j − P_0g_j); shape: J × J; empty: no norms
     Eigen::MatrixXd modes_gram; ///< Σ_k T_ik T_jk; shape and emptiness as above
     Eigen::MatrixXd

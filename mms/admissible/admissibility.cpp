@@ -86,13 +86,13 @@ private:
         scale(scales_.u_xx, of(phase.u_xx, source.u, "u_xx", Q::u_xx));
         scale(scales_.sigma, of(phase.sigma, sigma, "sigma", Q::sigma));
         of(phase.theta_x, source.theta, "theta_x", Q::theta_x);
-        of(phase.theta_terms[0], source.theta, "theta_t", Q::theta_t);
-        of(phase.theta_terms[1], source.theta, "theta_xx", Q::theta_xx);
-        of(phase.u_terms[0], source.u, "u_xxx", Q::u_xxx);
+        of(phase.theta_t, source.theta, "theta_t", Q::theta_t);
+        of(phase.theta_xx, source.theta, "theta_xx", Q::theta_xx);
+        of(phase.u_xxx, source.u, "u_xxx", Q::u_xxx);
         if (beam_.zeta != 0.0)
-            of(phase.u_terms[1], source.u, "u_xxxt", Q::u_xxxt);
-        if (phase.u_terms.size() > 2)
-            of(phase.u_terms[2], source.u, "u_xxt", Q::u_xxt);
+            of(phase.u_xxxt, source.u, "u_xxxt", Q::u_xxxt);
+        if (beam_.alpha != 0.0 || beam_.zeta != 0.0)
+            of(phase.u_xxt, source.u, "u_xxt", Q::u_xxt);
         of(phase.body_force, sigma, "q of (2)", Q::body_force);
         of(phase.heat_source, source.theta, "f of (1)", Q::heat_source);
         of(phase.couple_load, source.u, "G of (3)", Q::couple_load);

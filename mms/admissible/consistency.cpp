@@ -31,8 +31,7 @@ enum Row : Index { theta, u_xx, theta_t, u_xxt, f, mu, stress };
 PiecewiseTape rows(const DerivedSolution& derived, const Solution& solution, bool with_loads) {
     return located(solution.phases.front().u, "the solution", [&] {
         return PiecewiseTape(derived, [&](const DerivedPhase& phase) {
-            std::vector<ex> result = {phase.theta, phase.u_xx, phase.theta_terms[0],
-                                      derivative(phase.u_xx, model_symbols().t)};
+            std::vector<ex> result = {phase.theta, phase.u_xx, phase.theta_t, phase.u_xxt};
             if (with_loads)
                 result.insert(result.end(),
                               {phase.heat_source, phase.moment_load, phase.contact_stress});

@@ -31,7 +31,8 @@ template double Tape::apply(Operation, double, double);
 template long double Tape::apply(Operation, long double, long double);
 
 // The functions are the standard library's, point by point: vectorised ones round differently in
-// the last, incomplete packet, so that a value would depend on its place in the array.
+// the last, incomplete packet, so that a value would depend on its place in the array. Long, since
+// it is a table with one row an operation.
 template <typename Real>
 void Tape::run(const Instruction& instruction, Registers<Real>& registers, Eigen::Index size) {
     const Real* a = registers.col(instruction.left).data();

@@ -323,72 +323,87 @@ private:
         return needed;
     }
 
-    [[nodiscard]] Tape allocate(const std::vector<int>& outputs) const {
-        const std::vector<bool> needed = needed_for(outputs);
-        std::vector<int> schedule;
+    /// The operations in an order in which their operands come first, those without x before all
+    /// others, and when each value is read.
+    struct Schedule {
+        std::vector<int> order;
+        std::vector<std::size_t> last_use; ///< place in the order; its size: an output
+        std::vector<bool> read_with_x;
+
+        [[nodiscard]] bool is_output(std::size_t value) const {
+            return last_use[value] == order.size();
+        }
+    };
+
+    [[nodiscard]] Schedule schedule(const std::vector<bool>& needed,
+                                    const std::vector<int>& outputs) const {
+        Schedule result{{},
+                        std::vector<std::size_t>(values_.size(), 0),
+                        std::vector<bool>(values_.size(), false)};
         for (const bool with_x : {false, true})
             for (std::size_t i = 2; i < values_.size(); ++i)
                 if (needed[i] && !values_[i].constant && values_[i].needs_x == with_x)
-                    schedule.push_back(static_cast<int>(i));
-
-        // The position in the schedule at which a value is read for the last time.
-        std::vector<std::size_t> last_use(values_.size(), 0);
-        std::vector<bool> read_with_x(values_.size(), false);
-        for (std::size_t at = 0; at < schedule.size(); ++at) {
-            const Value& value = values_[index(schedule[at])];
+                    result.order.push_back(static_cast<int>(i));
+        for (std::size_t at = 0; at < result.order.size(); ++at) {
+            const Value& value = values_[index(result.order[at])];
             for (const int operand : {value.left, value.right}) {
                 if (operand < 0)
                     continue;
-                last_use[index(operand)] = at;
+                result.last_use[index(operand)] = at;
                 if (value.needs_x)
-                    read_with_x[index(operand)] = true;
+                    result.read_with_x[index(operand)] = true;
             }
         }
         for (const int output : outputs)
-            last_use[index(output)] = schedule.size();
+            result.last_use[index(output)] = result.order.size();
+        return result;
+    }
 
+    /// Whether a value is of t alone and read after the operations without x: its register is then
+    /// its own to the end, as a constant's is.
+    [[nodiscard]] bool persists(std::size_t value, const Schedule& when) const {
+        return !values_[value].needs_x && (when.read_with_x[value] || when.is_output(value));
+    }
+
+    [[nodiscard]] Tape allocate(const std::vector<int>& outputs) const {
+        const std::vector<bool> needed = needed_for(outputs);
+        const Schedule when = schedule(needed, outputs);
         Tape tape;
         tape.wide_ = wide_;
         std::vector<int> registers(values_.size(), -1);
-        std::vector<int> free;
         registers[0] = 0;
         registers[1] = 1;
-        const auto is_output = [&](std::size_t i) { return last_use[i] == schedule.size(); };
-        const auto persists = [&](std::size_t i) {
-            return !values_[i].needs_x && (read_with_x[i] || is_output(i));
-        };
-        for (std::size_t i = 2; i < values_.size(); ++i) {
+        for (std::size_t i = 2; i < values_.size(); ++i)
             if (needed[i] && values_[i].constant) {
                 registers[i] = tape.register_count_++;
                 tape.constants_.push_back({registers[i], *values_[i].constant});
             }
-        }
-        for (std::size_t at = 0; at < schedule.size(); ++at) {
-            const std::size_t target = index(schedule[at]);
+        std::vector<int> free;
+        for (std::size_t at = 0; at < when.order.size(); ++at) {
+            const std::size_t target = index(when.order[at]);
             const Value& value = values_[target];
-            const int left = registers[index(value.left)];
-            const int right = value.right < 0 ? -1 : registers[index(value.right)];
             const auto release = [&](int operand) {
                 const bool releasable = operand >= 2 && !values_[index(operand)].constant &&
-                                        !persists(index(operand)) && last_use[index(operand)] == at;
+                                        !persists(index(operand), when) &&
+                                        when.last_use[index(operand)] == at;
                 if (releasable)
                     free.push_back(registers[index(operand)]);
             };
             release(value.left);
             if (value.right != value.left)
                 release(value.right);
-            if (free.empty()) {
-                registers[target] = tape.register_count_++;
-            } else {
-                registers[target] = free.back();
-                free.pop_back();
-            }
-            tape.instructions_.push_back({value.operation, registers[target], left, right});
+            if (free.empty())
+                free.push_back(tape.register_count_++);
+            registers[target] = free.back();
+            free.pop_back();
+            tape.instructions_.push_back({value.operation, registers[target],
+                                          registers[index(value.left)],
+                                          value.right < 0 ? -1 : registers[index(value.right)]});
             if (!value.needs_x)
                 ++tape.time_only_count_;
         }
         for (std::size_t i = 1; i < values_.size(); ++i)
-            if (registers[i] >= 0 && !values_[i].constant && persists(i))
+            if (registers[i] >= 0 && !values_[i].constant && persists(i, when))
                 tape.persistent_.push_back(registers[i]);
         for (const int output : outputs)
             tape.outputs_.push_back(registers[index(output)]);

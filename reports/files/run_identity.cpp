@@ -1,6 +1,6 @@
 #include "reports/files/run_identity.hpp"
 
-#include "core/sine/kernel.hpp"
+#include "core/sine/sine_run.hpp"
 #include "mms/text/characters.hpp"
 #include "reports/files/build_ids.hpp"
 #include "reports/files/provenance.hpp"
@@ -45,7 +45,7 @@ nlohmann::ordered_json run_identity(const Scene& scene) {
                         {"type", provenance.build_type},
                         {"flags", provenance.flags},
                         {"binaries", std::move(binaries)}}},
-                      {"processor", {{"kernel", chosen_sine_kernel().name}}}};
+                      {"processor", {{"kernel", sine_unit()}}}};
     if (const auto* solution = std::get_if<Solution>(&scene.problem)) {
         Identity& lines = identity["scene"]["text of the solution"] = Identity::array();
         for (const auto& parameter : solution->parameters)

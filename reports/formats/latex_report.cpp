@@ -30,7 +30,7 @@ std::size_t length_of_character(const std::string& text, std::size_t at) {
     return length;
 }
 
-/// What stands for a character other than itself.
+/// What stands for a character other than itself. Long, since it is a table.
 const std::map<std::string, std::string>& commands() {
     static const std::map<std::string, std::string> all{
         {"\\", "\\textbackslash{}"},

@@ -11,7 +11,7 @@ namespace tvbeam {
 
 namespace {
 
-enum Profile : Eigen::Index { parabola, lever, one, bending };
+enum Profile : Eigen::Index { parabola, arm, one, bending };
 enum Amplitude : Eigen::Index { heating, shear, moment, minus_moment, initial_bending };
 constexpr Eigen::Index amplitude_count = 5;
 
@@ -109,7 +109,7 @@ ProblemData stress_problem(const StressParameters& parameters, const Mesh& mesh)
     };
     if (load != 0.0) {
         data.heat_source.terms = {{heating, parabola}};
-        data.moment_load.terms = {{shear, lever}, {minus_moment, one}};
+        data.moment_load.terms = {{shear, arm}, {minus_moment, one}};
         data.couple_load.terms = {{shear, one}};
         data.end_moment = moment;
     }

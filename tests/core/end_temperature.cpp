@@ -43,7 +43,7 @@ const std::vector<Contact> contacts{{"without stops", {-none, none, 0.0}, false}
                                     {"rigid stops", {-0.02, 0.1, 0.0}, true},
                                     {"penalised stops", {-0.02, 0.1, 1e-3}, true}};
 
-Eigen::ArrayXd lever(const Eigen::ArrayXd& x) {
+Eigen::ArrayXd arm(const Eigen::ArrayXd& x) {
     return 1.0 - x;
 }
 
@@ -70,7 +70,7 @@ ProblemData problem(const Beam& beam, bool transformed) {
         return (std::numbers::pi * x).sin() - (2.0 * std::numbers::pi * x).sin();
     };
     const auto bent = [](const Eigen::ArrayXd& x) -> Eigen::ArrayXd { return x / 10.0; };
-    result.profiles = {lever, one, heated, waves, bent};
+    result.profiles = {arm, one, heated, waves, bent};
     result.heat_source.terms = {{1, 2}};
     result.moment_load.terms = {{2, 0}, {4, 0}};
     result.couple_load.terms = {{2, 1}, {4, 1}};

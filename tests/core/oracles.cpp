@@ -134,10 +134,10 @@ BOOST_DATA_TEST_CASE(a_million_steps_neither_grow_nor_drift, data::make(TimeSche
 
 BOOST_DATA_TEST_CASE(contact_begins_and_ends_when_the_scalar_problem_says,
                      data::make(all_schemes) * data::make({100, 1000, 10000}), scheme, steps) {
-    // A load in proportion to the lever, μ = (−a + bt)(1 − x), bends the beam in proportion to it:
-    // w = v (1 − x), ζv' + v = a − bt + λ, u = v/3, from rest v = a − bt + bζ − (a + bζ) e^{−t/ζ}.
-    // The tip meets g2 when v = 3g2; on the stop v' = 0 and λ = 3g2 − a + bt, which ends at
-    // t = (a − 3g2)/b; afterwards v falls for ever. So there are two switches.
+    // A load in proportion to the moment arm, μ = (−a + bt)(1 − x), bends the beam in proportion to
+    // it: w = v (1 − x), ζv' + v = a − bt + λ, u = v/3, from rest v = a − bt + bζ − (a + bζ)
+    // e^{−t/ζ}. The tip meets g2 when v = 3g2; on the stop v' = 0 and λ = 3g2 − a + bt, which ends
+    // at t = (a − 3g2)/b; afterwards v falls for ever. So there are two switches.
     const double a = 2.0;
     const double b = 1.5;
     const double zeta = 0.5;
