@@ -4,11 +4,12 @@
 #include "core/space/cells.hpp"
 #include "core/space/quadrature.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <new>
-#include <sstream>
 #include <stdexcept>
 
 namespace tvbeam {
@@ -244,11 +245,9 @@ std::string HermiteForm::solve(double c, double t,
         if (!coupled || change <= tolerance_)
             return {};
     }
-    std::ostringstream reason;
-    reason << "the fixed-point iteration does not reach its tolerance " << tolerance_ << ": after "
-           << iteration_limit << " iterations a nodal value still changes by " << change
-           << "; use the direct algorithm";
-    return reason.str();
+    return fmt::format("the fixed-point iteration does not reach its tolerance {:g}: after {} "
+                       "iterations a nodal value still changes by {:g}; use the direct algorithm",
+                       tolerance_, iteration_limit, change);
 }
 
 double HermiteForm::tip_displacement() const {

@@ -27,11 +27,11 @@ struct Stops {
     [[nodiscard]] bool exist() const;
 };
 
-/// The constants of the model (1)–(10).
+/// The constants of the model (1)–(10), scaled as README.md says.
 struct Beam {
-    double alpha = 0.0;   ///< coefficient of thermal expansion; ≥ 0
-    double zeta = 0.0;    ///< viscosity coefficient; ≥ 0
-    double theta_A = 0.0; ///< end temperature θ̃(0,t) (10)
+    double alpha = 0.0;   ///< coefficient of thermal expansion; ≥ 0; no unit
+    double zeta = 0.0;    ///< viscosity coefficient; ≥ 0; unit: time
+    double theta_A = 0.0; ///< end temperature θ̃(0,t) (10); unit: temperature
     Stops stops = {};
 };
 

@@ -8,10 +8,11 @@
 #include "core/sine/sine_run.hpp"
 #include "core/time/time_levels.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <new>
 #include <optional>
-#include <sstream>
 #include <stdexcept>
 #include <utility>
 
@@ -33,9 +34,7 @@ std::vector<const Field*> loads_of(const ProblemData& data, Algorithm algorithm)
 }
 
 std::string located(const std::string& reason, std::int64_t step, std::int64_t steps, double t) {
-    std::ostringstream text;
-    text << reason << " in step " << step << " of " << steps << ", t = " << t;
-    return text.str();
+    return fmt::format("{} in step {} of {}, t = {:g}", reason, step, steps, t);
 }
 
 } // namespace
@@ -60,14 +59,11 @@ Resolution resolution_of(const ProblemData& data, const std::vector<Algorithm>& 
 std::unique_ptr<Solver> make_solver(const Beam& beam, const ProblemData& data, const Mesh& mesh,
                                     const Scheme& scheme, double dt, const Needs& needs) {
     if (scheme.algorithm == Algorithm::fixed_point) {
-        if (const double rho = greatest_contraction(beam, mesh, scheme, dt); !(rho < 1.0)) {
-            std::ostringstream reason;
-            reason.precision(3);
-            reason << "the fixed-point iteration would not contract: each of its iterations "
-                      "multiplies the error by "
-                   << rho << ", predicted; use the direct algorithm";
-            throw std::domain_error(reason.str());
-        }
+        if (const double rho = greatest_contraction(beam, mesh, scheme, dt); !(rho < 1.0))
+            throw std::domain_error(fmt::format(
+                "the fixed-point iteration would not contract: each of its iterations multiplies "
+                "the error by {:.3g}, predicted; use the direct algorithm",
+                rho));
         return std::make_unique<HermiteForm>(beam, data, mesh, scheme, dt);
     }
     return std::make_unique<MomentForm>(beam, data, mesh, scheme, dt, needs);

@@ -1,6 +1,6 @@
 #include "mms/expected_orders.hpp"
 
-#include "mms/admissible/admissibility_check.hpp"
+#include "mms/admissible/admissibility.hpp"
 #include "mms/admissible/sampled_rules.hpp"
 #include "mms/expression/algebra.hpp"
 #include "mms/expression/piecewise_tape.hpp"

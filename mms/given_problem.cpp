@@ -2,7 +2,7 @@
 
 #include "core/space/resolution.hpp"
 #include "core/space/tail_moment.hpp"
-#include "mms/admissible/admissibility_check.hpp"
+#include "mms/admissible/admissibility.hpp"
 #include "mms/expression/algebra.hpp"
 #include "mms/expression/expression_parser.hpp"
 #include "mms/expression/symbols.hpp"

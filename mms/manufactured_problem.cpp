@@ -1,6 +1,6 @@
 #include "mms/manufactured_problem.hpp"
 
-#include "mms/admissible/admissibility_check.hpp"
+#include "mms/admissible/admissibility.hpp"
 #include "mms/derivation.hpp"
 #include "mms/expression/algebra.hpp"
 #include "mms/plain_solution.hpp"

@@ -9,7 +9,6 @@
 
 #include <cmath>
 #include <limits>
-#include <sstream>
 #include <string>
 
 namespace tvbeam {
@@ -27,14 +26,11 @@ double constant_value(const ex& expression, const SourceText& source, const std:
 }
 
 void require_later(double end, const PhaseExpressions& phase, const SourceText& until) {
-    if (!(end > phase.begin_value)) {
-        std::ostringstream message;
-        message.precision(17);
-        message << "until is " << end << "; it must be greater than "
-                << (phase.begin_value > 0.0 ? "the end of the phase before, " : "")
-                << phase.begin_value;
-        throw InputError(until.begin(), message.str());
-    }
+    if (!(end > phase.begin_value))
+        throw InputError(until.begin(),
+                         "until is " + number_text(end, 17) + "; it must be greater than " +
+                             (phase.begin_value > 0.0 ? "the end of the phase before, " : "") +
+                             number_text(phase.begin_value, 17));
 }
 
 ex on_beam(const ex& expression, const GiNaC::exmap& values, const SourceText& source,

@@ -3,9 +3,9 @@
 #include "core/space/quadrature.hpp"
 #include "core/time/time_levels.hpp"
 #include "mms/text/error_text.hpp"
+#include "mms/text/toml_reader.hpp"
 #include "studies/evolution/evolution_block.hpp"
 #include "studies/runs/beam_runs.hpp"
-#include "studies/scene/toml_reader.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,7 @@
 
 namespace tvbeam {
 
-/// What contact (6)–(8) leaves to be desired after a solve, in lengths over the scale of the tip:
+/// The defects of contact (6)–(8) after a solve, in lengths over the scale of the tip:
 /// the size of the terms that u(1) = ∫ (1 − x) w dx is the sum of. A reaction λ counts with the
 /// length |λ| κ/3 by which it moves the tip of a beam without heat.
 struct ContactDefects {

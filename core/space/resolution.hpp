@@ -14,7 +14,7 @@ namespace tvbeam {
 /// How finely [0, 1] must be cut for the rule of six points (element_rule) to integrate the
 /// functions of a problem, found once for all meshes.
 ///
-/// On an interval of length w the rule is held against the same on its two halves, for
+/// On an interval of length w the rule is compared with the same on its two halves, for
 ///
 ///     ∫ φ η^k dx, k = 0 … 3, η in [0, 1] the place in it,     ∫ φ² dx
 ///

@@ -1,6 +1,5 @@
 #include "mms/admissible/admissibility.hpp"
 
-#include "mms/admissible/admissibility_check.hpp"
 #include "mms/admissible/contact_rules.hpp"
 #include "mms/admissible/repair.hpp"
 #include "mms/admissible/sampled_rules.hpp"
@@ -278,13 +277,6 @@ void require_final_time(double final_time) {
 double check_admissible(const Solution& solution, const DerivedSolution& derived,
                         const PlainSolution& plain, const Beam& beam, double final_time) {
     return AdmissibilityCheck(solution, derived, plain, beam, final_time).run();
-}
-
-double require_admissible(const Solution& solution, const Beam& beam, double final_time) {
-    require_final_time(final_time);
-    const DerivedSolution derived = derive_on(solution, beam);
-    const PlainSolution plain(solution, derived, beam, final_time);
-    return check_admissible(solution, derived, plain, beam, final_time);
 }
 
 } // namespace tvbeam

@@ -1,7 +1,8 @@
 #pragma once
 
 #include "core/problem.hpp"
-#include "mms/solution.hpp"
+#include "mms/derivation.hpp"
+#include "mms/plain_solution.hpp"
 
 #include <string>
 
@@ -23,13 +24,18 @@ namespace tvbeam {
 /// or else at every sampled time to 1e-12 of the largest value of θ̃ (or u, or σ̃) on the grid;
 /// inequalities are sampled, with the same tolerance.
 ///
-/// Throws InputError at the expression at fault; it names the equation, the time, the value and a
-/// repair. Returns ContactRules::law_distance.
-double require_admissible(const Solution& solution, const Beam& beam, double final_time);
+/// `solution` gives the places. Throws InputError at the expression at fault; it names the
+/// equation, the time, the value and a repair; and where a derived formula is not what `plain`, the
+/// same solution's, says. Returns ContactRules::law_distance.
+double check_admissible(const Solution& solution, const DerivedSolution& derived,
+                        const PlainSolution& plain, const Beam& beam, double final_time);
 
 /// The same for a problem with an exact solution that no text describes; all of it is sampled, and
 /// jumps are looked for between the times of a grid. Errors begin with `name` in place of a file.
 double require_admissible(const ProblemData& problem, const std::string& name, const Beam& beam,
                           double final_time);
+
+/// Throws InputError unless final_time is positive and finite.
+void require_final_time(double final_time);
 
 } // namespace tvbeam

@@ -1,6 +1,5 @@
 #include "mms/admissible/admissibility.hpp"
 
-#include "mms/admissible/admissibility_check.hpp"
 #include "mms/admissible/contact_rules.hpp"
 #include "mms/admissible/sampled_rules.hpp"
 #include "mms/text/error_text.hpp"

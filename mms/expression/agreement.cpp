@@ -2,13 +2,14 @@
 
 #include "mms/text/error_text.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <sstream>
 
 namespace tvbeam {
 
@@ -20,13 +21,6 @@ namespace {
 constexpr long double roundoff = 0x1p-53L;
 constexpr long double spared = 64.0L;
 constexpr long double nothing = 1e-25L;
-
-std::string long_text(long double value) {
-    std::ostringstream stream;
-    stream.precision(12);
-    stream << value;
-    return stream.str();
-}
 
 /// The bound where it is one.
 long double size_of(const Number& number) {
@@ -89,11 +83,11 @@ std::optional<Index> first_disagreement(const std::vector<Number>& text,
 
 std::string disagreement_text(const std::string& what, double x, double t, double computed,
                               long double text) {
-    return what + " at x = " + number_text(x) + ", t = " + number_text(t) + " is " +
-           long_text(text) + " as it is written, but " + long_text(computed) +
-           " in the double precision of a run; write it with fewer or smaller powers, or so that "
-           "no "
-           "part of it is far larger or smaller than the whole";
+    return fmt::format(
+        "{} at x = {:g}, t = {:g} is {:.12g} as it is written, but {:.12g} in the double precision "
+        "of a run; write it with fewer or smaller powers, or so that no part of it is far larger "
+        "or smaller than the whole",
+        what, x, t, text, computed);
 }
 
 void require_agreement(const SourceText& source, const std::string& what,
@@ -107,9 +101,9 @@ void require_agreement(const SourceText& source, const std::string& what,
     const Number text = evaluated(plain, names).at(0, 0);
     if (!first_disagreement({text}, ComputedValues::of(Eigen::ArrayXd::Constant(1, computed))))
         return;
-    throw InputError(source.begin(), what + " is " + long_text(text.value) +
-                                         " as it is written, but comes out as " +
-                                         long_text(computed) + " in double precision");
+    throw InputError(source.begin(), fmt::format("{} is {:.12g} as it is written, but comes out "
+                                                 "as {:.12g} in double precision",
+                                                 what, text.value, computed));
 }
 
 } // namespace tvbeam

@@ -4,6 +4,8 @@
 #include "mms/text/characters.hpp"
 #include "mms/text/nearest_name.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -258,13 +260,8 @@ private:
 
     static std::string hint(const std::string& word, const std::vector<std::string>& known,
                             const std::string& introduction) {
-        std::string meant = did_you_mean(word, known);
-        if (!meant.empty())
-            return meant;
-        std::string list;
-        for (const std::string& name : known)
-            list += (list.empty() ? "" : ", ") + name;
-        return "; " + introduction + list;
+        const std::string meant = did_you_mean(word, known);
+        return meant.empty() ? fmt::format("; {}{}", introduction, fmt::join(known, ", ")) : meant;
     }
 
     template <typename Operation>

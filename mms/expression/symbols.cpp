@@ -1,9 +1,9 @@
 #include "mms/expression/symbols.hpp"
 
 #include "mms/expression/algebra.hpp"
+#include "mms/text/number_text.hpp"
 
 #include <cmath>
-#include <sstream>
 
 namespace tvbeam {
 
@@ -24,11 +24,9 @@ GiNaC::exmap beam_values(const Beam& beam) {
     const ModelSymbols& s = model_symbols();
     GiNaC::exmap values;
     const auto set = [&values](const GiNaC::realsymbol& symbol, double value) {
-        if (!std::isfinite(value)) {
-            std::ostringstream message;
-            message << symbol.get_name() << " is " << value << "; it must be finite";
-            throw InputError({}, message.str());
-        }
+        if (!std::isfinite(value))
+            throw InputError({}, symbol.get_name() + " is " + number_text(value) +
+                                     "; it must be finite");
         values[symbol] = exact_rational(value);
     };
     set(s.alpha, beam.alpha);

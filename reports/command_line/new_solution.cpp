@@ -39,13 +39,13 @@ k = 0.01
 )toml";
 
 constexpr std::string_view scene_text =
-    R"toml(# What is run: `tvbeam run NAME-scene.toml` prints the table, `tvbeam check NAME-scene.toml` holds it against [expect].
+    R"toml(# What is run: `tvbeam run NAME-scene.toml` prints the table, `tvbeam check NAME-scene.toml` checks it against [expect].
 title    = "NAME"
 solution = "./NAME.toml"
 
 [beam]
-alpha = 0.3                 # thermal expansion; 0: no coupling
-zeta  = 0.1                 # viscosity
+alpha = 0.3                 # thermal expansion, without unit; 0: no coupling
+zeta  = 0.1                 # viscosity, a time
 stops = [-0.1, 0.1]         # g1, g2; -inf or inf: none on that side; leave it out: no stops
 # theta_A = 0.5             # temperature at the clamped end; 0 when left out
 

@@ -13,7 +13,7 @@ struct StarterFile {
 };
 
 /// The two files of `tvbeam new NAME`, commented: the solution NAME.toml and the scene
-/// NAME-scene.toml, which runs it as it stands and holds it against its orders. Throws InputError
+/// NAME-scene.toml, which runs it as it stands and checks it against its orders. Throws InputError
 /// for a name that is not of letters, digits, - and _, or is longer than 64 characters.
 std::array<StarterFile, 2> starter_files(const std::string& name);
 

@@ -3,6 +3,7 @@
 #include "mms/derived_formulas.hpp"
 #include "mms/text/input_error.hpp"
 #include "mms/text/nearest_name.hpp"
+#include "mms/text/toml_reader.hpp"
 #include "reports/command_line/analysis_report.hpp"
 #include "reports/command_line/check_report.hpp"
 #include "reports/command_line/completion.hpp"
@@ -23,7 +24,6 @@
 #include "studies/data/csv_records.hpp"
 #include "studies/scene/shipped.hpp"
 #include "studies/scene/solution_setting.hpp"
-#include "studies/scene/toml_reader.hpp"
 #include "studies/study.hpp"
 
 #include <CLI/CLI.hpp>
@@ -386,7 +386,7 @@ Command add_run(CLI::App& app) {
 
 Command add_check(CLI::App& app) {
     auto* check = app.add_subcommand(
-        "check", "Run scenes and hold them against what their [expect] blocks say; exit 1 "
+        "check", "Run scenes and check them against their [expect] blocks; exit 1 "
                  "and a line for each violation.\n"
                  "Example: tvbeam check table1 table1-orders --short --junit results.xml");
     const auto options = std::make_shared<CheckOptions>();
@@ -398,7 +398,7 @@ Command add_check(CLI::App& app) {
     add_file(*check, "--record", options->record, "write a baseline of every error found");
     check
         ->add_option("--baseline", options->baseline,
-                     "hold every error against a recorded baseline")
+                     "check every error against a recorded baseline")
         ->type_name("FILE");
     check->add_option("--tolerance", options->tolerance, "relative, both sides, for --baseline")
         ->check(CLI::PositiveNumber)

@@ -36,8 +36,8 @@ Table::Group norm_group(const LadderResult& ladder, const LadderBlock& block, st
         if (const auto found = block.printed->figures.find(name);
             found != block.printed->figures.end()) {
             const auto& figures = found->second;
-            group.columns.push_back(column(
-                ladder, "printed", [&](std::size_t i) { return scientific(figures[i], 3); }));
+            group.columns.push_back(
+                column(ladder, "publ.", [&](std::size_t i) { return scientific(figures[i], 3); }));
             group.columns.push_back(column(ladder, "ratio", [&](std::size_t i) {
                 const auto value = error(i);
                 return value && figures[i] != 0.0 ? ratio_cell(*value / figures[i]) : std::string();
@@ -93,8 +93,8 @@ Section ladder_section(const LadderResult& ladder, const LadderBlock& block, con
         blocks.emplace_back(std::move(block));
     };
     if (block.printed && !block.printed->figures.empty())
-        add(Paragraph{"printed: " + block.printed->source +
-                      "; ratio: error / printed; ord.: observed order"});
+        add(Paragraph{"publ.: published, " + block.printed->source +
+                      "; ratio: error / published; ord.: observed order"});
     for (const auto& rung : ladder.rungs)
         if (rung.status != RungStatus::ok)
             add(Finding{fmt::format("s = {}, dt = {} {}: {}", rung.rung.elements,

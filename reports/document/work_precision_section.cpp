@@ -147,10 +147,10 @@ Finding comparison(const SchemeComparison& pair, const ReachedError& error,
              : fmt::format("(quartiles {} … {})", ratio_text(pair.times.lowest),
                            ratio_text(pair.times.highest));
     const std::string ratio = ratio_text(pair.times.ratio);
-    return {pair.times.told_apart
+    return {pair.times.distinguishable
                 ? fmt::format("by {} {} times sooner than by {} {}", faster, ratio, slower, spread)
-                : fmt::format("by {} and by {} in times not told apart: ratio {} {}", faster,
-                              slower, ratio, spread),
+                : fmt::format("by {} and by {} in times that are not distinguishable: ratio {} {}",
+                              faster, slower, ratio, spread),
             4};
 }
 

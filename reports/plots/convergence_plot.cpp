@@ -230,7 +230,7 @@ private:
     void add_legend_of_marks() {
         if (has_printed_)
             drawing_.add_curve("NaN with points lc rgb '#000000' pt 4 ps 1.5 lw 1.3",
-                               "printed in " + block_.printed->source);
+                               "published in " + block_.printed->source);
         if (predicted_)
             drawing_.add_curve("NaN with lines lc rgb '#000000' dt 3 lw 1.2",
                                "predicted by the two-term model of [orders]");
@@ -241,7 +241,7 @@ private:
             "Errors up to T = {} along the ladder, on logarithmic axes, with fitted lines and "
             "their slopes{}{}.",
             shortest(block_.final_time),
-            has_printed_ ? "; open squares: printed in " + block_.printed->source : "",
+            has_printed_ ? "; open squares: published in " + block_.printed->source : "",
             predicted_ ? "; dotted: predicted by the two-term model of [orders]" : "");
     }
 

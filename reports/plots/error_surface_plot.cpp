@@ -270,7 +270,7 @@ private:
                (modelled
                     ? "Lines of equal error of the fitted model, in bands that are darker the "
                       "larger the error; dashed: where its two terms are equal, the space error "
-                      "rules to the right, the time error above; circles: the runs."
+                      "dominates to the right, the time error above; circles: the runs."
                     : "No model of two terms is determined by the runs; their errors stand at "
                       "the crosses.");
     }

@@ -7,7 +7,7 @@
 namespace tvbeam {
 
 /// How one series of a figure is drawn. Series differ in colour, in point and in line, so that they
-/// are told apart by those who see no colours, and in grey.
+/// are distinguishable to those who see no colours, and in grey.
 struct SeriesStyle {
     std::string colour; ///< of the palette of Okabe and Ito (2008)
     int point = 0;      ///< gnuplot's number of a filled point

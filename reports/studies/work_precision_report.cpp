@@ -52,7 +52,7 @@ Json json_of(const NormCosts& costs, const std::vector<TimedScheme>& schemes) {
                                    {"ratio", pair.times.ratio},
                                    {"lowest", pair.times.lowest},
                                    {"highest", pair.times.highest},
-                                   {"told_apart", pair.times.told_apart}});
+                                   {"told_apart", pair.times.distinguishable}});
         errors.push_back({{"error", reached.error},
                           {"target", reached.target},
                           {"seconds", std::move(seconds)},

@@ -1,7 +1,7 @@
 #include "studies/evolution/evolution_block.hpp"
 
 #include "mms/text/nearest_name.hpp"
-#include "studies/scene/toml_reader.hpp"
+#include "mms/text/toml_reader.hpp"
 
 #include <algorithm>
 #include <charconv>

@@ -1,6 +1,6 @@
+#include "mms/text/toml_reader.hpp"
 #include "studies/evolution/evolution.hpp"
 #include "studies/scene/scene.hpp"
-#include "studies/scene/toml_reader.hpp"
 #include "studies/study_kind.hpp"
 #include "studies/table_row.hpp"
 

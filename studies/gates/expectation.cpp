@@ -1,7 +1,7 @@
 #include "studies/gates/expectation.hpp"
 
 #include "mms/text/nearest_name.hpp"
-#include "studies/scene/toml_reader.hpp"
+#include "mms/text/toml_reader.hpp"
 #include "studies/study.hpp"
 
 #include <boost/algorithm/string/join.hpp>

@@ -1,6 +1,6 @@
 #include "studies/grid/orders_block.hpp"
 
-#include "studies/scene/toml_reader.hpp"
+#include "mms/text/toml_reader.hpp"
 
 namespace tvbeam {
 

@@ -1,5 +1,5 @@
+#include "mms/text/toml_reader.hpp"
 #include "studies/grid/grid.hpp"
-#include "studies/scene/toml_reader.hpp"
 #include "studies/study.hpp"
 #include "studies/table_row.hpp"
 

@@ -2,9 +2,10 @@
 
 #include "studies/ladder/order_remarks.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <iterator>
-#include <sstream>
 
 namespace tvbeam {
 
@@ -52,20 +53,19 @@ std::vector<RungResult> telling(const std::optional<ReferenceBlock>& reference,
 /// A sentence about the rungs whose errors quadrature leaves uncertain; empty when there are none.
 std::string quadrature_remark(const std::vector<RungResult>& rungs,
                               const std::vector<Measure>& norms) {
-    std::ostringstream named;
-    named.precision(2);
+    std::string named;
     for (const auto& run : rungs) {
         const auto worst = std::max_element(run.uncertainties.begin(), run.uncertainties.end());
         if (worst == run.uncertainties.end() || *worst <= 0.01)
             continue;
         const auto k = static_cast<std::size_t>(worst - run.uncertainties.begin());
-        named << (named.str().empty() ? "" : "; ") << "s = " << run.rung.elements << ": "
-              << norms[k].root() << " is uncertain by " << *worst << " of itself";
+        named += fmt::format("{}s = {}: {} is uncertain by {:.2g} of itself",
+                             named.empty() ? "" : "; ", run.rung.elements, norms[k].root(), *worst);
     }
-    if (named.str().empty())
+    if (named.empty())
         return {};
-    return "Quadrature does not resolve what is integrated, in loads or norms: " + named.str() +
-           ". Orders that these figures enter say nothing.";
+    return "Quadrature does not resolve what is integrated, in loads or norms: " + named +
+           ". Orders that these errors enter say nothing.";
 }
 
 } // namespace

@@ -1,6 +1,6 @@
 #include "studies/ladder/ladder_block.hpp"
 
-#include "studies/scene/toml_reader.hpp"
+#include "mms/text/toml_reader.hpp"
 
 namespace tvbeam {
 
@@ -8,13 +8,13 @@ namespace {
 
 PrintedFigures read_printed(TableReader table, const LadderBlock& ladder, const SolverKeys& keys) {
     PrintedFigures printed;
-    printed.source = table.text("source").value_or("printed");
+    printed.source = table.text("source").value_or("published");
     printed.figures = read_by_measure(
         table, keys, ladder.norms, [&](const std::string& name, const std::vector<double>& list) {
             if (list.size() != ladder.rungs.size())
-                throw table.error(name, " has " + std::to_string(list.size()) + " figures for " +
+                throw table.error(name, " has " + std::to_string(list.size()) + " values for " +
                                             std::to_string(ladder.rungs.size()) +
-                                            " rungs; give one a rung, or none: --set " +
+                                            " levels; give one a level, or none: --set " +
                                             table.full("").substr(0, table.full("").size() - 1) +
                                             "={}");
         });

@@ -27,8 +27,8 @@ struct LadderBlock {
 ///
 ///     final_time, elements, dt, norms     as study_keys.hpp says; norms may be absent
 ///     [ladder.printed]
-///     source                              default "printed"
-///     NORM                                one figure a rung
+///     source                              default "published"
+///     NORM                                one value a level
 ///
 /// Throws InputError where a value is missing or breaks its rule.
 LadderBlock read_ladder(TableReader& table, const SolverKeys& keys);

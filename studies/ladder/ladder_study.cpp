@@ -1,6 +1,6 @@
+#include "mms/text/toml_reader.hpp"
 #include "studies/ladder/ladder.hpp"
 #include "studies/scene/scene.hpp"
-#include "studies/scene/toml_reader.hpp"
 #include "studies/study.hpp"
 #include "studies/table_row.hpp"
 
@@ -34,14 +34,14 @@ void expect_ratios(TableReader& table, const Series& series, std::size_t k,
         return;
     const std::string& norm = series.measures[k].name;
     if (!printed || !printed->figures.contains(norm))
-        throw table.error("ratios", " compares with printed figures, but "
+        throw table.error("ratios", " compares with published values, but "
                                     "ladder.printed has none for " +
                                         norm);
     const std::size_t rungs = series.rungs.size();
     if (bands->size() != 1 && bands->size() != rungs)
         throw table.error("ratios", " has " + std::to_string(bands->size()) + " bands for " +
                                         std::to_string(rungs) +
-                                        " rungs; give one for all, or one a rung");
+                                        " levels; give one for all, or one a level");
     for (std::size_t row = 0; row < rungs; ++row) {
         const auto& band = (*bands)[bands->size() == 1 ? 0 : row];
         const double figure = printed->figures.at(norm)[row];
@@ -50,7 +50,7 @@ void expect_ratios(TableReader& table, const Series& series, std::size_t k,
                                     const auto& run = result.get<LadderResult>()->rungs[row];
                                     const auto error = error_of(run, k);
                                     return std::vector{row_metric(
-                                        series, run, k, "ratio to the printed figure",
+                                        series, run, k, "ratio to the published value",
                                         error ? std::optional(*error / figure) : std::nullopt)};
                                 }});
     }
@@ -80,7 +80,7 @@ std::vector<Metric> predicted_metrics(const Series& series, std::size_t k,
                            norm.predictions.empty()
                                ? "no two-term model: [orders] is missing, has another final_time, "
                                  "or its fit failed"
-                               : "no rung is finer than the grid of [orders]"});
+                               : "no level is finer than the grid of [orders]"});
     return metrics;
 }
 

@@ -73,7 +73,7 @@ std::string departure(const Measure& norm, std::span<const Refinement> roots,
     if (dips(orders, settles ? last.order : before))
         return text + ", as where two terms of the error cancel.";
     if (settles && std::abs(last.order - extreme.order) <= steady)
-        return text + (rises ? ", where it settles: the rungs before it are too coarse to show it."
+        return text + (rises ? ", where it settles: the levels before it are too coarse to show it."
                              : ", as where a term of lower order takes over.");
     return text +
            "; why is not known: " + (settles ? "it settles elsewhere." : "it has not settled.");
@@ -142,12 +142,13 @@ std::string from_model(const Measure& norm, std::span<const Refinement> roots,
                             order(fast_order), of_square(norm, fast_order), faster, slower,
                             order(slow_order), at_last, last, at_last < 0.5 ? " and hidden." : ".");
     else if (at_first < 1.0)
-        text += fmt::format("the {} error, of order {}{}, rules the coarse rungs; at {} the {} "
-                            "error, of order {}, is {:.2g} times as large.",
-                            faster, order(fast_order), of_square(norm, fast_order), last, slower,
-                            order(slow_order), at_last);
+        text +=
+            fmt::format("the {} error, of order {}{}, dominates the coarse levels; at {} the {} "
+                        "error, of order {}, is {:.2g} times as large.",
+                        faster, order(fast_order), of_square(norm, fast_order), last, slower,
+                        order(slow_order), at_last);
     else
-        text += fmt::format("the {} error, of order {}{}, rules the whole ladder: at {} it is "
+        text += fmt::format("the {} error, of order {}{}, dominates the whole ladder: at {} it is "
                             "{:.2g} times as large as the {} error, of order {}, and at {} {:.2g} "
                             "times.",
                             slower, order(slow_order), of_square(norm, slow_order), first, at_first,

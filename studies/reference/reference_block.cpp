@@ -1,11 +1,12 @@
 #include "studies/reference/reference_block.hpp"
 
+#include "mms/text/toml_reader.hpp"
 #include "studies/scene/study_keys.hpp"
-#include "studies/scene/toml_reader.hpp"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 #include <string>
 
 namespace tvbeam {
@@ -63,19 +64,16 @@ double read_dt(TableReader& table, bool richardson, const std::vector<Series>& m
             const std::string held = message_text(rung.dt) + " of " + series.study + ".dt";
             const double ratio = rung.dt / unit;
             const double steps = rung.dt / dt * static_cast<double>(rung.steps);
-            std::ostringstream why;
             if (ratio < 1.0 - 1e-9 && richardson)
-                why << must << "be no larger than the " << held;
-            else if (ratio < 1.0 - 1e-9)
-                why << ", coarser than the " << held << "; a reference is at least as fine";
-            else if (!(steps <= most_steps))
-                why << ", which makes " << message_text(steps)
-                    << " steps; at most 1e12 are possible";
-            else if (std::abs(ratio - std::round(ratio)) > 1e-9 * ratio)
-                why << must << "divide the " << held << " into a whole number of steps, not "
-                    << message_text(ratio);
-            if (!why.str().empty())
-                refuse(why.str());
+                refuse(must + "be no larger than the " + held);
+            if (ratio < 1.0 - 1e-9)
+                refuse(", coarser than the " + held + "; a reference is at least as fine");
+            if (!(steps <= most_steps))
+                refuse(", which makes " + message_text(steps) +
+                       " steps; at most 1e12 are possible");
+            if (std::abs(ratio - std::round(ratio)) > 1e-9 * ratio)
+                refuse(must + "divide the " + held + " into a whole number of steps, not " +
+                       message_text(ratio));
         }
     return dt;
 }
@@ -142,17 +140,15 @@ std::vector<std::int64_t> kept_levels(const ReferenceBlock& reference,
 
 std::string reference_remark(const ReferenceBlock& reference,
                              const std::vector<RungResult>& rungs) {
-    std::ostringstream named;
+    std::string named;
     std::size_t close = 0;
     for (const auto& run : rungs)
-        if (reference.is_close_to(run.rung)) {
-            named << (close > 0 ? ", " : "") << "s = " << run.rung.elements
-                  << " (dt = " << run.rung.dt << ")";
-            ++close;
-        }
+        if (reference.is_close_to(run.rung))
+            named += fmt::format("{}s = {} (dt = {:g})", close++ > 0 ? ", " : "", run.rung.elements,
+                                 run.rung.dt);
     if (close == 0)
         return {};
-    return (close == 1 ? "The rung " : "The rungs ") + named.str() +
+    return (close == 1 ? "The level " : "The levels ") + named +
            (close == 1 ? " has an h or dt" : " have an h or dt") +
            " within a factor of two of the reference's: what is measured there lacks much of the "
            "error, and orders that it enters come out too high.";

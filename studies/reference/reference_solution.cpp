@@ -6,12 +6,13 @@
 #include "studies/reference/piecewise_polynomial.hpp"
 #include "studies/runs/beam_runs.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <memory>
 #include <new>
-#include <sstream>
 #include <stdexcept>
 
 namespace tvbeam {
@@ -111,9 +112,7 @@ private:
     [[nodiscard]] Index level_at(double t) const {
         if (const auto at = slot(t))
             return *at;
-        std::ostringstream text;
-        text << "the reference solution is not known at t = " << t;
-        throw std::domain_error(text.str());
+        throw std::domain_error(fmt::format("the reference solution is not known at t = {:g}", t));
     }
 
     /// Adds weight times the solution of a run, coarser by the given factors, to all kept levels.
@@ -128,12 +127,9 @@ private:
             auto next = levels_.begin();
             for (std::int64_t n = 1; next != levels_.end(); ++n) {
                 const std::int64_t level = n * in_dt;
-                if (const std::string reason = solver->step(times.at(n)); !reason.empty()) {
-                    std::ostringstream text;
-                    text << reason << " at t = " << times.time(n) << " with " << mesh.elements()
-                         << " elements, dt = " << dt;
-                    return text.str();
-                }
+                if (const std::string reason = solver->step(times.at(n)); !reason.empty())
+                    return fmt::format("{} at t = {:g} with {} elements, dt = {:g}", reason,
+                                       times.time(n), mesh.elements(), dt);
                 if (!execution_.advance(static_cast<double>(mesh.elements())))
                     return "it was interrupted";
                 if (level == *next) {

@@ -4,9 +4,10 @@
 #include "core/space/linear_elements.hpp"
 #include "studies/runs/beam_runs.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 namespace tvbeam {
 
@@ -45,14 +46,11 @@ std::string round_off_remark(const Beam& beam, const ProblemData& data, const Se
             size * hermite_floor(rung.rung.elements, beam.zeta, rung.rung.dt, rung.rung.steps);
         if (within * floor <= error / 2.0)
             continue;
-        std::ostringstream text;
-        text.precision(2);
-        text << measure.name << ": from s = " << rung.rung.elements
-             << " on, the round-off of the Hermite form, which grows like h^-4, may exceed the "
-                "discretisation error: "
-             << floor << ", within a factor of " << within << ", is predicted of an error of "
-             << error << "; algorithm = \"direct\" does not suffer it";
-        return text.str();
+        return fmt::format(
+            "{}: from s = {} on, the round-off of the Hermite form, which grows like h^-4, may "
+            "exceed the discretisation error: {:.2g}, within a factor of {:.2g}, is predicted of "
+            "an error of {:.2g}; algorithm = \"direct\" does not suffer it",
+            measure.name, rung.rung.elements, floor, within, error);
     }
     return {};
 }

@@ -1,6 +1,6 @@
 #include "studies/scene/model_keys.hpp"
 
-#include "studies/scene/toml_reader.hpp"
+#include "mms/text/toml_reader.hpp"
 
 #include <string>
 

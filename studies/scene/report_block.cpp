@@ -1,7 +1,9 @@
 #include "studies/scene/report_block.hpp"
 
 #include "mms/text/nearest_name.hpp"
-#include "studies/scene/toml_reader.hpp"
+#include "mms/text/toml_reader.hpp"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 
@@ -24,13 +26,11 @@ ReportBlock read_report(TableReader table, const std::vector<std::string>& known
     if (const auto wanted = table.texts("files")) {
         for (std::size_t i = 0; i < wanted->size(); ++i) {
             const std::string& name = (*wanted)[i];
-            std::string list;
-            for (const auto& one : known)
-                list += (list.empty() ? "'" : ", '") + one + "'";
             if (!known.empty() && !contains(known, name))
-                throw table.error(
-                    "files", " names '" + name + "'; known are " + list + did_you_mean(name, known),
-                    i);
+                throw table.error("files",
+                                  fmt::format(" names '{}'; known are '{}'{}", name,
+                                              fmt::join(known, "', '"), did_you_mean(name, known)),
+                                  i);
             if (contains(report.files, name))
                 throw table.error("files", " names '" + name + "' twice; remove one", i);
             report.files.push_back(name);

@@ -2,12 +2,12 @@
 
 #include "core/norms/error_norms.hpp"
 #include "mms/manufactured_problem.hpp"
+#include "mms/text/toml_reader.hpp"
 #include "studies/runs/beam_runs.hpp"
 #include "studies/scene/model_keys.hpp"
 #include "studies/scene/scheme_keys.hpp"
 #include "studies/scene/shipped.hpp"
 #include "studies/scene/study_keys.hpp"
-#include "studies/scene/toml_reader.hpp"
 
 #include <algorithm>
 #include <cmath>

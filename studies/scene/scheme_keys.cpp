@@ -1,7 +1,7 @@
 #include "studies/scene/scheme_keys.hpp"
 
+#include "mms/text/toml_reader.hpp"
 #include "studies/runs/beam_runs.hpp"
-#include "studies/scene/toml_reader.hpp"
 
 namespace tvbeam {
 

@@ -1,8 +1,8 @@
 #include "studies/scene/solution_setting.hpp"
 
+#include "mms/text/toml_reader.hpp"
 #include "studies/scene/scene.hpp"
 #include "studies/scene/shipped.hpp"
-#include "studies/scene/toml_reader.hpp"
 
 #include <algorithm>
 #include <filesystem>

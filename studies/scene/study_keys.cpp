@@ -2,7 +2,7 @@
 
 #include "mms/expression/number_expression.hpp"
 #include "mms/text/nearest_name.hpp"
-#include "studies/scene/toml_reader.hpp"
+#include "mms/text/toml_reader.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -23,10 +23,10 @@ std::vector<double> read_dt(TableReader& table, const std::vector<std::int64_t>&
             throw table.error(
                 "dt", " has " + std::to_string(list->size()) + " values, " +
                           table.full("elements") + " has " + std::to_string(elements.size()) +
-                          "; give one dt a rung, or one expression in s, e.g. \"0.01/s\"");
+                          "; give one dt a level, or one expression in s, e.g. \"0.01/s\"");
         dt = *list;
     } else {
-        throw table.error("dt", " is missing; give one dt a rung, or one "
+        throw table.error("dt", " is missing; give one dt a level, or one "
                                 "expression in s, e.g. \"0.01/s\"");
     }
     return dt;
@@ -102,7 +102,7 @@ std::vector<Rung> read_rungs(TableReader& table, double final_time) {
         if (elements[i] < elements[i - 1] || dt[i] > dt[i - 1])
             throw InputError(
                 table.place(elements[i] < elements[i - 1] ? "elements" : "dt", i),
-                "rung " + std::to_string(i + 1) + " of " + table.full("elements") +
+                "level " + std::to_string(i + 1) + " of " + table.full("elements") +
                     " is coarser than the one before it; a ladder goes from coarse to fine");
     std::vector<Rung> rungs;
     for (std::size_t i = 0; i < elements.size(); ++i)

@@ -1,8 +1,8 @@
 #include "studies/stress/stress_block.hpp"
 
 #include "core/gsl_errors.hpp"
+#include "mms/text/toml_reader.hpp"
 #include "studies/scene/study_keys.hpp"
-#include "studies/scene/toml_reader.hpp"
 
 #include <gsl/gsl_qrng.h>
 

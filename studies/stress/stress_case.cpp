@@ -6,6 +6,7 @@
 #include "core/round_off.hpp"
 #include "core/run.hpp"
 #include "core/time/time_levels.hpp"
+#include "mms/text/number_text.hpp"
 #include "studies/stress/mode_solution.hpp"
 #include "studies/stress/stress_problem.hpp"
 
@@ -17,7 +18,6 @@
 #include <memory>
 #include <new>
 #include <numbers>
-#include <sstream>
 #include <stdexcept>
 
 namespace tvbeam {
@@ -30,10 +30,7 @@ constexpr double epsilon = std::numeric_limits<double>::epsilon();
 constexpr double largest_floor = 1e-3;
 
 std::string text_of(double value) {
-    std::ostringstream text;
-    text.precision(3);
-    text << value;
-    return text.str();
+    return number_text(value, 3);
 }
 
 /// A power of two near the size of the data, which everything linear in them is measured in.

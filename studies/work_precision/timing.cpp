@@ -79,7 +79,7 @@ Comparison compare(const Timing& first, const Timing& second) {
     result.ratio = slow.median / fast.median;
     result.lowest = slow.q1 / fast.q3;
     result.highest = slow.q3 / fast.q1;
-    result.told_apart = result.ratio > least_ratio && result.lowest > 1.0;
+    result.distinguishable = result.ratio > least_ratio && result.lowest > 1.0;
     return result;
 }
 

@@ -47,7 +47,7 @@ struct Comparison {
     double highest = 1.0;         ///< upper quartile of the slower / lower quartile of the faster
     bool first_is_faster = false; ///< by the medians
     /// The ratio is above 1.2 and the quartiles are disjoint.
-    bool told_apart = false;
+    bool distinguishable = false;
 };
 
 Comparison compare(const Timing& first, const Timing& second);

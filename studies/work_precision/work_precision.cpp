@@ -1,11 +1,12 @@
 #include "studies/work_precision/work_precision.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <ctime>
 #include <limits>
-#include <sstream>
 
 namespace tvbeam {
 
@@ -156,9 +157,7 @@ void compare_all(ReachedError& reached) {
 }
 
 std::string text_of(const Rung& rung) {
-    std::ostringstream text;
-    text << "s = " << rung.elements << ", dt = " << rung.dt;
-    return text.str();
+    return fmt::format("s = {}, dt = {:g}", rung.elements, rung.dt);
 }
 
 /// A sentence for every row whose error is larger than that of the row before it.
@@ -196,8 +195,10 @@ std::string busy_remark(double processor_seconds, double wall_clock_seconds) {
 }
 
 std::uint64_t node_steps(const Rung& rung) {
-    static_assert(static_cast<double>(most_elements) * most_steps < 1.8e19);
-    return static_cast<std::uint64_t>(rung.elements) * static_cast<std::uint64_t>(rung.steps);
+    std::uint64_t product = 0;
+    return __builtin_mul_overflow(rung.elements, rung.steps, &product)
+               ? std::numeric_limits<std::uint64_t>::max()
+               : product;
 }
 
 WorkPrecisionResult run_work_precision(const WorkPrecisionBlock& block, const RunCall& run,

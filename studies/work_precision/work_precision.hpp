@@ -57,7 +57,8 @@ std::vector<Series> series_of(const WorkPrecisionBlock& block);
 /// which no quartile shows. Empty otherwise.
 std::string busy_remark(double processor_seconds, double wall_clock_seconds);
 
-/// Elements times steps: the size of a run, whatever the algorithm makes of it. At most 1e19.
+/// Elements times steps: the size of a run, whatever the algorithm makes of it; of one beyond the
+/// range, which no scene has but a program may, the greatest.
 std::uint64_t node_steps(const Rung& rung);
 
 /// Runs every rung of every scheme once for its errors, and then for its time: an untimed run, and

@@ -1,6 +1,6 @@
 #include "studies/work_precision/work_precision_block.hpp"
 
-#include "studies/scene/toml_reader.hpp"
+#include "mms/text/toml_reader.hpp"
 
 #include <algorithm>
 

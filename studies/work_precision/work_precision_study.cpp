@@ -1,4 +1,4 @@
-#include "studies/scene/toml_reader.hpp"
+#include "mms/text/toml_reader.hpp"
 #include "studies/study_kind.hpp"
 #include "studies/table_row.hpp"
 #include "studies/work_precision/work_precision.hpp"

@@ -84,7 +84,7 @@ BOOST_AUTO_TEST_CASE(sizes_of_terms_are_those_of_their_formulas) {
     check_unused(terms, "t = 0", "an initial temperature", "theta0 is zero");
 }
 
-BOOST_AUTO_TEST_CASE(cases_of_contact_are_told_apart) {
+BOOST_AUTO_TEST_CASE(cases_of_contact_are_distinguishable) {
     const auto on = [&](const std::string& name, const Beam& beam) {
         const Solution solution = shipped_solution(name);
         return coverage(solution, suited(beam, solution), 2.0);

@@ -34,19 +34,19 @@ const std::string good = "theta = \"sin(pi*x)\"\nu = \"x^2\"\n";
 const std::vector<Refused> refused = {
     {"", "", "theta is missing"},
     {"theta = \"x\"\n", "", "u is missing"},
-    {"theta = x\n", ":1:9", "not a TOML document"},
-    {"theta = \"x\"\ntheta = \"t\"\nu = \"x\"\n", ":2:9", "not a TOML document"},
+    {"theta = x\n", ":1:9", "not TOML"},
+    {"theta = \"x\"\ntheta = \"t\"\nu = \"x\"\n", ":2:9", "not TOML"},
     {"tehta = \"x\"\nu = \"x\"\n", ":1:1", "unknown key 'tehta'; did you mean 'theta'?"},
-    {good + "colour = 3\n", ":3:1", "unknown key 'colour'; known are name"},
+    {good + "colour = 3\n", ":3:1", "unknown key 'colour'; known here: name"},
     {good + "until = \"1\"\n", ":3:1", "unknown key 'until'"},
-    {good + "name = 3\n", ":3:8", "name is a number; it must be a string"},
+    {good + "name = 3\n", ":3:8", "name is an integer; it must be a string"},
     {good + "name = \"\"\n", ":3:8", "name is empty"},
     {good + "source = [\"x\"]\n", ":3:10", "source is an array"},
     {good + "purpose = true\n", ":3:11", "purpose is a boolean"},
     {"theta = true\nu = \"x\"\n", ":1:9", "theta is a boolean; it must be an expression"},
     {"theta = [1]\nu = \"x\"\n", ":1:9", "theta is an array"},
     {"theta = 1979-05-27\nu = \"x\"\n", ":1:9", "theta is a date or time"},
-    {"theta = inf\nu = \"x\"\n", ":1:9", "theta must be finite"},
+    {"theta = inf\nu = \"x\"\n", ":1:9", "theta is inf; it must be a finite number"},
     // Places within strings: basic, literal, with escapes, of several lines.
     {"theta = \"\"\nu = \"x\"\n", ":1:10", "the expression is empty"},
     {"theta = \"sin(pi*y)\"\nu = \"x\"\n", ":1:17", "unknown symbol 'y'"},
@@ -62,9 +62,9 @@ const std::vector<Refused> refused = {
     {"# \xC3\xA4\xC3\xB6\xC3\xBC\nname = \"\xC3\xA4\"\ntheta = \"x + y\"\nu = \"x\"\n", ":3:14",
      "'y'"},
     // Phases.
-    {good + "phase = 3\n", ":3:1", "write [[phase]]"},
-    {good + "phase = []\n", ":3:1", "write [[phase]]"},
-    {good + "[phase]\nuntil = 1\n", ":3:2", "write [[phase]]"},
+    {good + "phase = 3\n", ":3:9", "each headed [[phase]]"},
+    {good + "phase = []\n", ":3:9", "each headed [[phase]]"},
+    {good + "[phase]\nuntil = 1\n", ":3:1", "each headed [[phase]]"},
     {"u = \"x\"\n[[phase]]\nuntil = 1\n[[phase]]\ntheta = \"x\"\n", ":2:1", "theta is missing"},
     {good + "[[phase]]\ntheta = \"x\"\n", ":4:1", "theta is given here and at line 1"},
     {good + "[[phase]]\nutnil = 1\n", ":4:1", "did you mean 'until'?"},
@@ -76,16 +76,16 @@ const std::vector<Refused> refused = {
      "greater than the end of the phase before, 1"},
     {good + "[[phase]]\nuntil = \"1 + t\"\n[[phase]]\n", ":4:14", "unknown symbol 't'"},
     {good + "[[phase]]\nuntil = \"exp(1000)\"\n[[phase]]\n", ":4:10", "not a finite number"},
-    {good + "[[phase]]\nuntil = true\n[[phase]]\n", ":4:9", "until is a boolean"},
+    {good + "[[phase]]\nuntil = true\n[[phase]]\n", ":4:9", "phase.0.until is a boolean"},
     // Parameters.
-    {good + "parameters = 3\n", ":3:14", "parameters is a number"},
+    {good + "parameters = 3\n", ":3:14", "parameters is an integer"},
     {good + "[parameters]\nalpha = 1\n", ":4:1", "hides a known name"},
     {good + "[parameters]\npi = 1\n", ":4:1", "hides a known name"},
     {good + "[parameters]\nsin = 1\n", ":4:1", "hides a known name"},
     {good + "[parameters]\na-b = 1\n", ":4:1", "is not a name"},
     {good + "[parameters]\n2k = 1\n", ":4:1", "is not a name"},
-    {good + "[parameters]\nk = false\n", ":4:5", "parameter k is a boolean"},
-    {good + "[parameters]\nk = nan\n", ":4:5", "parameter k must be finite"},
+    {good + "[parameters]\nk = false\n", ":4:5", "parameters.k is a boolean"},
+    {good + "[parameters]\nk = nan\n", ":4:5", "parameters.k is nan; it must be a finite number"},
     {good + "[parameters]\nk = \"1 + m\"\n", ":4:10", "unknown symbol 'm'"},
     {good + "[parameters]\nk = \"exp(1000)\"\n", ":4:6", "parameter k"},
     {good + "[parameters]\nk = \"log(0)\"\n", ":4:6", "log"},
@@ -164,7 +164,7 @@ BOOST_AUTO_TEST_CASE(files_that_cannot_be_read_are_named) {
         };
     };
     BOOST_CHECK_EXCEPTION(read_solution("no/such.toml"), InputError,
-                          names("no/such.toml: cannot be opened"));
+                          names("no/such.toml: cannot be read"));
     BOOST_CHECK_EXCEPTION(read_solution(TVBEAM_SOLUTIONS_DIR), InputError, names("is a directory"));
 }
 

@@ -101,7 +101,7 @@ BOOST_AUTO_TEST_CASE(the_points_of_a_convergence_figure_are_the_errors_and_the_p
                    paper().scene.get<LadderBlock>()->printed->figures.at("theta_L2L2_sq").at(i));
     }
     BOOST_TEST(has(plots[0].script, "(and Δt = 0.01 h with it)"), plots[0].script);
-    BOOST_TEST(has(plots[0].script, "printed in Table 1"));
+    BOOST_TEST(has(plots[0].script, "published in Table 1"));
 }
 
 BOOST_AUTO_TEST_CASE(a_fitted_line_and_its_triangle_have_the_slope_of_the_errors) {

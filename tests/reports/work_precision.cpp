@@ -109,12 +109,13 @@ BOOST_AUTO_TEST_CASE(without_targets_the_smallest_power_of_ten_that_two_reach_is
     BOOST_TEST(has(two.text(), "theta_L2L2 = 1e-4 is reached\nby BDF2 "), two.text());
 }
 
-BOOST_AUTO_TEST_CASE(times_too_near_each_other_are_not_told_apart) {
+BOOST_AUTO_TEST_CASE(times_too_near_each_other_are_not_distinguishable) {
     Study two = study({"theta_L2L2"});
     two.add("one", {{1e-2, 1.0}, {1e-4, 2.0}});
     two.add("other", {{1e-2, 1.1}, {1e-4, 2.2}});
-    BOOST_TEST(has(two.text(), "by one and by other in times not told apart: ratio 1.1 "),
-               two.text());
+    BOOST_TEST(
+        has(two.text(), "by one and by other in times that are not distinguishable: ratio 1.1 "),
+        two.text());
     BOOST_TEST(!has(two.text(), "sooner"));
 }
 

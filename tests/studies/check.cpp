@@ -159,7 +159,7 @@ BOOST_AUTO_TEST_CASE(wrong_expectations_are_told) {
     says("[expect.ladder.u_LinfH2]\norders = [3.9, 4.1]\n", "unknown key 'expect.ladder.u_LinfH2'");
     says("[expect.orders.theta_L2L2]\np = [1, 2]\n", "it has no block [orders] with norms");
     says("[expect.ladder.theta_L2L2_sq]\nratios = [[0.9, 1.1], [0.9, 1.1], [0.9, 1.1]]\n",
-         "has 3 bands for 2 rungs");
+         "has 3 bands for 2 levels");
     says("[expect.ladder.theta_L2L2_sq]\nerrors = [1, 2]\nwithin = 2\n", "between 0 and 1");
 }
 

@@ -6,11 +6,11 @@
 // small beside 1/3, and in what comes and goes within a step, where it is small beside the
 // compliance of a step, Δt/(3 (Δt + ζ)) = 0.03.
 
+#include "mms/text/toml_reader.hpp"
 #include "studies/evolution/evolution.hpp"
 #include "studies/grid/grid.hpp"
 #include "studies/ladder/ladder.hpp"
 #include "studies/orders/convergence_fit.hpp"
-#include "studies/scene/toml_reader.hpp"
 #include "studies/study.hpp"
 
 #include <boost/test/data/monomorphic.hpp>

@@ -204,7 +204,7 @@ BOOST_AUTO_TEST_CASE(a_norm_integrates_the_kinks_of_the_reference_exactly) {
 BOOST_AUTO_TEST_CASE(a_rung_close_to_the_reference_in_dt_alone_is_remarked) {
     const std::string remark =
         ladder_of(free_beam + steps + reference(96, "2.5e-3")).reference_remark;
-    BOOST_TEST(remark.starts_with("The rung s = 32 (dt = 0.005) has"), remark);
+    BOOST_TEST(remark.starts_with("The level s = 32 (dt = 0.005) has"), remark);
 }
 
 BOOST_AUTO_TEST_CASE(rungs_far_from_the_reference_or_one_extrapolated_are_not_remarked) {

@@ -126,9 +126,9 @@ const std::vector<Wrong> wrong_scenes{
     {"\"u_LinfH2semi\"", "\"u_LinfH2sem\"", "17:32",
      "unknown norm 'u_LinfH2sem'; did you mean 'u_LinfH2semi'?"},
     {"\"u_LinfH2semi\"", "\"theta_L2L2_sq\"", "17:32", "names 'theta_L2L2_sq' twice"},
-    {"[1.0, 2.0]", "[1.0]", "21:17", "ladder.printed.theta_L2L2_sq has 1 figures for 2 rungs"},
+    {"[1.0, 2.0]", "[1.0]", "21:17", "ladder.printed.theta_L2L2_sq has 1 values for 2 levels"},
     {"elements   = [10, 20]", "elements   = [20, 10]", "15:19",
-     "rung 2 of ladder.elements is coarser"},
+     "level 2 of ladder.elements is coarser"},
     {"dt         = [1e-3, 5e-4]", "dt         = [5e-4, 1e-3]", "16:21",
      "is coarser than the one before it"},
     // The problem

@@ -1,4 +1,4 @@
-// Quartiles, the time to reach an error, and when two times are told apart, on made-up rows.
+// Quartiles, the time to reach an error, and when two times are distinguishable, on made-up rows.
 
 #include "studies/work_precision/timing.hpp"
 
@@ -158,21 +158,21 @@ BOOST_AUTO_TEST_CASE(the_fewer_runs_of_two_rows_count) {
     BOOST_TEST(time_to_reach(rows, 5e-2)->runs == 1);
 }
 
-BOOST_AUTO_TEST_CASE(a_ratio_above_1_2_with_disjoint_quartiles_is_told_apart) {
+BOOST_AUTO_TEST_CASE(a_ratio_above_1_2_with_disjoint_quartiles_is_distinguishable) {
     const Comparison apart = compare(timing(0.9, 1.0, 1.1), timing(1.2, 1.3, 1.4));
     BOOST_TEST(apart.first_is_faster);
-    BOOST_TEST(apart.told_apart);
+    BOOST_TEST(apart.distinguishable);
     BOOST_TEST(apart.ratio == 1.3, tight);
     BOOST_TEST(apart.lowest == 1.2 / 1.1, tight);
     BOOST_TEST(apart.highest == 1.4 / 0.9, tight);
     // Below 1.2, however small the spread.
-    BOOST_TEST(!compare(timing(1.0, 1.0, 1.0), timing(1.19, 1.19, 1.19)).told_apart);
-    BOOST_TEST(!compare(timing(1.0, 1.0, 1.0), timing(1.2, 1.2, 1.2)).told_apart);
+    BOOST_TEST(!compare(timing(1.0, 1.0, 1.0), timing(1.19, 1.19, 1.19)).distinguishable);
+    BOOST_TEST(!compare(timing(1.0, 1.0, 1.0), timing(1.2, 1.2, 1.2)).distinguishable);
     // With quartiles that meet, however large the ratio.
-    BOOST_TEST(!compare(timing(0.5, 1.0, 2.0), timing(2.0, 3.0, 4.0)).told_apart);
+    BOOST_TEST(!compare(timing(0.5, 1.0, 2.0), timing(2.0, 3.0, 4.0)).distinguishable);
     // Of equal times.
     const Comparison same = compare(timing(1.0, 1.0, 1.0), timing(1.0, 1.0, 1.0));
-    BOOST_TEST(!same.told_apart);
+    BOOST_TEST(!same.distinguishable);
     BOOST_TEST(same.ratio == 1.0);
 }
 
@@ -185,7 +185,7 @@ BOOST_AUTO_TEST_CASE(the_order_of_two_schemes_changes_only_which_is_called_faste
     BOOST_TEST(forth.ratio == back.ratio);
     BOOST_TEST(forth.lowest == back.lowest);
     BOOST_TEST(forth.highest == back.highest);
-    BOOST_TEST(forth.told_apart == back.told_apart);
+    BOOST_TEST(forth.distinguishable == back.distinguishable);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -317,9 +317,9 @@ BOOST_AUTO_TEST_CASE(every_two_schemes_that_reach_an_error_are_compared_there) {
     BOOST_TEST(all.comparisons[0].faster == 1u);
     BOOST_TEST(all.comparisons[0].slower == 0u);
     BOOST_TEST(all.comparisons[0].times.ratio == 4.0, boost::test_tools::tolerance(1e-12));
-    BOOST_TEST(all.comparisons[0].times.told_apart);
+    BOOST_TEST(all.comparisons[0].times.distinguishable);
     // The third takes 8 s to 1e-3, as the first does.
-    BOOST_TEST(!all.comparisons[1].times.told_apart);
+    BOOST_TEST(!all.comparisons[1].times.distinguishable);
     // Across the failed row it reaches nothing.
     BOOST_TEST(at(norms[0], 1e-2).comparisons.size() == 1u);
     BOOST_TEST(at(norms[0], 1e-6).comparisons.empty());
@@ -375,6 +375,15 @@ BOOST_AUTO_TEST_CASE(errors_and_orders_of_a_scheme_are_expected_by_its_name) {
          "has 3 values for 2 rungs");
     says("[expect.work_precision.BDF2.theta_L2L2_sq]\nseconds = [1, 2]\n", "unknown key");
     says("[expect.ladder.theta_L2L2_sq]\norders = [1, 2]\n", "it has no block [ladder] with norms");
+}
+
+// A scene has at most 1e7 elements and 1e12 steps, 1e19 < 2^64 = 1.8e19; a program's runs may be
+// more.
+BOOST_AUTO_TEST_CASE(the_size_of_a_run_does_not_wrap_around) {
+    BOOST_TEST(node_steps({10, 2000, 1e-3}) == 20000u);
+    BOOST_TEST(node_steps({10'000'000, 1'000'000'000'000, 1e-12}) == 10'000'000'000'000'000'000u);
+    BOOST_TEST(node_steps({10'000'000, 4'000'000'000'000, 1e-12}) ==
+               std::numeric_limits<std::uint64_t>::max());
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -1,13 +1,16 @@
-#include "studies/scene/toml_reader.hpp"
+#include "mms/text/toml_reader.hpp"
 
 #include "mms/text/nearest_name.hpp"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <sstream>
+#include <iterator>
+#include <utility>
 
 namespace tvbeam {
 
@@ -67,13 +70,14 @@ TomlDocument read_toml(const std::string& file) {
     if (!stream)
         throw InputError({file}, "cannot be read; check the path and its permissions");
     if (const auto size = std::filesystem::file_size(file, error); !error && size > largest_file)
-        throw InputError({file}, "has " + std::to_string(size) + " bytes; a scene has at most " +
+        throw InputError({file}, "has " + std::to_string(size) + " bytes; at most are read " +
                                      std::to_string(largest_file));
-    std::ostringstream text;
-    text << stream.rdbuf();
-    TomlDocument document{file, text.str(), {}};
-    document.table = parse(document.text, file);
-    return document;
+    return parse_toml({std::istreambuf_iterator<char>(stream), {}}, file);
+}
+
+TomlDocument parse_toml(std::string text, const std::string& file) {
+    toml::table table = parse(text, file);
+    return {file, std::move(text), std::move(table)};
 }
 
 namespace {
@@ -156,13 +160,6 @@ void merge_block(TomlDocument& document, std::string_view key) {
     merge(document.table, block);
 }
 
-std::string message_text(double value) {
-    std::ostringstream text;
-    text.precision(12);
-    text << value;
-    return text.str();
-}
-
 TableReader::TableReader(const TomlDocument& document, const toml::table& table, std::string path)
     : document_(&document), table_(&table), path_(std::move(path)) {}
 
@@ -181,6 +178,20 @@ Place TableReader::place(std::string_view key) const {
     if (place.file
             .empty()) // values and tables that came from an override carry no region of a file
         place.file = document_->file;
+    return place;
+}
+
+Place TableReader::place() const {
+    return place("");
+}
+
+Place TableReader::place_of_key(std::string_view key) const {
+    const auto entry = table_->find(key);
+    Place place = place_of(entry->second);
+    if (const auto& region = entry->first.source(); region.begin.line > 0 && place.line > 0) {
+        place.line = static_cast<int>(region.begin.line);
+        place.column = static_cast<int>(region.begin.column);
+    }
     return place;
 }
 
@@ -212,9 +223,58 @@ double TableReader::checked_number(std::string_view key, const toml::node& node,
     if (!value || !(node.is_floating_point() || node.is_integer()))
         throw wrong_type(key, node, "a number");
     if (std::isnan(*value) || (std::isinf(*value) && infinity == Infinity::refused))
-        throw InputError(place_of(node), full(key) + " is " + std::to_string(*value) +
-                                             "; it must be a finite number");
+        throw InputError(place_of(node),
+                         full(key) + " is " + number_text(*value) + "; it must be a finite number");
     return *value;
+}
+
+template <typename Value>
+std::optional<Value> TableReader::value(std::string_view key, const std::string& wanted) {
+    const toml::node* node = find(key);
+    if (node == nullptr)
+        return std::nullopt;
+    if (!node->is<Value>())
+        throw wrong_type(key, *node, wanted);
+    return node->value<Value>();
+}
+
+template <typename Value>
+std::optional<std::vector<Value>> TableReader::values(std::string_view key,
+                                                      const std::string& wanted) {
+    const toml::node* node = find(key);
+    if (node == nullptr)
+        return std::nullopt;
+    const toml::array* array = node->as_array();
+    if (array == nullptr)
+        throw wrong_type(key, *node, "an array of " + wanted);
+    std::vector<Value> values;
+    for (const auto& element : *array) {
+        if (!element.is<Value>())
+            throw InputError(place_of(element), full(key) + " holds " + type_name(element) +
+                                                    "; it must hold " + wanted);
+        values.push_back(*element.value<Value>());
+    }
+    return values;
+}
+
+std::optional<std::int64_t> TableReader::integer(std::string_view key) {
+    return value<std::int64_t>(key, "an integer");
+}
+
+std::optional<bool> TableReader::flag(std::string_view key) {
+    return value<bool>(key, "true or false");
+}
+
+std::optional<std::string> TableReader::text(std::string_view key) {
+    return value<std::string>(key, "a string");
+}
+
+std::optional<std::vector<std::int64_t>> TableReader::integers(std::string_view key) {
+    return values<std::int64_t>(key, "integers");
+}
+
+std::optional<std::vector<std::string>> TableReader::texts(std::string_view key) {
+    return values<std::string>(key, "strings");
 }
 
 std::optional<double> TableReader::number(std::string_view key, Infinity infinity) {
@@ -222,46 +282,27 @@ std::optional<double> TableReader::number(std::string_view key, Infinity infinit
     return node == nullptr ? std::nullopt : std::optional(checked_number(key, *node, infinity));
 }
 
-std::optional<std::int64_t> TableReader::integer(std::string_view key) {
-    const toml::node* node = find(key);
-    if (node == nullptr)
-        return std::nullopt;
-    if (!node->is_integer())
-        throw wrong_type(key, *node, "an integer");
-    return node->value<std::int64_t>();
-}
-
-std::optional<bool> TableReader::flag(std::string_view key) {
-    const toml::node* node = find(key);
-    if (node == nullptr)
-        return std::nullopt;
-    if (!node->is_boolean())
-        throw wrong_type(key, *node, "true or false");
-    return node->value<bool>();
-}
-
 bool TableReader::is_string(std::string_view key) const {
     const toml::node* node = table_->get(key);
     return node != nullptr && node->is_string();
 }
 
-std::optional<std::string> TableReader::text(std::string_view key) {
+std::optional<SourceText> TableReader::expression(std::string_view key) {
     const toml::node* node = find(key);
     if (node == nullptr)
         return std::nullopt;
-    if (!node->is_string())
-        throw wrong_type(key, *node, "a string");
-    return node->value<std::string>();
-}
-
-std::optional<SourceText> TableReader::expression(std::string_view key) {
-    const auto value = text(key);
-    if (!value)
-        return std::nullopt;
     const Place opening = place(key);
+    if (node->is_integer())
+        return SourceText(fmt::format("{}", node->as_integer()->get()), opening);
+    if (node->is_floating_point())
+        return SourceText(fmt::format("{}", checked_number(key, *node, Infinity::refused)),
+                          opening);
+    if (!node->is_string())
+        throw wrong_type(key, *node, "an expression in quotes, or a number");
+    const std::string& value = node->as_string()->get();
     if (opening.line == 0) // an override
-        return SourceText(*value, opening);
-    return SourceText::of_toml_string(*value, document_->text, opening);
+        return SourceText(value, opening);
+    return SourceText::of_toml_string(value, document_->text, opening);
 }
 
 std::optional<std::vector<double>> TableReader::numbers(std::string_view key, Infinity infinity) {
@@ -308,40 +349,6 @@ std::optional<std::vector<TableReader::Band>> TableReader::bands(std::string_vie
     return bands;
 }
 
-std::optional<std::vector<std::int64_t>> TableReader::integers(std::string_view key) {
-    const toml::node* node = find(key);
-    if (node == nullptr)
-        return std::nullopt;
-    const toml::array* array = node->as_array();
-    if (array == nullptr)
-        throw wrong_type(key, *node, "an array of integers");
-    std::vector<std::int64_t> values;
-    for (const auto& element : *array) {
-        if (!element.is_integer())
-            throw InputError(place_of(element), full(key) + " holds " + type_name(element) +
-                                                    "; it must hold integers");
-        values.push_back(*element.value<std::int64_t>());
-    }
-    return values;
-}
-
-std::optional<std::vector<std::string>> TableReader::texts(std::string_view key) {
-    const toml::node* node = find(key);
-    if (node == nullptr)
-        return std::nullopt;
-    const toml::array* array = node->as_array();
-    if (array == nullptr)
-        throw wrong_type(key, *node, "an array of strings");
-    std::vector<std::string> values;
-    for (const auto& element : *array) {
-        if (!element.is_string())
-            throw InputError(place_of(element),
-                             full(key) + " holds " + type_name(element) + "; it must hold strings");
-        values.push_back(*element.value<std::string>());
-    }
-    return values;
-}
-
 std::optional<std::size_t> TableReader::choice(std::string_view key,
                                                const std::vector<std::string>& choices) {
     const auto value = text(key);
@@ -350,11 +357,9 @@ std::optional<std::size_t> TableReader::choice(std::string_view key,
     const auto found = std::find(choices.begin(), choices.end(), *value);
     if (found != choices.end())
         return static_cast<std::size_t>(found - choices.begin());
-    std::string list;
-    for (const auto& choice : choices)
-        list += (list.empty() ? "'" : ", '") + choice + "'";
-    throw InputError(place(key), full(key) + " is '" + *value + "'; it must be one of " + list +
-                                     did_you_mean(*value, choices));
+    throw InputError(place(key),
+                     fmt::format("{} is '{}'; it must be one of '{}'{}", full(key), *value,
+                                 fmt::join(choices, "', '"), did_you_mean(*value, choices)));
 }
 
 std::optional<TableReader> TableReader::table(std::string_view key) {
@@ -392,17 +397,11 @@ void TableReader::finish() const {
     for (const auto& [key, node] : *table_) {
         if (std::find(known_.begin(), known_.end(), key.str()) != known_.end())
             continue;
-        Place place = place_of(node);
-        if (const auto& region = key.source(); region.begin.line > 0 && place.line > 0) {
-            place.line = static_cast<int>(region.begin.line);
-            place.column = static_cast<int>(region.begin.column);
-        }
-        std::string names;
-        for (const auto& name : known_)
-            names += (names.empty() ? "" : ", ") + name;
         const std::string hint = did_you_mean(key.str(), known_);
-        throw InputError(place, "unknown key '" + full(key.str()) + "'" +
-                                    (hint.empty() ? "; known here: " + names : hint));
+        throw InputError(
+            place_of_key(key.str()),
+            "unknown key '" + full(key.str()) + "'" +
+                (hint.empty() ? fmt::format("; known here: {}", fmt::join(known_, ", ")) : hint));
     }
 }
 

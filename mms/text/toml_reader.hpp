@@ -1,6 +1,7 @@
 #pragma once
 
 #include "mms/text/input_error.hpp"
+#include "mms/text/number_text.hpp"
 #include "mms/text/source_text.hpp"
 
 #include <toml++/toml.h>
@@ -20,8 +21,10 @@ struct TomlDocument {
     toml::table table;
 };
 
-/// Reads a file. Throws InputError when it is missing, too large or not TOML.
+/// Reads a file, or a text that is said to be one. Throws InputError when it is missing, too large
+/// or not TOML.
 TomlDocument read_toml(const std::string& file);
+TomlDocument parse_toml(std::string text, const std::string& file);
 
 /// Replaces or adds the key `a.b.c` of the document; `assignment` is "a.b.c=value" with a TOML
 /// value, or a text that is taken as a string when it is not one. Where a.b is an array of tables,
@@ -32,8 +35,10 @@ void override_key(TomlDocument& document, const std::string& assignment);
 /// Takes the table at `key` away and puts its values in place of those of the same path.
 void merge_block(TomlDocument& document, std::string_view key);
 
-/// A number as messages print it: 12 significant digits.
-std::string message_text(double value);
+/// A number that was given, as messages print it: 12 significant digits.
+inline std::string message_text(double value) {
+    return number_text(value, 12);
+}
 
 /// One table of a document, read key by key: every reader notes the key as known, and finish()
 /// refuses the others. All readers throw InputError at the value when it has the wrong type or
@@ -49,6 +54,7 @@ public:
     std::optional<std::int64_t> integer(std::string_view key);
     std::optional<bool> flag(std::string_view key);
     std::optional<std::string> text(std::string_view key);
+    /// An expression: a string, or a number as it is.
     std::optional<SourceText> expression(std::string_view key);
     std::optional<std::vector<double>> numbers(std::string_view key,
                                                Infinity infinity = Infinity::refused);
@@ -80,6 +86,9 @@ public:
     /// Where a key's value stands, or its element; the table itself when the key is missing.
     [[nodiscard]] Place place(std::string_view key) const;
     [[nodiscard]] Place place(std::string_view key, std::size_t element) const;
+    [[nodiscard]] Place place() const; ///< of the table
+    /// Where a key that is there stands itself.
+    [[nodiscard]] Place place_of_key(std::string_view key) const;
 
     /// The key with the path of its table: beam.zeta.
     [[nodiscard]] std::string full(std::string_view key) const;
@@ -94,6 +103,10 @@ public:
 
 private:
     const toml::node* find(std::string_view key);
+    template <typename Value>
+    std::optional<Value> value(std::string_view key, const std::string& wanted);
+    template <typename Value>
+    std::optional<std::vector<Value>> values(std::string_view key, const std::string& wanted);
     [[nodiscard]] InputError wrong_type(std::string_view key, const toml::node& node,
                                         const std::string& wanted) const;
     Band checked_band(std::string_view key, const toml::node& node) const;
