@@ -21,13 +21,13 @@ std::vector<double> sorted(std::vector<double> values) {
 } // namespace
 
 SeriesStyle series_style(std::size_t series) {
-    static const std::array<SeriesStyle, 7> styles{{{"#0072B2", 7, 6, 1},
-                                                    {"#D55E00", 5, 4, 2},
-                                                    {"#009E73", 9, 8, 4},
-                                                    {"#CC79A7", 11, 10, 5},
-                                                    {"#E69F00", 13, 12, 3},
-                                                    {"#56B4E9", 15, 14, 1},
-                                                    {"#000000", 7, 6, 2}}};
+    static const std::array<SeriesStyle, 7> styles{{{"#0072B2", 7, 1},
+                                                    {"#D55E00", 5, 2},
+                                                    {"#009E73", 9, 4},
+                                                    {"#CC79A7", 11, 5},
+                                                    {"#E69F00", 13, 3},
+                                                    {"#56B4E9", 15, 1},
+                                                    {"#000000", 7, 2}}};
     return styles.at(series % styles.size());
 }
 

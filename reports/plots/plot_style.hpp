@@ -11,7 +11,6 @@ namespace tvbeam {
 struct SeriesStyle {
     std::string colour; ///< of the palette of Okabe and Ito (2008)
     int point = 0;      ///< gnuplot's number of a filled point
-    int open_point = 0; ///< the same, not filled
     int dash = 0;       ///< gnuplot's number of a dash pattern
 };
 

@@ -62,9 +62,4 @@ std::vector<Refinement> root_records_of(const std::vector<RungResult>& rungs, st
     return records;
 }
 
-bool any_failed(const std::vector<RungResult>& rungs) {
-    return std::any_of(rungs.begin(), rungs.end(),
-                       [](const RungResult& rung) { return rung.status != RungStatus::ok; });
-}
-
 } // namespace tvbeam

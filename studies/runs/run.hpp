@@ -103,7 +103,4 @@ std::vector<Refinement> records_of(const std::vector<RungResult>& rungs, std::si
 std::vector<Refinement> root_records_of(const std::vector<RungResult>& rungs, std::size_t k,
                                         const Measure& measure);
 
-/// Whether some run failed.
-bool any_failed(const std::vector<RungResult>& rungs);
-
 } // namespace tvbeam
