@@ -282,6 +282,11 @@ std::optional<double> TableReader::number(std::string_view key, Infinity infinit
     return node == nullptr ? std::nullopt : std::optional(checked_number(key, *node, infinity));
 }
 
+bool TableReader::is_table(std::string_view key) const {
+    const toml::node* node = table_->get(key);
+    return node != nullptr && node->is_table();
+}
+
 bool TableReader::is_string(std::string_view key) const {
     const toml::node* node = table_->get(key);
     return node != nullptr && node->is_string();

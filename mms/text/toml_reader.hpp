@@ -82,6 +82,7 @@ public:
 
     [[nodiscard]] bool has(std::string_view key) const { return table_->contains(key); }
     [[nodiscard]] bool is_string(std::string_view key) const;
+    [[nodiscard]] bool is_table(std::string_view key) const;
 
     /// Where a key's value stands, or its element; the table itself when the key is missing.
     [[nodiscard]] Place place(std::string_view key) const;

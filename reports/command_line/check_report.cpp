@@ -1,7 +1,14 @@
 #include "reports/command_line/check_report.hpp"
 
+#include "reports/files/output_file.hpp"
+#include "reports/formats/markdown_report.hpp"
+
 #include <fmt/color.h>
 #include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
 
 namespace tvbeam {
 
@@ -32,6 +39,35 @@ std::string check_report(const CheckedScene& scene, bool coloured) {
             text += fmt::format("      {}: {}: expected {}, found {}\n", place_text(checked.place),
                                 checked.what, checked.expected, checked.found);
     return text;
+}
+
+std::string check_markdown(const std::vector<CheckedScene>& scenes) {
+    std::string table = "| | scene | expectations | violations |\n| --- | :--- | ---: | ---: |\n";
+    std::string violations;
+    for (const auto& scene : scenes) {
+        const auto name = markdown_text(scene.name);
+        const auto broken = std::count_if(scene.expectations.begin(), scene.expectations.end(),
+                                          [](const auto& one) { return !one.holds; });
+        table += fmt::format("| {} | {} | {} | {} |\n", scene.passed() ? "ok" : "FAIL", name,
+                             scene.expectations.size(), broken);
+        if (!scene.error.empty())
+            violations += fmt::format("- {}: a run failed: {}\n", name, markdown_text(scene.error));
+        for (const auto& one : scene.expectations)
+            if (!one.holds)
+                violations += fmt::format(
+                    "- {}: {}: expected {}, found {}\n", markdown_text(place_text(one.place)),
+                    markdown_text(one.what), one.expected, markdown_text(one.found));
+    }
+    return table + "\n" + (violations.empty() ? "" : violations + "\n");
+}
+
+void add_to_step_summary(const std::string& markdown) {
+    const char* file = std::getenv("GITHUB_STEP_SUMMARY");
+    if (file == nullptr || *file == '\0')
+        return;
+    std::ofstream stream(file, std::ios::app);
+    if (!(stream << markdown << std::flush))
+        throw OutputError(std::string("cannot write to '") + file + "', $GITHUB_STEP_SUMMARY");
 }
 
 } // namespace tvbeam

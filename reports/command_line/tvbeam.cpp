@@ -4,7 +4,8 @@
 #include "mms/text/input_error.hpp"
 #include "mms/text/nearest_name.hpp"
 #include "mms/text/toml_reader.hpp"
-#include "reports/command_line/analysis_report.hpp"
+#include "reports/analysis/analysis_document.hpp"
+#include "reports/analysis/analysis_reports.hpp"
 #include "reports/command_line/check_report.hpp"
 #include "reports/command_line/completion.hpp"
 #include "reports/command_line/new_solution.hpp"
@@ -20,8 +21,11 @@
 #include "reports/formats/csv_report.hpp"
 #include "reports/formats/formula_report.hpp"
 #include "reports/formats/json_report.hpp"
+#include "reports/formats/markdown_report.hpp"
 #include "reports/formats/report_format.hpp"
-#include "studies/data/csv_records.hpp"
+#include "studies/data/data_analysis.hpp"
+#include "studies/data/data_check.hpp"
+#include "studies/data/data_file.hpp"
 #include "studies/scene/shipped.hpp"
 #include "studies/scene/solution_setting.hpp"
 #include "studies/study.hpp"
@@ -146,7 +150,7 @@ int run_command(const RunOptions& options) {
     // Files first: what standard output goes to may be gone.
     if (out) {
         kept->write();
-        if (const std::string left_out = out->write(result); !left_out.empty())
+        if (const std::string left_out = out->write(reported(result)); !left_out.empty())
             say(left_out);
         if (!result.interrupted())
             kept->remove();
@@ -187,6 +191,13 @@ bool coloured() {
     return isatty(STDOUT_FILENO) == 1 && (no_color == nullptr || *no_color == '\0');
 }
 
+std::vector<BaselineEntry> entries_of(const std::vector<StudyResult>& results) {
+    std::vector<BaselineEntry> entries;
+    for (const auto& result : results)
+        entries.push_back(baseline_entry(result));
+    return entries;
+}
+
 int check_command(const CheckOptions& options) {
     const EndRequests end_requests;
     // All scenes are read before any is run, so that a mistake in the last is not found after the
@@ -223,7 +234,7 @@ int check_command(const CheckOptions& options) {
         checked.push_back(
             {scene.name, elapsed.count(), results.back().ending().reason, check(results.back())});
         if (baseline) {
-            const auto more = baseline->check(results.back(), options.tolerance);
+            const auto more = baseline->check(baseline_entry(results.back()), options.tolerance);
             checked.back().expectations.insert(checked.back().expectations.end(), more.begin(),
                                                more.end());
         }
@@ -234,7 +245,8 @@ int check_command(const CheckOptions& options) {
     if (junit.wanted())
         junit.write(junit_report(checked));
     if (record.wanted() && !results.back().interrupted())
-        record.write(baseline_of(results));
+        record.write(baseline_of(entries_of(results)));
+    add_to_step_summary(check_markdown(checked));
     const bool failed = std::any_of(results.begin(), results.end(),
                                     [](const StudyResult& result) { return result.failed(); });
     const bool passed = std::all_of(checked.begin(), checked.end(),
@@ -242,10 +254,56 @@ int check_command(const CheckOptions& options) {
     return failed ? run_failed : passed ? done : violated;
 }
 
-int analyse_command(const std::string& file, const std::string& error_column) {
-    write_standard_output(analysis_report(analyse(
-        read_records(file, error_column.empty() ? std::nullopt : std::optional(error_column)))));
-    return done;
+struct AnalyseOptions {
+    std::string file;
+    DataChoice choice;
+    std::string json;
+    std::string csv;
+    std::string out;
+    std::string expect;
+    std::string junit;
+    std::string record;
+    std::string baseline;
+    double tolerance = 1e-6;
+};
+
+int analyse_command(const AnalyseOptions& options) {
+    const auto baseline =
+        options.baseline.empty() ? std::nullopt : std::optional<Baseline>(options.baseline);
+    const DataAnalysis analysis = analyse(read_data(options.file, options.choice));
+    CheckedScene checked{analysis.name, 0.0, {}, {}};
+    if (!options.expect.empty())
+        checked.expectations = check(analysis, options.expect);
+    if (baseline) {
+        const auto more = baseline->check(baseline_entry(analysis), options.tolerance);
+        checked.expectations.insert(checked.expectations.end(), more.begin(), more.end());
+    }
+    std::optional<ReportDirectory> out;
+    if (!options.out.empty())
+        opened([&] { out.emplace(options.out, ReportBlock{}); });
+    Destination json = destination(options.json);
+    Destination csv = destination(options.csv);
+    Destination junit = destination(options.junit);
+    Destination record = destination(options.record);
+    if (out)
+        if (const std::string left_out = out->write(reported(analysis)); !left_out.empty())
+            say(left_out);
+    if (json.wanted())
+        json.write(analysis_json(analysis));
+    if (csv.wanted())
+        csv.write(analysis_csv(analysis));
+    if (junit.wanted())
+        junit.write(junit_report({checked}));
+    if (record.wanted())
+        record.write(baseline_of({baseline_entry(analysis)}));
+    const Document document = analysis_document(analysis);
+    const bool gated = !options.expect.empty() || baseline;
+    if (!json.standard_output() && !csv.standard_output() && !junit.standard_output() &&
+        !record.standard_output())
+        write_standard_output(text_document(document) +
+                              (gated ? "\n" + check_report(checked, coloured()) : ""));
+    add_to_step_summary(markdown_report(document) + (gated ? check_markdown({checked}) : ""));
+    return checked.passed() ? done : violated;
 }
 
 int derive_command(const std::string& name, bool latex) {
@@ -344,6 +402,22 @@ void add_file(CLI::App& command, const std::string& option, std::string& file,
     command.add_option(option, file, description)->check(named)->type_name("FILE|-");
 }
 
+void add_directory(CLI::App& command, std::string& directory, const std::string& description) {
+    command.add_option("--out", directory, description)
+        ->check(named)
+        ->check(no_stream)
+        ->type_name("DIR");
+}
+
+void add_baseline(CLI::App& command, std::string& file, double& tolerance,
+                  const std::string& figure) {
+    command.add_option("--baseline", file, "hold every " + figure + " against a recorded baseline")
+        ->type_name("FILE");
+    command.add_option("--tolerance", tolerance, "relative, both sides, for --baseline")
+        ->check(CLI::PositiveNumber)
+        ->capture_default_str();
+}
+
 /// Throws InputError where two options name one place.
 void require_apart(const std::string& first, const std::string& file, const std::string& second,
                    const std::string& other) {
@@ -366,12 +440,9 @@ Command add_run(CLI::App& app) {
              "write the first of these that the scene has as CSV: ladder, grid of [orders], timed "
              "rows, evolution, stress cases; -: to standard output, in place of the table. --out "
              "writes them all");
-    run->add_option("--out", options->out,
-                    "write to a directory what the scene's [report] block asks for; without one, "
-                    "JSON, CSV, Markdown, LaTeX, plots and a page of HTML")
-        ->check(named)
-        ->check(no_stream)
-        ->type_name("DIR");
+    add_directory(*run, options->out,
+                  "write to a directory what the scene's [report] block asks for; without one, "
+                  "JSON, CSV, Markdown, LaTeX, plots and a page of HTML");
     run->add_flag("--resume", options->resume,
                   "go on with an attempt that was cut short, whose finished runs are in the "
                   "directory of --out")
@@ -396,13 +467,7 @@ Command add_check(CLI::App& app) {
                     "with the scenes' [short] blocks: the form for CI");
     add_file(*check, "--junit", options->junit, "write JUnit XML");
     add_file(*check, "--record", options->record, "write a baseline of every error found");
-    check
-        ->add_option("--baseline", options->baseline,
-                     "check every error against a recorded baseline")
-        ->type_name("FILE");
-    check->add_option("--tolerance", options->tolerance, "relative, both sides, for --baseline")
-        ->check(CLI::PositiveNumber)
-        ->capture_default_str();
+    add_baseline(*check, options->baseline, options->tolerance, "error");
     check->add_flag("--quiet", options->quiet, "only the scenes that fail, and no progress line");
     add_jobs(*check, options->jobs);
     return {check, [options] {
@@ -411,18 +476,63 @@ Command add_check(CLI::App& app) {
             }};
 }
 
+void add_choice(CLI::App& analyse, DataChoice& choice) {
+    const auto names = [&](const char* option, std::vector<std::string>& list, const char* what) {
+        analyse.add_option(option, list, what)->delimiter(',')->type_name("NAME,...");
+    };
+    names("--size", choice.sizes,
+          "columns of mesh widths, or of numbers of cells, unknowns, ...; default: h or elements");
+    analyse
+        .add_option("--dimension", choice.dimension,
+                    "sizes are numbers n of what fills a domain of this dimension: h = n^(-1/D)")
+        ->check(CLI::PositiveNumber)
+        ->type_name("D");
+    analyse.add_option("--step", choice.step, "the column of time steps; default: dt")
+        ->type_name("NAME");
+    names("--error", choice.errors, "columns of errors; default: error");
+    names("--value", choice.values,
+          "columns of computed numbers whose limit is not known; default: value, where there are "
+          "no errors");
+    analyse.add_option("--sigma", choice.sigma, "the column of standard deviations of the figures")
+        ->type_name("NAME");
+}
+
 Command add_analyse(CLI::App& app) {
     auto* analyse = app.add_subcommand(
-        "analyse", "Observed orders, verdicts and fits for any solver's errors: a CSV file "
-                   "with columns h (or elements), dt, error, seconds; of h and dt one "
-                   "may be absent.\n"
-                   "Example: tvbeam analyse errors.csv --error l2_error");
-    const auto csv = std::make_shared<std::string>();
-    const auto error = std::make_shared<std::string>();
-    analyse->add_option("file", *csv, "the CSV file")->required();
-    analyse->add_option("--error", *error, "the column of the error; default: error")
-        ->type_name("NAME");
-    return {analyse, [csv, error] { return analyse_command(*csv, *error); }};
+        "analyse", "Observed orders, verdicts and limits for any solver's errors or values: a "
+                   "file of records with a line of names.\n"
+                   "Example: tvbeam analyse errors.csv --size ndofs --dimension 2 --error L2,H1");
+    const auto options = std::make_shared<AnalyseOptions>();
+    analyse
+        ->add_option("file", options->file,
+                     "the file, fields separated by commas, tabs, semicolons or blanks; -: "
+                     "standard input")
+        ->required();
+    add_choice(*analyse, options->choice);
+    add_file(*analyse, "--json", options->json, "write the analysis as JSON");
+    add_file(*analyse, "--csv", options->csv, "write the rows with orders and verdicts as CSV");
+    add_directory(*analyse, options->out,
+                  "write JSON, CSV, Markdown, LaTeX, plots and a page of HTML to a directory");
+    analyse
+        ->add_option("--expect", options->expect,
+                     "hold the analysis against expectations: a TOML file, or a text as 'L2.order "
+                     "= [1.9, 2.1]'")
+        ->type_name("FILE|TEXT");
+    add_file(*analyse, "--junit", options->junit, "write JUnit XML");
+    add_file(*analyse, "--record", options->record, "write a baseline of every number");
+    add_baseline(*analyse, options->baseline, options->tolerance, "number");
+    return {analyse, [options] {
+                const std::pair<const char*, const std::string&> files[] = {
+                    {"--json", options->json},
+                    {"--csv", options->csv},
+                    {"--junit", options->junit},
+                    {"--record", options->record}};
+                for (std::size_t i = 0; i < std::size(files); ++i)
+                    for (std::size_t k = i + 1; k < std::size(files); ++k)
+                        require_apart(files[i].first, files[i].second, files[k].first,
+                                      files[k].second);
+                return analyse_command(*options);
+            }};
 }
 
 Command add_derive(CLI::App& app) {

@@ -8,19 +8,17 @@ namespace tvbeam {
 
 namespace {
 
-std::string order_text(double size, double order, bool determined, double uncertainty) {
-    if (size == 0)
-        return "not seen";
-    return determined ? fixed(order, 3) + " ± " + fixed(uncertainty, 3) : "not determined";
+std::string order_text(const OrderInterval& order) {
+    return order.determined ? fixed(order.value, 3) + " ± " + fixed(order.half_width(), 3)
+                            : "not determined";
 }
 
 /// The runs that a fit leaves out, a sentence a cause.
 std::vector<Block> rejections(const std::string& norm, const TwoTermFit& fit,
                               const std::vector<RungResult>& runs) {
     std::vector<Block> sentences;
-    for (const Rejection why :
-         {Rejection::failed, Rejection::unresolved, Rejection::exact, Rejection::floor,
-          Rejection::pre_asymptotic, Rejection::too_fine, Rejection::outlier}) {
+    for (const Rejection why : {Rejection::failed, Rejection::unresolved, Rejection::exact,
+                                Rejection::pre_asymptotic, Rejection::outlier}) {
         std::string named;
         for (const auto& rejected : fit.rejected)
             if (rejected.why == why) {
@@ -37,14 +35,12 @@ std::vector<Block> rejections(const std::string& norm, const TwoTermFit& fit,
 
 /// What the fit's row of the table says, as a sentence.
 Finding finding(const std::string& norm, const TwoTermFit& fit) {
-    const auto order = [](double size, double value, bool determined, double uncertainty) {
-        const std::string text = order_text(size, value, determined, uncertainty);
-        return size != 0 && determined ? "of order " + text : text;
+    const auto order = [](const OrderInterval& of) {
+        return of.determined ? "of order " + order_text(of) : "not determined: " + of.status;
     };
-    return {fmt::format("{}: the error in space is {}, the error in time {}.", norm,
-                        order(fit.model.a, fit.model.p, fit.p_determined(), fit.p_uncertainty()),
-                        order(fit.model.b, fit.model.q, fit.q_determined(), fit.q_uncertainty())),
-            2, false};
+    return {fmt::format("{}: the error in space is {}; the error in time is {}.", norm,
+                        order(fit.p), order(fit.q)),
+            2, !fit.predicts()};
 }
 
 } // namespace
@@ -64,8 +60,8 @@ Table fit_table(const std::vector<std::pair<std::string, const TwoTermFit*>>& fi
         const TwoTermModel& model = fit->model;
         const bool in_space = fit->p_determined();
         const bool in_time = fit->q_determined();
-        p.cells.push_back(order_text(model.a, model.p, in_space, fit->p_uncertainty()));
-        q.cells.push_back(order_text(model.b, model.q, in_time, fit->q_uncertainty()));
+        p.cells.push_back(order_text(fit->p));
+        q.cells.push_back(order_text(fit->q));
         // A size is one of h^p: without p it has no unit, and ρ is between two terms.
         a.cells.push_back(in_space ? scientific(model.a, 3) : "");
         b.cells.push_back(in_time ? scientific(model.b, 3) : "");

@@ -24,9 +24,9 @@ bool is_round_off(const std::string& figure) {
            figure.starts_with("hermite_");
 }
 
-/// Every error of a result by the name of its run and norm, and every figure of the studies that
-/// have figures of their own; NaN: the run failed.
-std::map<std::string, double> errors_of(const StudyResult& result) {
+} // namespace
+
+BaselineEntry baseline_entry(const StudyResult& result) {
     std::map<std::string, double> errors;
     for (const auto& [kind, record] : result.records.entries())
         for (const auto& [name, figure] : kind->figures(record))
@@ -38,24 +38,32 @@ std::map<std::string, double> errors_of(const StudyResult& result) {
                 errors[fmt::format("{}.{}: error at s = {}, dt = {}", series.study,
                                    series.measures[k].name, run.rung.elements, run.rung.dt)] =
                     error_of(run, k).value_or(std::nan(""));
-    return errors;
+    return {result.scene.name, {result.scene.file}, std::move(errors)};
 }
 
-} // namespace
+BaselineEntry baseline_entry(const DataAnalysis& analysis) {
+    std::map<std::string, double> figures;
+    for (const auto& column : analysis.columns)
+        for (std::size_t row = 0; row < analysis.rows(); ++row) {
+            std::string what = column.name + ":";
+            for (const auto& width : analysis.widths)
+                what += fmt::format(" {} = {}", width.name, width.numbers[row]);
+            figures[what] = column.numbers[row];
+        }
+    return {analysis.name, {analysis.name}, std::move(figures)};
+}
 
-std::string baseline_of(const std::vector<StudyResult>& results) {
+std::string baseline_of(const std::vector<BaselineEntry>& entries) {
     Json scenes = Json::object();
-    for (const auto& result : results) {
-        const std::string& name = result.scene.name;
+    for (const auto& [name, place, figures] : entries) {
         if (scenes.contains(name))
-            throw InputError({result.scene.file}, "is the second scene that is called " + name +
-                                                      "; a baseline goes by their names: rename "
-                                                      "one");
+            throw InputError(place, "is the second scene that is called " + name +
+                                        "; a baseline goes by their names: rename one");
         Json errors = Json::object();
-        for (const auto& [what, error] : errors_of(result))
+        for (const auto& [what, error] : figures)
             errors[what] = std::isfinite(error) ? Json(error) : Json();
         if (errors.empty())
-            throw InputError({result.scene.file},
+            throw InputError(place,
                              "measures nothing that a baseline could keep; add norms, or a block "
                              "with figures");
         scenes[name] = std::move(errors);
@@ -78,15 +86,16 @@ Baseline::Baseline(const std::string& file) : file_(file) {
                                      "); record one with --record");
 }
 
-std::vector<CheckedExpectation> Baseline::check(const StudyResult& result, double tolerance) const {
+std::vector<CheckedExpectation> Baseline::check(const BaselineEntry& entry,
+                                                double tolerance) const {
     const Place place{file_};
     const Json scenes = Json::parse(text_)["scenes"];
-    if (!scenes.contains(result.scene.name))
+    if (!scenes.contains(entry.name))
         return {
-            {"baseline", "a record of this scene", "none; record it with --record", place, false}};
-    const Json& recorded = scenes[result.scene.name];
+            {"baseline", "a record of this name", "none; record it with --record", place, false}};
+    const Json& recorded = scenes[entry.name];
     std::vector<CheckedExpectation> checked;
-    const auto errors = errors_of(result);
+    const auto& errors = entry.figures;
     for (const auto& [what, error] : errors) {
         const bool known = recorded.contains(what) && recorded[what].is_number();
         CheckedExpectation one{"baseline: " + what, "a recorded error", fmt::format("{}", error),

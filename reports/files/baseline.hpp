@@ -1,17 +1,28 @@
 #pragma once
 
+#include "studies/data/data_analysis.hpp"
 #include "studies/gates/check.hpp"
 #include "studies/study.hpp"
 
+#include <map>
 #include <string>
 #include <vector>
 
 namespace tvbeam {
 
-/// The errors of every run of some scenes, and the figures() of their evolutions and stress
-/// studies that are above round-off, as JSON (schema tvbeam-baseline/1), to hold later runs
-/// against. Throws InputError where two scenes have one name, or one has nothing to keep.
-std::string baseline_of(const std::vector<StudyResult>& results);
+/// Figures by name that a baseline keeps: of a scene, the errors of every run and the figures() of
+/// its studies that are above round-off; of a table, its numbers. NaN: the run failed.
+struct BaselineEntry {
+    std::string name;
+    Place place; ///< for messages
+    std::map<std::string, double> figures;
+};
+BaselineEntry baseline_entry(const StudyResult& result);
+BaselineEntry baseline_entry(const DataAnalysis& analysis);
+
+/// Entries as JSON (schema tvbeam-baseline/1), to hold later runs against. Throws InputError where
+/// two have one name, or one has nothing to keep.
+std::string baseline_of(const std::vector<BaselineEntry>& entries);
 
 /// A recorded baseline.
 class Baseline {
@@ -19,11 +30,11 @@ public:
     /// Throws InputError when the file is missing or is not a baseline.
     explicit Baseline(const std::string& file);
 
-    /// Holds a new result against what was recorded for its scene: every error within the relative
+    /// Holds new figures against what was recorded by their name: every error within the relative
     /// tolerance of the recorded one, on both sides. A scene, run or norm that was not recorded, or
     /// that is not there any more, does not hold. The figures found are always those of the new
     /// result.
-    [[nodiscard]] std::vector<CheckedExpectation> check(const StudyResult& result,
+    [[nodiscard]] std::vector<CheckedExpectation> check(const BaselineEntry& entry,
                                                         double tolerance) const;
 
 private:

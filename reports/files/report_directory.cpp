@@ -1,6 +1,5 @@
 #include "reports/files/report_directory.hpp"
 
-#include "reports/document/result_document.hpp"
 #include "reports/formats/report_format.hpp"
 
 #include <fcntl.h>
@@ -73,16 +72,15 @@ void ReportDirectory::lock() {
     }
 }
 
-std::string ReportDirectory::write(const StudyResult& result) {
-    const Document document = result_document(result);
+std::string ReportDirectory::write(const Reported& result) {
     const bool shows_plots = std::any_of(formats_.begin(), formats_.end(),
                                          [](const auto* format) { return format->shows_plots(); });
-    const auto plots = shows_plots ? plots_of(result) : std::vector<Plot>();
+    const auto plots = shows_plots ? result.plots() : std::vector<Plot>();
     const DrawnPlots drawn = plots.empty() ? DrawnPlots() : draw(plots);
     std::list<OutputFile> files;
     std::set<std::string> written;
     for (const auto* format : formats_)
-        for (const auto& [name, text] : format->write({result, document, plots, drawn})) {
+        for (const auto& [name, text] : format->write({result, plots, drawn})) {
             files.emplace_back(path_ / name).prepare(text);
             written.insert(name);
         }

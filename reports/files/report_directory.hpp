@@ -11,6 +11,7 @@
 namespace tvbeam {
 
 class ReportFormat;
+struct Reported;
 
 /// The directory that `--out` names, and in it the files that a scene's [report] block asks for:
 ///
@@ -38,7 +39,7 @@ public:
 
     /// Returns a sentence on plots that could not be drawn, or nothing. Throws OutputError when
     /// something cannot be written; then nothing is.
-    std::string write(const StudyResult& result);
+    std::string write(const Reported& result);
 
 private:
     void make(const std::filesystem::path& directory);

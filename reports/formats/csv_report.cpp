@@ -28,10 +28,7 @@ std::string csv_report(const StudyResult& result) {
 struct CsvFormat final : ReportFormat {
     std::string name() const override { return "csv"; }
     std::vector<NamedText> write(const ReportContents& contents) const override {
-        std::vector<NamedText> texts;
-        for (auto& csv : study_csvs(contents.result))
-            texts.push_back({csv.name + ".csv", std::move(csv.text)});
-        return texts;
+        return contents.reported.csvs();
     }
     std::vector<std::filesystem::path>
     earlier_files(const std::filesystem::path& directory) const override {

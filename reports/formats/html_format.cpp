@@ -1,4 +1,3 @@
-#include "reports/document/problem_formulas.hpp"
 #include "reports/formats/html_report.hpp"
 #include "reports/formats/report_format.hpp"
 #include "studies/table_row.hpp"
@@ -11,18 +10,15 @@ struct HtmlFormat final : ReportFormat {
     std::vector<std::string> certain_files() const override { return {"report.html"}; }
 
     std::vector<NamedText> write(const ReportContents& contents) const override {
-        const auto& [result, document, plots, drawn] = contents;
+        const auto& [result, plots, drawn] = contents;
         HtmlContents page{
-            .document = document,
-            .failed = result.failed(),
-            .interrupted = result.interrupted(),
-            .formulas = {},
+            .document = result.document,
+            .failed = result.failed,
+            .interrupted = result.interrupted,
+            .formulas = result.formulas,
             .figures = {},
             .no_figures = drawn.failure.empty() ? "" : drawn.failure + ": pictures are left out",
-            .scene_text = result.scene.text};
-        // A stress study has problems of its own.
-        if (result.scene.poses_problem())
-            page.formulas = problem_formulas(result.scene);
+            .scene_text = result.source_text};
         for (std::size_t i = 0; i < plots.size(); ++i)
             page.figures.push_back({plots[i].name, plots[i].caption, drawn.plots[i].svg});
         return {{"report.html", html_report(page)}};

@@ -315,7 +315,10 @@ std::string html_report(const HtmlContents& contents) {
         html += "<section>\n" + html_heading("Left out, as the scene does not need it") +
                 list_of(document.left_out) + "</section>\n";
     html += "<section>\n" + html_heading("Where it comes from") + rows_of(document.provenance) +
-            "<p>The scene:</p>\n<pre>" + html_text(contents.scene_text) + "</pre>\n</section>\n";
+            (contents.scene_text.empty()
+                 ? ""
+                 : "<p>The scene:</p>\n<pre>" + html_text(contents.scene_text) + "</pre>\n") +
+            "</section>\n";
     return html + "</main>\n</body>\n</html>\n";
 }
 

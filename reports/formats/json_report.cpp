@@ -54,7 +54,7 @@ struct JsonFormat final : ReportFormat {
     std::string name() const override { return "json"; }
     std::vector<std::string> certain_files() const override { return {"result.json"}; }
     std::vector<NamedText> write(const ReportContents& contents) const override {
-        return {{"result.json", json_report(contents.result)}};
+        return {{"result.json", contents.reported.json()}};
     }
 };
 

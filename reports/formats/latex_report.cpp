@@ -358,7 +358,7 @@ struct LatexFormat final : ReportFormat {
     std::string name() const override { return "latex"; }
     std::vector<std::string> certain_files() const override { return {"table.tex"}; }
     std::vector<NamedText> write(const ReportContents& contents) const override {
-        return {{"table.tex", latex_report(contents.document)}};
+        return {{"table.tex", latex_report(contents.reported.document)}};
     }
 };
 

@@ -123,7 +123,7 @@ struct MarkdownFormat final : ReportFormat {
     std::string name() const override { return "markdown"; }
     std::vector<std::string> certain_files() const override { return {"table.md"}; }
     std::vector<NamedText> write(const ReportContents& contents) const override {
-        return {{"table.md", markdown_report(contents.document)}};
+        return {{"table.md", markdown_report(contents.reported.document)}};
     }
 };
 

@@ -1,28 +1,45 @@
 #pragma once
 
 #include "reports/document/document.hpp"
+#include "reports/formats/html_report.hpp"
 #include "reports/plots/gnuplot.hpp"
 #include "reports/plots/plot.hpp"
 #include "studies/study.hpp"
 #include "studies/table_rows.hpp"
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
 namespace tvbeam {
 
-/// What formats are written from.
-struct ReportContents {
-    const StudyResult& result;
-    const Document& document;
-    const std::vector<Plot>& plots; ///< none where no format that is wanted shows them
-    const DrawnPlots& drawn;
-};
-
 struct NamedText {
     std::string name; ///< of a file within the directory
     std::string text;
+};
+
+/// What is reported: the result of a scene, or the analysis of a table. Formats call for what they
+/// write.
+struct Reported {
+    Document document = {};
+    std::function<std::string()> json = {};
+    std::function<std::vector<NamedText>()> csvs = {};
+    std::function<std::vector<Plot>()> plots = {};
+    bool failed = false;                ///< a run did
+    bool interrupted = false;           ///< runs are missing
+    std::vector<Formula> formulas = {}; ///< of the problem
+    std::string source_text = {};       ///< of the scene
+};
+
+/// The result of a scene.
+Reported reported(const StudyResult& result);
+
+/// What formats are written from.
+struct ReportContents {
+    const Reported& reported;
+    const std::vector<Plot>& plots; ///< none where no format that is wanted shows them
+    const DrawnPlots& drawn;
 };
 
 /// A kind of file that a result can be written to.

@@ -1,5 +1,10 @@
 #include "reports/formats/report_format.hpp"
 
+#include "reports/document/problem_formulas.hpp"
+#include "reports/document/result_document.hpp"
+#include "reports/formats/csv_report.hpp"
+#include "reports/formats/json_report.hpp"
+
 #include <fstream>
 
 namespace tvbeam {
@@ -21,6 +26,26 @@ std::vector<std::string> report_format_names() {
     for (const auto& format : report_formats())
         names.push_back(format->name());
     return names;
+}
+
+Reported reported(const StudyResult& result) {
+    Reported all{.document = result_document(result),
+                 .json = [&result] { return json_report(result); },
+                 .csvs =
+                     [&result] {
+                         std::vector<NamedText> texts;
+                         for (auto& csv : study_csvs(result))
+                             texts.push_back({csv.name + ".csv", std::move(csv.text)});
+                         return texts;
+                     },
+                 .plots = [&result] { return plots_of(result); },
+                 .failed = result.failed(),
+                 .interrupted = result.interrupted(),
+                 .source_text = result.scene.text};
+    // A stress study has problems of its own.
+    if (result.scene.poses_problem())
+        all.formulas = problem_formulas(result.scene);
+    return all;
 }
 
 std::string first_line(const std::filesystem::path& file) {

@@ -2,7 +2,6 @@
 #include "reports/plots/plot.hpp"
 #include "reports/plots/plot_style.hpp"
 #include "studies/ladder/ladder.hpp"
-#include "studies/orders/convergence_fit.hpp"
 #include "studies/text/number_text.hpp"
 
 #include <fmt/format.h>
@@ -64,32 +63,37 @@ std::optional<double> positive_error(const RungResult& rung, std::size_t k) {
                : std::nullopt;
 }
 
-/// The power law through some rows of a ladder, and the widths that it is drawn over.
+/// The straight line through the rows of a ladder whose orders agree.
 struct FittedLine {
-    PowerLawFit fit;
-    double from = 0.0;
+    double order = 0.0;
+    double from = 0.0; ///< widths that it is drawn over
     double to = 0.0;
+    double error_in_the_middle = 0.0;
 
     [[nodiscard]] double middle() const { return std::sqrt(from * to); }
+    [[nodiscard]] double error(double width) const {
+        return error_in_the_middle * std::pow(width / middle(), order);
+    }
 };
 
-/// Through the rows whose orders agree; where there are none such, and no model of two terms says
-/// why, through all rows.
+/// None where no orders agree: what is not determined is not drawn.
 std::optional<FittedLine> line_of(const LadderResult& ladder, std::size_t k,
                                   const std::vector<double>& abscissa) {
     const auto records = records_of(ladder.rungs, k);
-    LadderVerdict::Window rows{0, records.size() - 1, 0.0};
-    if (const auto window = judge(records).window)
-        rows = *window;
-    else if (!ladder.norms[k].predictions.empty())
+    const auto rows = judge(records).window;
+    if (!rows)
         return std::nullopt;
-    const auto fit =
-        fit_power_law(std::span(records).subspan(rows.first, rows.last - rows.first + 1));
-    if (!fit)
-        return std::nullopt;
-    const double first = abscissa[rows.first];
-    const double last = abscissa[rows.last];
-    return FittedLine{*fit, std::min(first, last), std::max(first, last)};
+    const auto [least, greatest] = std::minmax(abscissa[rows->first], abscissa[rows->last]);
+    FittedLine line{rows->order, least, greatest};
+    double sum = 0.0;
+    int count = 0;
+    for (std::size_t i = rows->first; i <= rows->last; ++i)
+        if (is_positive(records[i].error)) {
+            sum += std::log(records[i].error) - rows->order * std::log(abscissa[i] / line.middle());
+            ++count;
+        }
+    line.error_in_the_middle = std::exp(sum / count);
+    return line;
 }
 
 class ConvergencePlot {
@@ -141,7 +145,7 @@ private:
         const SeriesStyle style = series_style(k);
         std::string name = norm.norm.words;
         if (lines_[k])
-            name += ": slope " + fixed(lines_[k]->fit.p, 2);
+            name += ": slope " + fixed(lines_[k]->order, 2);
         drawing_.add_curve(fmt::format("NaN with linespoints lc rgb '{}' pt {} ps 0.9 dt {} lw 1.6",
                                        style.colour, style.point, style.dash),
                            name);
@@ -154,7 +158,7 @@ private:
             rows += fmt::format("{} {} {} {} {}\n", widths_.h[i], widths_.dt[i],
                                 positive_error(ladder_.rungs[i], k).value_or(nan),
                                 figures != nullptr ? (*figures)[i] : nan,
-                                norm.predictions.empty() ? nan : norm.predictions[i].value_or(nan));
+                                norm.predictions.empty() ? nan : norm.predictions[i].value);
         const std::string block =
             drawing_.add_block(norm.norm.name + ": h, dt, error, printed, predicted", rows);
         const SeriesStyle style = series_style(k);
@@ -177,7 +181,7 @@ private:
         const SeriesStyle style = series_style(k);
         std::string rows;
         for (const double width : {line.from, line.to})
-            rows += fmt::format("{} {}\n", width, line.fit.error(width));
+            rows += fmt::format("{} {}\n", width, line.error(width));
         const std::string block =
             drawing_.add_block(ladder_.norms[k].norm.name + ": the fitted line", rows);
         drawing_.add_curve(fmt::format("{} using 1:2 with lines lc rgb '{}' dt {} lw 1.6", block,
@@ -201,8 +205,8 @@ private:
         const double left = middle / half;
         const double right = middle * half;
         const double apart = above ? apart_ : 1.0 / apart_;
-        const double low = line.fit.error(left) * apart;
-        const double high = line.fit.error(right) * apart;
+        const double low = line.error(left) * apart;
+        const double high = line.error(right) * apart;
         const std::string block =
             drawing_.add_block(ladder_.norms[k].norm.name + ": the triangle of its slope",
                                fmt::format("{0} {2}\n{4} {5}\n{1} {3}\n{0} {2}\n", left, right, low,
@@ -211,7 +215,7 @@ private:
         // The 1 beside the triangle wants room, too.
         extent_.push_back(above ? high * apart_ : low / apart_);
         labels_ += fmt::format("set label '{}' at {},{} {} front font ',16'\n",
-                               fixed(line.fit.p, 2), above ? left : right, std::sqrt(low * high),
+                               fixed(line.order, 2), above ? left : right, std::sqrt(low * high),
                                above ? "right offset -0.5,0" : "left offset 0.5,0");
         labels_ += fmt::format("set label '1' at {},{} center offset 0,{} front font ',16'\n",
                                middle, above ? high : low, above ? 0.6 : -0.7);
@@ -221,8 +225,8 @@ private:
     [[nodiscard]] std::size_t topmost() const {
         std::size_t top = 0;
         for (std::size_t k = 1; k < lines_.size(); ++k)
-            if (lines_[k] && (!lines_[top] || lines_[k]->fit.error(lines_[k]->middle()) >
-                                                  lines_[top]->fit.error(lines_[k]->middle())))
+            if (lines_[k] && (!lines_[top] || lines_[k]->error(lines_[k]->middle()) >
+                                                  lines_[top]->error(lines_[k]->middle())))
                 top = k;
         return top;
     }
@@ -233,7 +237,7 @@ private:
                                "published in " + block_.printed->source);
         if (predicted_)
             drawing_.add_curve("NaN with lines lc rgb '#000000' dt 3 lw 1.2",
-                               "predicted by the two-term model of [orders]");
+                               "predicted by the fits of [orders]");
     }
 
     [[nodiscard]] std::string caption() const {
@@ -242,7 +246,7 @@ private:
             "their slopes{}{}.",
             shortest(block_.final_time),
             has_printed_ ? "; open squares: published in " + block_.printed->source : "",
-            predicted_ ? "; dotted: predicted by the two-term model of [orders]" : "");
+            predicted_ ? "; dotted: predicted by the fits of [orders]" : "");
     }
 
     const LadderResult& ladder_;

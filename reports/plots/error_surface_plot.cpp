@@ -110,8 +110,7 @@ public:
           box_(orders.runs) {}
 
     Plot plot() {
-        const bool modelled = fit_.holds() && fit_.p_determined() && fit_.q_determined() &&
-                              fit_.model.a > 0.0 && fit_.model.b > 0.0;
+        const bool modelled = fit_.predicts();
         if (modelled)
             add_model();
         add_runs(modelled);

@@ -26,22 +26,31 @@ Json json_of(const OrdersResult& orders, const OrdersBlock& block) {
             rejected.push_back(
                 {{"elements", rung.elements}, {"dt", rung.dt}, {"reason", record.reason}});
         }
+        // What is not determined is no number.
+        const auto known = [](const OrderInterval& order, double value) {
+            return number_json(order.determined ? std::optional(value) : std::nullopt);
+        };
+        const auto& model = fit.model;
         norms[norm] = {{"status", "ok"},
-                       {"p", fit.model.p},
-                       {"p_se", fit.p_se},
-                       {"p_uncertainty", fit.p_uncertainty()},
+                       {"p", known(fit.p, model.p)},
+                       {"p_se", known(fit.p, fit.p_se)},
+                       {"p_uncertainty", known(fit.p, fit.p_uncertainty())},
                        {"p_determined", fit.p_determined()},
-                       {"q", fit.model.q},
-                       {"q_se", fit.q_se},
-                       {"q_uncertainty", fit.q_uncertainty()},
+                       {"q", known(fit.q, model.q)},
+                       {"q_se", known(fit.q, fit.q_se)},
+                       {"q_uncertainty", known(fit.q, fit.q_uncertainty())},
                        {"q_determined", fit.q_determined()},
-                       {"a", fit.model.a},
-                       {"b", fit.model.b},
-                       {"rho", fit.model.rho},
-                       {"rho_se", fit.rho_se},
+                       {"a", known(fit.p, model.a)},
+                       {"b", known(fit.q, model.b)},
+                       {"rho", known(fit.p_determined() ? fit.q : fit.p, model.rho)},
+                       {"rho_se", known(fit.p_determined() ? fit.q : fit.p, fit.rho_se)},
                        {"rms", fit.rms},
                        {"used", fit.used.size()},
                        {"rejected", std::move(rejected)}};
+        if (!fit.p_determined())
+            norms[norm]["p_status"] = fit.p.status;
+        if (!fit.q_determined())
+            norms[norm]["q_status"] = fit.q.status;
     }
     Json runs = Json::array();
     for (const auto& run : orders.runs) {

@@ -22,6 +22,7 @@ Json json_of(const LadderResult& ladder, const LadderBlock& block) {
         Json orders = Json::object();
         Json printed = Json::object();
         Json predicted = Json::object();
+        Json interval = Json::object();
         Json verdict = Json::object();
         Json reason = Json::object();
         for (const auto& norm : ladder.norms) {
@@ -29,8 +30,11 @@ Json json_of(const LadderResult& ladder, const LadderBlock& block) {
             orders[name] = number_json(norm.orders[i]);
             if (block.printed && block.printed->figures.contains(name))
                 printed[name] = block.printed->figures.at(name)[i];
-            if (!norm.predictions.empty())
-                predicted[name] = number_json(norm.predictions[i]);
+            if (!norm.predictions.empty()) {
+                const auto& prediction = norm.predictions[i];
+                predicted[name] = number_json(prediction.value);
+                interval[name] = {number_json(prediction.low), number_json(prediction.high)};
+            }
             verdict[name] = name_of(norm.verdicts[i].verdict);
             reason[name] = norm.verdicts[i].reason;
         }
@@ -39,6 +43,8 @@ Json json_of(const LadderResult& ladder, const LadderBlock& block) {
             entry["printed"] = std::move(printed);
         if (!predicted.empty())
             entry["predicted"] = std::move(predicted);
+        if (!interval.empty())
+            entry["predicted_interval"] = std::move(interval);
         entry["verdict"] = std::move(verdict);
         entry["verdict_reason"] = std::move(reason);
         entry["counters"] = counters_json(ladder.rungs[i]);
@@ -71,7 +77,8 @@ std::string ladder_csv(const LadderResult& ladder, const std::optional<PrintedFi
             text += "," + name + "_printed";
         text += "," + name + "_order";
         if (!norm.predictions.empty())
-            text += "," + name + "_predicted";
+            for (const char* figure : {"_predicted", "_predicted_low", "_predicted_high"})
+                text += "," + name + figure;
     }
     text += ",seconds,reason\n";
     for (std::size_t i = 0; i < ladder.rungs.size(); ++i) {
@@ -83,7 +90,9 @@ std::string ladder_csv(const LadderResult& ladder, const std::optional<PrintedFi
                 text += number_field(printed->figures.at(norm.norm.name)[i]);
             text += number_field(norm.orders[i]);
             if (!norm.predictions.empty())
-                text += number_field(norm.predictions[i]);
+                for (const double figure :
+                     {norm.predictions[i].value, norm.predictions[i].low, norm.predictions[i].high})
+                    text += finite_field(figure);
         }
         text += cost_fields(ladder.rungs[i]);
     }

@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <set>
-#include <span>
+#include <numeric>
 #include <utility>
 
 namespace tvbeam {
@@ -15,116 +14,93 @@ namespace {
 /// widths too, but has about two records a width.
 constexpr double least_coverage = 0.7;
 
+template <class Value>
+std::size_t different(std::vector<Value> values) {
+    std::sort(values.begin(), values.end());
+    return static_cast<std::size_t>(std::unique(values.begin(), values.end()) - values.begin());
+}
+
 bool is_grid(const std::vector<Refinement>& records) {
-    std::set<double> h;
-    std::set<double> dt;
-    std::set<std::pair<double, double>> pairs;
+    std::vector<double> h;
+    std::vector<double> dt;
+    std::vector<std::pair<double, double>> pairs;
     for (const auto& record : records) {
         if (std::isnan(record.h) || std::isnan(record.dt))
             return false;
-        h.insert(record.h);
-        dt.insert(record.dt);
-        pairs.emplace(record.h, record.dt);
+        h.push_back(record.h);
+        dt.push_back(record.dt);
+        pairs.emplace_back(record.h, record.dt);
     }
-    return h.size() >= 3 && dt.size() >= 3 &&
-           static_cast<double>(pairs.size()) >=
-               least_coverage * static_cast<double>(h.size() * dt.size());
+    const std::size_t in_h = different(h);
+    const std::size_t in_dt = different(dt);
+    return in_h >= 3 && in_dt >= 3 &&
+           static_cast<double>(different(pairs)) >=
+               least_coverage * static_cast<double>(in_h) * static_cast<double>(in_dt);
 }
 
 /// Coarse to fine by h, then by Δt; a width that is absent is the same in all records.
-void sort_by_width(std::vector<Refinement>& records) {
-    const auto key = [](const Refinement& record) {
+std::vector<std::size_t> coarse_to_fine(const std::vector<Refinement>& records) {
+    const auto key = [&records](std::size_t i) {
         const auto width = [](double value) {
             return std::isnan(value) ? std::numeric_limits<double>::infinity() : value;
         };
-        return std::pair(width(record.h), width(record.dt));
+        return std::pair(width(records[i].h), width(records[i].dt));
     };
-    std::stable_sort(
-        records.begin(), records.end(),
-        [&](const Refinement& left, const Refinement& right) { return key(left) > key(right); });
+    std::vector<std::size_t> order(records.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t left, std::size_t right) { return key(left) > key(right); });
+    return order;
 }
 
-std::optional<PowerLawFit> power_law_of(std::span<const Refinement> records,
-                                        const LadderVerdict& verdict) {
-    const auto& window = verdict.window;
-    if (!window)
-        return fit_power_law(records);
-    const auto inside = records.subspan(window->first, window->last - window->first + 1);
-    std::vector<Refinement> with_floor(inside.begin(), inside.end());
-    for (std::size_t i = window->last + 1; i < records.size(); ++i)
-        if (verdict.rows[i].verdict == Verdict::floor)
-            with_floor.push_back(records[i]);
-    // Without a row on it a floor would be read out of the bend that a next term makes.
-    if (with_floor.size() > inside.size())
-        if (auto fit = fit_power_law(with_floor, {.with_floor = true}); fit && fit->floor > 0)
-            return fit;
-    return fit_power_law(inside);
+/// Whether h stays, so that Δt is what is refined.
+bool stays_in_h(const std::vector<Refinement>& sorted) {
+    return std::isnan(sorted.front().h) || sorted.front().h == sorted.back().h;
 }
 
-std::string why_no_power_law(const std::vector<Refinement>& records) {
-    std::set<std::pair<double, double>> widths;
-    std::size_t errors = 0;
-    for (const auto& record : records) {
-        if (!std::isfinite(record.error) || record.error <= 0)
-            continue;
-        ++errors;
-        widths.emplace(std::isnan(record.h) ? 0.0 : record.h,
-                       std::isnan(record.dt) ? 0.0 : record.dt);
-    }
-    if (errors == 0)
-        return "no row has a positive error";
-    if (errors == 1)
-        return "one row alone has a positive error";
-    if (widths.size() < 2)
-        return "all rows with a positive error have the same width";
-    return "the search for a power law came to no end";
+/// Whether each h goes with one Δt, which does not grow as h falls.
+bool is_one_path(const std::vector<Refinement>& sorted) {
+    for (std::size_t i = 1; i < sorted.size(); ++i)
+        if (sorted[i].dt > sorted[i - 1].dt ||
+            (sorted[i].h == sorted[i - 1].h && sorted[i].dt < sorted[i - 1].dt))
+            return false;
+    return true;
 }
 
 } // namespace
 
-RecordAnalysis analyse(std::vector<Refinement> records) {
+RecordAnalysis analyse(std::vector<Refinement> records, const std::vector<double>& sigma) {
     RecordAnalysis analysis;
     if (is_grid(records)) {
         analysis.two_term = fit_two_term(records);
-    } else {
-        sort_by_width(records);
-        analysis.orders = observed_orders(records);
-        analysis.verdict = judge(records);
-        analysis.power_law = power_law_of(records, *analysis.verdict);
-        if (!analysis.power_law)
-            analysis.no_power_law = why_no_power_law(records);
+        analysis.records = std::move(records);
+        return analysis;
     }
-    analysis.records = std::move(records);
-    return analysis;
-}
-
-ValueAnalysis analyse_values(std::vector<GridValue> grids) {
-    std::stable_sort(grids.begin(), grids.end(),
-                     [](const auto& left, const auto& right) { return left.h > right.h; });
-    ValueAnalysis analysis;
-    std::vector<GridValue> levels;
-    for (const auto& grid : grids)
-        if (std::isfinite(grid.value) && (levels.empty() || grid.h < levels.back().h))
-            levels.push_back(grid);
-    if (levels.size() < 3) {
-        analysis.no_extrapolation = "an observed order needs values at three different widths";
-    } else {
-        const auto fine = levels.end() - 1;
-        analysis.finest = richardson(*(fine - 2), *(fine - 1), *fine);
-        if (!analysis.finest)
-            analysis.no_extrapolation =
-                "on the three finest grids the values oscillate or stand still";
+    const auto order = coarse_to_fine(records);
+    std::vector<ErrorRow> rows;
+    for (const std::size_t i : order)
+        analysis.records.push_back(records[i]);
+    analysis.verdict = judge(analysis.records);
+    analysis.orders = analysis.verdict->orders;
+    if (records.empty())
+        return analysis;
+    analysis.is_in_dt = stays_in_h(analysis.records) && !std::isnan(analysis.records.front().dt);
+    if (!analysis.is_in_dt && !is_one_path(analysis.records)) {
+        analysis.order.status = "h and dt are refined in turns; three of each in all pairs would "
+                                "show both orders";
+        return analysis;
     }
-    analysis.limit = fit_limit(grids);
-    analysis.grids = std::move(grids);
-    return analysis;
-}
-
-RecordAnalysis analyse(RecordFile file) {
-    if (file.values.empty())
-        return analyse(std::move(file.records));
-    RecordAnalysis analysis;
-    analysis.values = analyse_values(std::move(file.values));
+    for (const std::size_t i : order) {
+        const auto& record = records[i];
+        const double relative = sigma.empty() ? 0.0 : sigma[i] / record.error;
+        if (record.is_resolved())
+            rows.push_back({{analysis.is_in_dt ? record.dt : record.h},
+                            record.error,
+                            is_positive(relative) ? 1 / (relative * relative) : 1.0});
+    }
+    const OrderEnsemble ensemble(rows);
+    analysis.order = ensemble.orders().front();
+    analysis.has_logarithm = analysis.order.determined && ensemble.has_logarithm();
     return analysis;
 }
 

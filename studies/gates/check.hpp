@@ -16,6 +16,9 @@ struct CheckedExpectation {
     bool holds = false;
 };
 
+/// A metric held against a band. One that has no value does not meet any.
+CheckedExpectation held(const Metric& metric, double lowest, double highest, const Place& place);
+
 /// Holds a result against the expectations of its scene. A figure that the result does not have
 /// does not meet any expectation: a failed run, an undefined order, or a fit without a model.
 std::vector<CheckedExpectation> check(const StudyResult& result);

@@ -30,23 +30,23 @@ std::optional<TheoremConstants> constants_of(const std::string& theorem,
     return first ? std::nullopt : std::optional(constants);
 }
 
-TwoTermOptions fit_options(const std::optional<ReferenceBlock>& against,
-                           std::span<const Refinement> records) {
+std::optional<Refinement> reference_of(const std::optional<ReferenceBlock>& against,
+                                       std::span<const Refinement> records) {
     auto reference = against ? against->widths() : std::nullopt;
     // A step that is the reference's may be smaller by rounding.
     if (reference)
         for (const auto& record : records)
             reference->dt = std::min(reference->dt, record.dt);
-    return {.reference = reference};
+    return reference;
 }
 
 } // namespace
 
-const TwoTermModel* OrdersResult::model_of(const Measure& norm) const {
+const TwoTermFit* OrdersResult::fit_of(const Measure& norm) const {
     const auto found = std::find_if(norms.begin(), norms.end(), [&](const NormOrders& orders) {
         return orders.norm == norm.root();
     });
-    return found != norms.end() && found->fit.holds() ? &found->fit.model : nullptr;
+    return found != norms.end() && found->fit.predicts() ? &found->fit : nullptr;
 }
 
 Series series_of(const OrdersBlock& block, const Method& method) {
@@ -61,7 +61,7 @@ OrdersResult run_orders(const OrdersBlock& block, const Method& method, const St
         const Measure& norm = block.norms[k];
         const auto roots = root_records_of(result.runs, k, norm);
         result.norms.push_back(
-            {norm.root(), fit_two_term(roots, fit_options(solver.reference, roots))});
+            {norm.root(), fit_two_term(roots, reference_of(solver.reference, roots))});
         if (!norm.theorem.empty())
             result.corollary = constants_of(norm.theorem, records_of(result.runs, k));
     }

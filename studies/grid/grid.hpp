@@ -32,9 +32,9 @@ struct OrdersResult {
     /// If a measure that a theorem bounds was asked for and some run has an error.
     std::optional<TheoremConstants> corollary;
 
-    /// The model of a norm, or of the root of a squared one; null when the grid has none that
-    /// holds.
-    [[nodiscard]] const TwoTermModel* model_of(const Measure& norm) const;
+    /// The fit of a norm, or of the root of a squared one; null where the grid does not determine
+    /// both orders, and so predicts nothing.
+    [[nodiscard]] const TwoTermFit* fit_of(const Measure& norm) const;
 };
 
 /// The runs that the block asks for.

@@ -9,35 +9,33 @@ namespace tvbeam {
 
 namespace {
 
-/// A parameter of the fit, and how well the fit must know it to be held to a band.
+/// A parameter of the fit, and the orders that it means nothing without.
 struct FitMetric {
     const char* key;
     const char* words;
     double TwoTermModel::*value;
-    bool (TwoTermFit::*determined)() const = nullptr;
-    double (TwoTermFit::*uncertainty)() const = nullptr;
+    bool in_h;
+    bool in_dt;
 };
 
-constexpr FitMetric fit_metrics[] = {{"p", "p, the order in h", &TwoTermModel::p,
-                                      &TwoTermFit::p_determined, &TwoTermFit::p_uncertainty},
-                                     {"q", "q, the order in dt", &TwoTermModel::q,
-                                      &TwoTermFit::q_determined, &TwoTermFit::q_uncertainty},
-                                     {"a", "a, the constant of h^p", &TwoTermModel::a},
-                                     {"b", "b, the constant of dt^q", &TwoTermModel::b},
-                                     {"rho", "rho", &TwoTermModel::rho}};
+constexpr FitMetric fit_metrics[] = {
+    {"p", "p, the order in h", &TwoTermModel::p, true, false},
+    {"q", "q, the order in dt", &TwoTermModel::q, false, true},
+    {"a", "a, the constant of h^p", &TwoTermModel::a, true, false},
+    {"b", "b, the constant of dt^q", &TwoTermModel::b, false, true},
+    {"rho", "rho", &TwoTermModel::rho, true, true}};
 
-/// width: of the band. An order that the grid does not determine, or less well than its band is
-/// wide, says nothing about the band.
-Metric metric_of(const FitMetric& metric, const NormOrders& orders, double width) {
+/// A parameter of an order that the grid does not determine meets no band.
+Metric metric_of(const FitMetric& metric, const NormOrders& orders) {
     const TwoTermFit& fit = orders.fit;
-    const double value = fit.model.*metric.value;
-    const bool known =
-        fit.holds() && (metric.determined == nullptr ||
-                        ((fit.*metric.determined)() && (fit.*metric.uncertainty)() <= width));
+    std::string absence = fit.failure;
+    if (fit.holds())
+        for (const auto& [wanted, order] :
+             {std::pair(metric.in_h, &fit.p), std::pair(metric.in_dt, &fit.q)})
+            if (wanted && !order->determined && absence.empty())
+                absence = "not determined: " + order->status;
     return {"orders." + orders.norm + ": " + metric.words,
-            known ? std::optional(value) : std::nullopt,
-            fit.holds() ? metric_text(value) + ", not determined well enough for this band"
-                        : fit.failure};
+            absence.empty() ? std::optional(fit.model.*metric.value) : std::nullopt, absence};
 }
 
 std::vector<Metric> constant_metrics(const std::string& norm, const StudyResult& result) {
@@ -69,15 +67,10 @@ struct OrdersStudy final : KindOf<OrdersBlock, OrdersResult> {
                 std::vector<Expectation>& expectations) const override {
         for_each_measure(table, block_in(block).norms, [&](TableReader& norm, std::size_t k) {
             for (const auto& metric : fit_metrics) {
-                const auto band = norm.band(metric.key);
-                if (!band)
-                    continue;
-                const double width = band->highest - band->lowest;
-                expect_band(norm, metric.key, expectations,
-                            [&metric, k, width](const StudyResult& result) {
-                                return std::vector{
-                                    metric_of(metric, result.get<OrdersResult>()->norms[k], width)};
-                            });
+                expect_band(
+                    norm, metric.key, expectations, [&metric, k](const StudyResult& result) {
+                        return std::vector{metric_of(metric, result.get<OrdersResult>()->norms[k])};
+                    });
             }
             const Measure& measure = block_in(block).norms[k];
             if (!measure.theorem.empty())

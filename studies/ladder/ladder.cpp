@@ -21,7 +21,8 @@ std::vector<Refinement> made_whole(std::vector<Refinement> roots, const Refineme
 }
 
 LadderNorm analysed(const Measure& norm, const std::vector<RungResult>& rungs, std::size_t k,
-                    const TwoTermModel* model, const std::optional<Refinement>& reference) {
+                    const TwoTermFit* fit, const std::optional<Refinement>& reference) {
+    const TwoTermModel* model = fit != nullptr ? &fit->model : nullptr;
     LadderNorm result;
     result.norm = norm;
     result.orders = observed_orders(records_of(rungs, k));
@@ -31,11 +32,13 @@ LadderNorm analysed(const Measure& norm, const std::vector<RungResult>& rungs, s
         judge(model != nullptr && reference ? made_whole(roots, *reference, *model) : roots,
               {.model = model})
             .rows;
-    if (model != nullptr)
+    const auto figure = [&norm](double root) { return norm.squared ? root * root : root; };
+    if (fit != nullptr)
         for (const auto& record : roots) {
-            const double root =
-                error_against(reference.value_or(Refinement{}), *model, record.h, record.dt);
-            result.predictions.emplace_back(norm.squared ? root * root : root);
+            auto prediction = fit->ensemble->forecast({record.h, record.dt}, true);
+            for (double* root : {&prediction.value, &prediction.low, &prediction.high})
+                *root = figure(*root);
+            result.predictions.push_back(std::move(prediction));
         }
     return result;
 }
@@ -82,11 +85,12 @@ LadderResult analyse_ladder(const Series& series, std::vector<RungResult> rungs,
     const auto widths = solver.reference ? solver.reference->widths() : std::nullopt;
     for (std::size_t k = 0; k < series.measures.size(); ++k) {
         const Measure& norm = series.measures[k];
-        const TwoTermModel* model = orders != nullptr ? orders->model_of(norm) : nullptr;
-        result.norms.push_back(analysed(norm, result.rungs, k, model, widths));
+        const TwoTermFit* fit = orders != nullptr ? orders->fit_of(norm) : nullptr;
+        result.norms.push_back(analysed(norm, result.rungs, k, fit, widths));
         auto roots = root_records_of(remarked, k, norm);
         std::erase_if(roots, [](const Refinement& record) { return !record.is_resolved(); });
-        result.norms.back().remarks = order_remarks(norm, roots, model);
+        result.norms.back().remarks =
+            order_remarks(norm, roots, fit != nullptr ? &fit->model : nullptr);
         if (auto remark = solver.remark ? solver.remark(series, result.rungs, k) : "";
             !remark.empty())
             result.norms.back().remarks.push_back(std::move(remark));

@@ -15,10 +15,10 @@ namespace tvbeam {
 /// One norm along a ladder.
 struct LadderNorm {
     Measure norm;
-    std::vector<std::optional<double>> orders;      ///< observed order against the rung before
-    std::vector<RowVerdict> verdicts;               ///< what each rung shows
-    std::vector<std::optional<double>> predictions; ///< of the two-term model; empty without one
-    std::vector<std::string> remarks;               ///< what the orders mean, in sentences
+    std::vector<std::optional<double>> orders; ///< observed order against the rung before
+    std::vector<RowVerdict> verdicts;          ///< what each rung shows
+    std::vector<OrderInterval> predictions; ///< of the fits of [orders], 95 %; empty without them
+    std::vector<std::string> remarks;       ///< what the orders mean, in sentences
 };
 
 /// The record of a ladder study.

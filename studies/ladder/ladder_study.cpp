@@ -69,7 +69,7 @@ std::vector<Metric> predicted_metrics(const Series& series, std::size_t k,
             continue;
         auto ratio = error_of(run, k);
         if (ratio)
-            *ratio /= *norm.predictions[row];
+            *ratio /= norm.predictions[row].value;
         if (ratio && norm.norm.squared)
             ratio = std::sqrt(*ratio);
         metrics.push_back(

@@ -186,20 +186,8 @@ std::optional<LeastSquares> least_squares(const ModelFunction& model, const Eige
     return search.best();
 }
 
-double student_half_width(double se, int dof, double level) {
-    if (dof < 1 || !std::isfinite(se))
-        return infinity;
-    return se * gsl_cdf_tdist_Pinv(0.5 * (1 + level), dof);
-}
-
-bool f_test_prefers_larger(double chi2_small, double chi2_large, int extra, int dof,
-                           double significance) {
-    if (extra < 1 || dof < 1 || !(chi2_large < chi2_small))
-        return false;
-    if (chi2_large <= 0)
-        return true;
-    const double ratio = ((chi2_small - chi2_large) / extra) / (chi2_large / dof);
-    return gsl_cdf_fdist_Q(ratio, extra, dof) < significance;
+double student_over_normal(int dof) {
+    return dof < 1 ? infinity : gsl_cdf_tdist_Pinv(0.975, dof) / gsl_cdf_ugaussian_Pinv(0.975);
 }
 
 } // namespace tvbeam

@@ -41,13 +41,8 @@ std::optional<LeastSquares> least_squares(const ModelFunction& model, const Eige
                                           const Eigen::VectorXd& weights,
                                           std::span<const Eigen::VectorXd> starts);
 
-/// Half the width of the two-sided Student interval: t_{(1+level)/2, dof} · se. Infinite where dof
-/// < 1.
-double student_half_width(double se, int dof, double level = 0.95);
-
-/// Is the drop from χ²_small to χ²_large, bought with `extra` more parameters that leave `dof`
-/// degrees of freedom, more than chance gives at this significance? The F test of nested models.
-bool f_test_prefers_larger(double chi2_small, double chi2_large, int extra, int dof,
-                           double significance);
+/// Student's quantile of 97.5 % over the normal one: what few degrees of freedom add to an
+/// interval. Infinite where dof < 1.
+double student_over_normal(int dof);
 
 } // namespace tvbeam

@@ -1,10 +1,6 @@
 #include "studies/orders/limit_engine.hpp"
 
-#include "studies/orders/extrapolation.hpp"
-
 #include <Eigen/QR>
-
-#include <gsl/gsl_cdf.h>
 
 #include <algorithm>
 #include <cmath>
@@ -125,21 +121,30 @@ std::optional<LinearFit> fit_limit_model(std::span<const ValueRow> rows,
     return fit;
 }
 
-/// Coarse to fine, finite, one row a width.
+/// Coarse to fine, finite, one row a width; of very many widths, one row a cell of ln h.
 Rows levels_of(std::span<const ValueRow> given) {
-    std::map<double, Rows, std::greater<>> by_width;
+    constexpr std::size_t most_levels = 48; // less than the designs of fit_at hold
+    Rows rows;
     for (const auto& row : given)
-        if (row.h > 0 && std::isfinite(row.h) && std::isfinite(row.value))
-            by_width[row.h].push_back(row);
+        if (is_positive(row.h) && std::isfinite(row.value))
+            rows.push_back(row);
+    std::stable_sort(rows.begin(), rows.end(),
+                     [](const auto& left, const auto& right) { return left.h > right.h; });
+    std::size_t widths = 0;
+    for (std::size_t i = 0; i < rows.size(); ++i)
+        widths += i == 0 || rows[i].h < rows[i - 1].h ? 1 : 0;
+    const double cell =
+        widths > most_levels ? std::log(rows.front().h / rows.back().h) / (most_levels - 1) : 0.0;
     Rows levels;
-    for (const auto& [h, rows] : by_width) {
-        ValueRow mean{h, 0, 0};
-        for (const auto& row : rows) {
-            mean.value += row.value / static_cast<double>(rows.size());
-            mean.sigma += row.sigma * row.sigma;
+    for (std::size_t i = 0, next = 0; i < rows.size(); i = next) {
+        ValueRow mean{0, 0, 0};
+        for (next = i; next < rows.size() && rows[next].h >= rows[i].h * std::exp(-cell); ++next) {
+            mean.h += rows[next].h;
+            mean.value += rows[next].value - rows[i].value;
+            mean.sigma += rows[next].sigma * rows[next].sigma;
         }
-        mean.sigma = std::sqrt(mean.sigma) / static_cast<double>(rows.size());
-        levels.push_back(mean);
+        const auto n = static_cast<double>(next - i);
+        levels.push_back({mean.h / n, rows[i].value + mean.value / n, std::sqrt(mean.sigma) / n});
     }
     return levels;
 }
@@ -180,10 +185,6 @@ std::optional<Mean> mean_of(const std::vector<Weighed>& all, double agreement) {
     return Mean{origin + mean, std::sqrt(std::max(0.0, square / weights - mean * mean))};
 }
 
-double student(int dof) {
-    return dof < 1 ? infinity : gsl_cdf_tdist_Pinv(0.975, dof) / gsl_cdf_ugaussian_Pinv(0.975);
-}
-
 /// All windows that end at the finest level, each compared with the one a level coarser.
 void weigh(const Rows& levels, const LimitModel& model, std::vector<Weighed>& limits,
            std::vector<Weighed>& orders) {
@@ -207,7 +208,7 @@ void weigh(const Rows& levels, const LimitModel& model, std::vector<Weighed>& li
             order_change = std::abs(coarser->order - fit->order);
             compared = true;
         }
-        const double error = fit->dof > 0 ? fit->limit_error * student(fit->dof) : 0.0;
+        const double error = fit->dof > 0 ? fit->limit_error * student_over_normal(fit->dof) : 0.0;
         if (!compared || !std::isfinite(error))
             continue;
         limits.push_back({fit->limit, std::hypot(change, error)});
@@ -225,6 +226,29 @@ bool alternates(const Rows& levels) {
     return step(1) * step(2) < 0 && (n < 4 || step(2) * step(3) < 0);
 }
 
+/// Do the values go one way, or to and fro throughout, and the steps between levels, each over the
+/// logarithm of its ratio, grow towards the finest, which is the greatest of all? Those of h^p
+/// shrink for every p > 0, so that there is no limit.
+bool runs_apart(const Rows& levels) {
+    std::vector<double> steps;
+    for (std::size_t i = 1; i < levels.size(); ++i)
+        steps.push_back((levels[i].value - levels[i - 1].value) /
+                        std::log(levels[i - 1].h / levels[i].h));
+    const bool to_and_fro = steps[0] * steps[1] < 0;
+    for (std::size_t i = 1; i < steps.size(); ++i)
+        if ((steps[i] * steps[i - 1] < 0) != to_and_fro)
+            return false;
+    for (auto& step : steps)
+        step = std::abs(step);
+    constexpr double equal = 1 - 1e-6; // steps of ln h are equal, but for rounding
+    const std::size_t last = steps.size() - 1;
+    for (std::size_t i = 0; i < last; ++i)
+        if (steps[last] < equal * steps[i] || (i + 2 >= last && steps[i + 1] < equal * steps[i]))
+            return false;
+    return steps[last] >
+           roundings * std::numeric_limits<double>::epsilon() * std::abs(levels.back().value);
+}
+
 } // namespace
 
 LimitEstimate estimate_limit(std::span<const ValueRow> rows, const LimitTuning& tuning) {
@@ -238,6 +262,10 @@ LimitEstimate estimate_limit(std::span<const ValueRow> rows, const LimitTuning& 
     result.gci = gci_of(levels);
     result.celik = celik_of(levels);
     result.eca_hoekstra = eca_hoekstra_of(levels);
+    if (runs_apart(levels)) {
+        result.limit.status = result.order.status = "the values run apart";
+        return result;
+    }
     std::vector<Weighed> limits, orders;
     for (const auto& model : limit_models)
         if (!model.alternating || alternates(levels))
@@ -279,16 +307,49 @@ LimitEstimate estimate_limit(std::span<const ValueRow> rows, const LimitTuning& 
     return result;
 }
 
+namespace {
+
+/// ln of (e^x − 1) / x, without its removable singularity and without overflow.
+double log_mean_growth(double x) {
+    constexpr double tiny = 1e-8;
+    constexpr double huge = 40;
+    if (std::abs(x) < tiny)
+        return x / 2;
+    return x > huge ? x - std::log(x) : std::log(std::expm1(x) / x);
+}
+
+} // namespace
+
+/// The signed order of three grids solves
+///     (f_3 − f_2) / (f_2 − f_1) = r_21^p (r_32^p − 1) / (r_21^p − 1),
+/// whose right side grows with p throughout.
 std::optional<MethodLimit> gci_of(std::span<const ValueRow> levels) {
     if (levels.size() < 3)
         return std::nullopt;
-    const auto grid = [&](std::size_t back) {
-        return GridValue{levels[levels.size() - back].h, levels[levels.size() - back].value};
-    };
-    const auto finest = richardson(grid(3), grid(2), grid(1));
-    if (!finest || !(finest->order > 0))
+    const auto& fine = levels[levels.size() - 1];
+    const auto& medium = levels[levels.size() - 2];
+    const auto& coarse = levels[levels.size() - 3];
+    const double log_fine = std::log(medium.h / fine.h);
+    const double log_coarse = std::log(coarse.h / medium.h);
+    const double step = medium.value - fine.value;
+    const double quotient = (coarse.value - medium.value) / step;
+    if (!(quotient > 0) || !std::isfinite(quotient))
         return std::nullopt;
-    return MethodLimit{finest->limit, finest->gci, finest->order, "f0 + C h^p"};
+    double low = 0;
+    double high = 100; // no method's order; the search stops there
+    const auto exceeds = [&](double p) {
+        return log_mean_growth(p * log_coarse) - log_mean_growth(-p * log_fine) +
+                   std::log(log_coarse / log_fine) >
+               std::log(quotient);
+    };
+    if (exceeds(low) || !exceeds(high))
+        return std::nullopt;
+    for (int k = 0; k < 60; ++k)
+        (exceeds((low + high) / 2) ? high : low) = (low + high) / 2;
+    const double gain = std::expm1(high * log_fine);
+    constexpr double safety = 1.25; // of an order observed on three grids
+    return MethodLimit{fine.value - step / gain, safety * std::abs(step) / gain, high,
+                       "f0 + C h^p"};
 }
 
 std::optional<MethodLimit> celik_of(std::span<const ValueRow> levels) {

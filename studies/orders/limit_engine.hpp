@@ -53,10 +53,11 @@ struct LimitEstimate {
     std::optional<MethodLimit> eca_hoekstra;     ///< Eça and Hoekstra 2014
 };
 
-/// Rows that are not finite are passed over; rows of one width are averaged.
+/// Rows that are not finite are passed over; rows of one width are averaged. Values whose steps
+/// grow up to the finest have no limit, and the status says so.
 LimitEstimate estimate_limit(std::span<const ValueRow> rows, const LimitTuning& tuning = {});
 
-/// The three finest levels; none where they oscillate or stand still.
+/// The three finest levels; none where they oscillate, stand still or run apart.
 std::optional<MethodLimit> gci_of(std::span<const ValueRow> levels);
 /// The same levels, with the order of |ε_32 / ε_21| and its sign (their eq. 3): oscillation too.
 std::optional<MethodLimit> celik_of(std::span<const ValueRow> levels);

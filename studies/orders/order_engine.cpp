@@ -1,7 +1,5 @@
 #include "studies/orders/order_engine.hpp"
 
-#include <gsl/gsl_cdf.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -13,8 +11,8 @@ namespace tvbeam {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double normal_quantile = 1.959963984540054; // of 97.5 %
 constexpr std::size_t fewest_levels = 3;
+constexpr int logarithmic_family = 3; // among the shapes of a sequence
 /// Rows where the others are finest: all, and those of this many finest levels.
 constexpr int finest_levels[] = {3, 2, 1};
 
@@ -26,29 +24,52 @@ std::string with_number(const char* format, double number) {
     return text;
 }
 
-bool is_positive(double value) {
-    return std::isfinite(value) && value > 0;
-}
-
-/// Rows with a logarithm; those of equal widths are one row of their mean, and of their number's
-/// weight.
-TermRows usable_rows(std::span<const ErrorRow> given) {
-    std::map<std::vector<double>, std::vector<double>> logs;
+/// Rows with a logarithm; those of one cell are one row of their mean, and of their number's
+/// weight. A cell is one point of the widths, or, where there are too many rows, of a lattice.
+TermRows usable_rows(std::span<const ErrorRow> given, const OrderTuning& tuning) {
+    const auto d = given.empty() ? Index{0} : static_cast<Index>(given.front().widths.size());
+    std::vector<Eigen::VectorXd> points; // ln of the widths and the error, and the weight
+    Eigen::VectorXd least = Eigen::VectorXd::Constant(d, infinity);
+    Eigen::VectorXd greatest = -least;
     for (const auto& row : given)
         if (is_positive(row.error) &&
-            std::all_of(row.widths.begin(), row.widths.end(), is_positive))
-            logs[row.widths].push_back(std::log(row.error));
-    const auto n = static_cast<Index>(logs.size());
-    const auto d = given.empty() ? Index{0} : static_cast<Index>(given.front().widths.size());
+            std::all_of(row.widths.begin(), row.widths.end(), is_positive)) {
+            Eigen::VectorXd point(d + 2);
+            for (Index i = 0; i < d; ++i)
+                point[i] = std::log(row.widths[static_cast<std::size_t>(i)]);
+            point[d] = std::log(row.error);
+            point[d + 1] = row.weight;
+            least = least.cwiseMin(point.head(d));
+            greatest = greatest.cwiseMax(point.head(d));
+            points.push_back(std::move(point));
+        }
+    const double most = static_cast<double>(tuning.most_rows);
+    const Eigen::VectorXd cell =
+        (greatest - least) / std::max(1.0, std::pow(most, 1 / static_cast<double>(d)) - 1);
+    struct Sum {
+        Eigen::VectorXd sum;
+        double weight = 0;
+    };
+    std::map<std::vector<double>, Sum> cells;
+    std::vector<double> key(static_cast<std::size_t>(d));
+    for (const auto& point : points) {
+        for (Index i = 0; i < d; ++i)
+            key[static_cast<std::size_t>(i)] = points.size() > tuning.most_rows && cell[i] > 0
+                                                   ? std::floor((point[i] - least[i]) / cell[i])
+                                                   : point[i];
+        auto& [sum, weight] = cells[key];
+        if (weight == 0)
+            sum = Eigen::VectorXd::Zero(d + 1);
+        sum += point[d + 1] * point.head(d + 1);
+        weight += point[d + 1];
+    }
+    const auto n = static_cast<Index>(cells.size());
     TermRows rows{Eigen::MatrixXd(n, d), Eigen::VectorXd(n), Eigen::VectorXd(n)};
     Index r = 0;
-    for (const auto& [widths, errors] : logs) {
-        for (Index i = 0; i < d; ++i)
-            rows.log_widths(r, i) = std::log(widths[static_cast<std::size_t>(i)]);
-        const Eigen::Map<const Eigen::VectorXd> all(errors.data(),
-                                                    static_cast<Index>(errors.size()));
-        rows.log_errors[r] = all.mean();
-        rows.weights[r++] = static_cast<double>(errors.size());
+    for (const auto& [at, one] : cells) {
+        rows.log_widths.row(r) = one.sum.head(d).transpose() / one.weight;
+        rows.log_errors[r] = one.sum[d] / one.weight;
+        rows.weights[r++] = one.weight;
     }
     if (n > 0)
         rows.weights /= rows.weights.mean();
@@ -74,8 +95,9 @@ int level_of(const std::vector<double>& levels, double log_width) {
 
 /// How many of the coarsest levels a window may leave out: the rest is at least three, and half.
 int most_dropped(std::size_t levels) {
+    constexpr int most = 6; // more windows cost time alone
     const auto spare = static_cast<int>(levels) - static_cast<int>(fewest_levels);
-    return std::max(0, std::min(spare, static_cast<int>(levels) / 2));
+    return std::max(0, std::min({spare, static_cast<int>(levels) / 2, most}));
 }
 
 /// The leading terms; next terms in one width; next terms in all.
@@ -108,15 +130,11 @@ std::vector<std::vector<int>> places_within(const std::vector<int>& most) {
     return places;
 }
 
-double student_over_normal(int dof) {
-    return dof < 1 ? infinity : gsl_cdf_tdist_Pinv(0.975, dof) / normal_quantile;
-}
-
 } // namespace
 
 OrderEnsemble::OrderEnsemble(std::span<const ErrorRow> rows, std::vector<double> reference,
                              const OrderTuning& tuning)
-    : tuning_(tuning), rows_(usable_rows(rows)) {
+    : tuning_(tuning), rows_(usable_rows(rows, tuning)) {
     if (!reference.empty())
         rows_.log_reference =
             Eigen::Map<const Eigen::ArrayXd>(reference.data(), static_cast<Index>(reference.size()))
@@ -124,10 +142,14 @@ OrderEnsemble::OrderEnsemble(std::span<const ErrorRow> rows, std::vector<double>
     for (Index i = 0; i < rows_.widths(); ++i) {
         levels_.push_back(levels_of(rows_.log_widths.col(i), tuning_.one_level));
         if (levels_.back().size() < fewest_levels)
-            failure_ = "an order needs errors at three widths that differ by an eighth or more";
+            failure_ = levels_.back().size() == 1
+                           ? "all rows have the same width, or nearly"
+                           : "an order needs errors at three widths that differ by an eighth or "
+                             "more";
     }
-    if (rows_.size() == 0)
-        failure_ = "no row has a positive error";
+    if (rows_.size() < 2)
+        failure_ = rows_.size() == 0 ? "no row has a positive error"
+                                     : "one width alone has a positive error";
     if (!failure_.empty())
         return;
     if (rows_.widths() == 1) {
@@ -144,7 +166,10 @@ void OrderEnsemble::fit_sequence(const TermRows& rows) {
     const std::vector<TermShape> shapes{
         {{TermShape::none}}, {{1.0}}, {{2.0}}, {{TermShape::logarithm}}, {{TermShape::none}, true}};
     const auto& levels = levels_.front();
-    for (int dropped = 0; dropped + 2 <= static_cast<int>(levels.size()); ++dropped) {
+    constexpr std::size_t most_windows = 24;
+    const auto step = static_cast<int>(1 + levels.size() / most_windows);
+    for (int place = 0; place * step + 2 <= static_cast<int>(levels.size()); ++place) {
+        const int dropped = place * step;
         std::vector<Index> chosen;
         for (Index r = 0; r < rows.size(); ++r)
             if (level_of(levels, rows.log_widths(r, 0)) >= dropped)
@@ -153,7 +178,7 @@ void OrderEnsemble::fit_sequence(const TermRows& rows) {
         for (std::size_t k = 0; k < shapes.size(); ++k)
             if (static_cast<int>(levels.size()) - dropped >= shapes[k].parameters())
                 if (auto fit = fit_terms(window, shapes[k]))
-                    members_.push_back({std::move(*fit), static_cast<int>(k), {dropped}});
+                    members_.push_back({std::move(*fit), static_cast<int>(k), {place}});
     }
 }
 
@@ -216,14 +241,11 @@ void OrderEnsemble::fit_each_alone(const TermRows& rows) {
     }
 }
 
-namespace {
-
-using Numbers = std::map<std::pair<int, std::vector<int>>, FittedNumber>;
-
 /// The greatest change of a number when its window changes by one level, on any axis. Where an axis
 /// has no other window another model of the same window stands in, with the change of its own. None
 /// where there is nothing to compare with.
-std::optional<double> change_of(const Numbers& numbers, int family, const std::vector<int>& place) {
+std::optional<double> OrderEnsemble::change_of(const Numbers& numbers, int family,
+                                               const std::vector<int>& place) {
     const double value = numbers.at({family, place}).value;
     double change = 0;
     for (std::size_t i = 0; i < place.size(); ++i) {
@@ -254,9 +276,8 @@ std::optional<double> change_of(const Numbers& numbers, int family, const std::v
     return change;
 }
 
-} // namespace
-
-std::optional<OrderEnsemble::Mixture> OrderEnsemble::mix(const Functional& number) const {
+/// The numbers of all members that have one, with Student's factor on their errors.
+OrderEnsemble::Numbers OrderEnsemble::numbers_of(const Functional& number) const {
     Numbers numbers;
     for (const auto& member : members_)
         if (const auto one = number(member); one && std::isfinite(one->value))
@@ -267,6 +288,11 @@ std::optional<OrderEnsemble::Mixture> OrderEnsemble::mix(const Functional& numbe
                 member.fit.dof == 0 && levels_.size() == 1
                     ? 0.0
                     : one->error * student_over_normal(member.fit.dof)};
+    return numbers;
+}
+
+std::optional<OrderEnsemble::Mixture> OrderEnsemble::mix(const Functional& number) const {
+    const Numbers numbers = numbers_of(number);
     double weights = 0;
     double mean = 0;
     double square = 0;
@@ -325,7 +351,7 @@ std::string OrderEnsemble::motion(Index width) const {
         return {};
     const double last = means.back();
     const double step = last - means[means.size() - 2];
-    if (std::abs(step) < tuning_.standstill || std::abs(last) > 20)
+    if (std::abs(step) < tuning_.narrowest || std::abs(last) > 20)
         return {};
     for (std::size_t i = 1; i < means.size(); ++i)
         if ((means[i] - means[i - 1]) * step <= 0)
@@ -356,25 +382,87 @@ std::vector<OrderInterval> OrderEnsemble::orders() const {
         }
         order.determined = mixture && order.share >= tuning_.least_share && order.low > 0 &&
                            mixture->half <= tuning_.widest;
-        if (order.determined)
-            continue;
-        order.status = order.share < tuning_.least_share
-                           ? "hidden: its term is less than 15 % of every error"
-                           : motion(width);
-        if (order.status.empty())
-            order.status = "models and windows do not agree";
+        if (!order.determined)
+            order.status = status_of(width, order);
     }
     return result;
 }
 
-OrderInterval OrderEnsemble::forecast(const std::vector<double>& widths) const {
+std::string OrderEnsemble::status_of(Index width, const OrderInterval& order) const {
+    if (order.share < tuning_.least_share)
+        return "hidden: its term is less than 15 % of every error";
+    if (std::abs(order.value) <= 2 * tuning_.narrowest && order.half_width() <= tuning_.widest)
+        return "the error stands still";
+    if (order.high <= 0)
+        return with_number("the error grows under refinement, order %.2f", order.value);
+    const std::string moves = motion(width);
+    return moves.empty() ? "models and windows do not agree" : moves;
+}
+
+int OrderEnsemble::place_of(Index width, double log_width) const {
+    return level_of(levels_[static_cast<std::size_t>(width)], log_width);
+}
+
+bool OrderEnsemble::holds(const EnsembleMember& member, const std::vector<double>& widths) const {
+    for (std::size_t i = 0; i < levels_.size(); ++i)
+        if (place_of(static_cast<Index>(i), std::log(widths[i])) < member.place[i])
+            return false;
+    return true;
+}
+
+const EnsembleMember* OrderEnsemble::steadiest() const {
+    std::vector<double> units(members_.size(), 0.0);
+    for (Index i = 0; i < rows_.widths(); ++i) {
+        const auto numbers = numbers_of([&](const EnsembleMember& member) {
+            return member.family == 0 ? std::optional(member.fit.order(i)) : std::nullopt;
+        });
+        for (std::size_t k = 0; k < members_.size(); ++k) {
+            const auto found = numbers.find({members_[k].family, members_[k].place});
+            const auto change = found == numbers.end()
+                                    ? std::nullopt
+                                    : change_of(numbers, members_[k].family, members_[k].place);
+            units[k] = change ? std::hypot(units[k], found->second.error, *change) : infinity;
+        }
+    }
+    const EnsembleMember* best = nullptr;
+    double least = infinity;
+    for (std::size_t k = 0; k < members_.size(); ++k)
+        if (members_[k].family == 0 && (best == nullptr || units[k] < least - tuning_.narrowest)) {
+            best = &members_[k];
+            least = units[k];
+        }
+    return best;
+}
+
+bool OrderEnsemble::has_logarithm() const {
+    if (rows_.widths() != 1)
+        return false;
+    std::map<int, std::pair<double, double>> ranges; // of the order, over the windows of a family
+    for (const auto& member : members_) {
+        const double order = member.fit.order(0).value;
+        auto& [low, high] = ranges.try_emplace(member.family, order, order).first->second;
+        low = std::min(low, order);
+        high = std::max(high, order);
+    }
+    constexpr double far = 5; // so much steadier than all others
+    double others = infinity;
+    for (const auto& [family, range] : ranges)
+        if (family != logarithmic_family)
+            others = std::min(others, range.second - range.first);
+    const auto own = ranges.find(logarithmic_family);
+    return own != ranges.end() && levels_.front().size() > 4 &&
+           others > std::max(far * (own->second.second - own->second.first), tuning_.narrowest);
+}
+
+OrderInterval OrderEnsemble::forecast(const std::vector<double>& widths,
+                                      bool against_reference) const {
     const Eigen::VectorXd log_widths =
         Eigen::Map<const Eigen::ArrayXd>(widths.data(), static_cast<Index>(widths.size())).log();
     OrderInterval result{.status = failure_};
     const auto mixture = mix([&](const EnsembleMember& member) -> std::optional<FittedNumber> {
         if (member.along >= 0)
             return std::nullopt;
-        return member.fit.log_error(log_widths);
+        return member.fit.log_error(log_widths, against_reference);
     });
     if (!mixture)
         return result;

@@ -19,13 +19,16 @@
 /// (StREEQ, Sandia).
 #pragma once
 
+#include "studies/orders/observed_order.hpp"
 #include "studies/orders/term_model.hpp"
 
 #include <functional>
 #include <limits>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace tvbeam {
@@ -39,7 +42,8 @@ struct OrderTuning {
     /// A term that is a smaller part of the error in every row is hidden: next terms of the others
     /// are as large, and its order would be theirs.
     double least_share = 0.15;
-    /// Added to half the interval: what no change of window or model shows.
+    /// Added to half the interval: what no change of window or model shows. An order that changes
+    /// by less from window to window stands still.
     double narrowest = 0.01;
     /// Half of a grid's interval over the spread. Raised from 1 after a look at all three sets of
     /// grids, because the shipped solutions held 94 % only: a choice that is not free of them.
@@ -51,16 +55,19 @@ struct OrderTuning {
     double few_levels = 4.0;
     /// Added to u_m in the weights: models do not agree better than by chance.
     double agreement = 0.002;
-    /// Widths within this factor are one level: an order read between them is noise.
+    /// Widths within this factor are one level: an order read between them is noise. Scatter of 1 %
+    /// makes an order between them uncertain by 0.12.
     double one_level = 1.12;
-    /// The order moves where the last step to a finer window changes it by more than this.
-    double standstill = 0.02;
+    /// More rows than this are averaged over cells of a lattice in ln of the widths: only time
+    /// depends on it.
+    std::size_t most_rows = 400;
 };
 
 /// One run, or one row of a table.
 struct ErrorRow {
     std::vector<double> widths;                              ///< as many in every row; positive
     double error = std::numeric_limits<double>::quiet_NaN(); ///< a norm, not its square
+    double weight = 1;                                       ///< relative: 1 / variance of ln e
 };
 
 struct OrderInterval {
@@ -70,7 +77,7 @@ struct OrderInterval {
     bool determined = false;
     double share = 0; ///< the greatest part of a row's error that the term is
     /// Why it is not determined, as "rising past 1.68"; empty where it is.
-    std::string status;
+    std::string status = {};
 
     double half_width() const { return (high - low) / 2; }
 };
@@ -98,8 +105,17 @@ public:
     const std::string& failure() const { return failure_; }
     const std::vector<EnsembleMember>& members() const { return members_; }
     std::vector<OrderInterval> orders() const;
-    /// The error at other widths, with what the members say of it and of each other.
-    OrderInterval forecast(const std::vector<double>& widths) const;
+    /// The error at other widths, with what the members say of it and of each other; against the
+    /// exact solution, or against the reference.
+    OrderInterval forecast(const std::vector<double>& widths, bool against_reference = false) const;
+    /// The leading terms in the window whose orders are steadiest, of such the largest; null where
+    /// there is none.
+    const EnsembleMember* steadiest() const;
+    /// Of one width: a factor ln x makes the order stand still, and nothing else does.
+    bool has_logarithm() const;
+    /// Whether a row is in a member's window.
+    bool holds(const EnsembleMember& member, const std::vector<double>& widths) const;
+    const OrderTuning& tuning() const { return tuning_; }
 
 private:
     struct Mixture {
@@ -109,7 +125,13 @@ private:
     void fit_sequence(const TermRows& rows);
     void fit_all_widths(const TermRows& rows);
     void fit_each_alone(const TermRows& rows);
+    using Numbers = std::map<std::pair<int, std::vector<int>>, FittedNumber>;
+    static std::optional<double> change_of(const Numbers& numbers, int family,
+                                           const std::vector<int>& place);
+    Numbers numbers_of(const Functional& number) const;
+    int place_of(Eigen::Index width, double log_width) const;
     std::optional<Mixture> mix(const Functional& number) const;
+    std::string status_of(Eigen::Index width, const OrderInterval& order) const;
     double sequence_factor() const;
     double greatest_share(Eigen::Index width) const;
     std::string motion(Eigen::Index width) const;

@@ -247,6 +247,41 @@ LeastSquares reweighted(const ModelFunction& model, const TermRows& rows, LeastS
     return fit;
 }
 
+/// At ρ = ±1 sin φ has no derivative, and nothing an interval: the others have theirs with ρ held.
+LeastSquares with_rho_held_at_its_bound(const ModelFunction& model, const Layout& layout,
+                                        const TermRows& rows, LeastSquares fit) {
+    constexpr double at_the_bound = 1e-3; // 1 − |ρ| < 5e-7
+    std::vector<Eigen::Index> free;
+    for (Eigen::Index k = 0; k < layout.size(); ++k)
+        if (k < 2 * layout.widths() || k >= layout.pair(layout.widths() - 1, layout.widths()) ||
+            std::abs(std::cos(fit.theta[k])) >= at_the_bound)
+            free.push_back(k);
+    if (static_cast<Eigen::Index>(free.size()) == layout.size())
+        return fit;
+    const ModelFunction held = [&](const Eigen::VectorXd& theta, Eigen::VectorXd& values,
+                                   Eigen::MatrixXd* jacobian) {
+        Eigen::VectorXd all = fit.theta;
+        all(free) = theta;
+        Eigen::MatrixXd by_all = Eigen::MatrixXd::Zero(rows.size(), layout.size());
+        model(all, values, jacobian == nullptr ? nullptr : &by_all);
+        if (jacobian != nullptr)
+            *jacobian = by_all(Eigen::all, free);
+    };
+    const std::vector<Eigen::VectorXd> start{fit.theta(free)};
+    auto rest = least_squares(held, rows.log_errors, rows.weights, start);
+    if (!rest)
+        return fit;
+    rest = reweighted(held, rows, std::move(*rest));
+    LeastSquares whole = fit;
+    whole.theta(free) = rest->theta;
+    whole.covariance.setZero();
+    whole.covariance(free, free) = rest->covariance;
+    whole.residuals = rest->residuals;
+    whole.chi2 = rest->chi2;
+    whole.dof = rest->dof;
+    return whole;
+}
+
 } // namespace
 
 TermRows TermRows::subset(const std::vector<Eigen::Index>& chosen) const {
@@ -272,8 +307,9 @@ double TermFit::size(Eigen::Index width) const {
     return std::exp(theta[2 * width] - theta[2 * width + 1] * log_centre[width]);
 }
 
-double TermFit::correlation(Eigen::Index first, Eigen::Index second) const {
-    return std::sin(theta[Layout(shape, log_centre.size()).pair(first, second)]);
+FittedNumber TermFit::correlation(Eigen::Index first, Eigen::Index second) const {
+    const auto at = Layout(shape, log_centre.size()).pair(first, second);
+    return {std::sin(theta[at]), std::cos(theta[at]) * std::sqrt(covariance(at, at))};
 }
 
 double TermFit::term(Eigen::Index width, double log_width) const {
@@ -281,14 +317,16 @@ double TermFit::term(Eigen::Index width, double log_width) const {
     return term_at(layout, theta, width, log_width - log_centre[width]).value;
 }
 
-FittedNumber TermFit::log_error(const Eigen::VectorXd& log_widths) const {
+FittedNumber TermFit::log_error(const Eigen::VectorXd& log_widths, bool against_reference) const {
     const Layout layout(shape, log_centre.size());
     Eigen::VectorXd gradient = Eigen::VectorXd::Zero(layout.size());
     const std::function<void(Eigen::Index, double)> set = [&](Eigen::Index k, double value) {
         gradient[k] = value;
     };
-    const double value =
-        log_error_at(layout, theta, log_widths - log_centre, Eigen::VectorXd(), &set);
+    const Eigen::VectorXd reference = against_reference && log_reference.size() > 0
+                                          ? Eigen::VectorXd(log_reference - log_centre)
+                                          : Eigen::VectorXd();
+    const double value = log_error_at(layout, theta, log_widths - log_centre, reference, &set);
     return {value, std::sqrt(gradient.dot(covariance * gradient))};
 }
 
@@ -309,6 +347,10 @@ std::optional<TermFit> fit_terms(const TermRows& given, const TermShape& shape,
     if (!best)
         return std::nullopt;
     *best = reweighted(model, rows, std::move(*best));
+    // A longer model that fits far worse than the one within it has ended in a false valley.
+    constexpr double far_worse = 2;
+    if (simpler == nullptr || best->scale() <= far_worse * simpler->scale)
+        *best = with_rho_held_at_its_bound(model, layout, rows, std::move(*best));
     return TermFit{.shape = shape,
                    .theta = best->theta,
                    .covariance = best->covariance,

@@ -60,17 +60,17 @@ struct TermFit {
     Eigen::MatrixXd covariance; ///< of theta; infinite on its diagonal where it is not determined
     Eigen::VectorXd log_centre; ///< ln of the unit of each width
     Eigen::VectorXd log_reference;
-    Eigen::VectorXd residuals; ///< of every row, ln e − ln model
+    Eigen::VectorXd residuals; ///< of every row of the window, ln e − ln model
     double scale = 0;          ///< sqrt(χ² / dof) of the robust fit
     int dof = 0;
 
     FittedNumber order(Eigen::Index width) const; ///< p_i
     double size(Eigen::Index width) const;        ///< a_i, of the width in its own unit
-    double correlation(Eigen::Index first, Eigen::Index second) const; ///< ρ
+    FittedNumber correlation(Eigen::Index first, Eigen::Index second) const; ///< ρ
     /// T_i at a row.
     double term(Eigen::Index width, double log_width) const;
-    /// ln e at a row.
-    FittedNumber log_error(const Eigen::VectorXd& log_widths) const;
+    /// ln e at a row, against the exact solution or against the reference.
+    FittedNumber log_error(const Eigen::VectorXd& log_widths, bool against_reference = false) const;
 };
 
 /// The robust fit: least squares, reweighted by Cauchy's function of residual over scatter, so that

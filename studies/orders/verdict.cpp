@@ -1,9 +1,10 @@
 #include "studies/orders/verdict.hpp"
 
+#include "studies/orders/order_engine.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <limits>
 #include <utility>
 
 namespace tvbeam {
@@ -22,6 +23,9 @@ constexpr double floor_scatter = 3.0;
 constexpr double much_larger = 4.0;
 /// A row is described by the model where the two differ by less than this part of the error.
 constexpr double model_tolerance = 0.2;
+/// The orders of the window already run towards that of the finest row, by this part of the step
+/// that is left: a drift, and no kink that one row shows.
+constexpr double drift_part = 0.1;
 
 std::string text(const char* format, double first = 0, double second = 0) {
     char result[200];
@@ -29,33 +33,52 @@ std::string text(const char* format, double first = 0, double second = 0) {
     return result;
 }
 
-bool agree(double left, double right, double tolerance) {
-    return std::abs(left - right) <= tolerance * std::max(std::abs(left), std::abs(right));
-}
-
-/// The rows that have an error that is known, and the orders between them: a failed row in between
-/// is passed over.
-struct Usable {
+/// Rows of one level, and the means of their logarithms.
+struct Level {
     std::vector<std::size_t> rows;
-    std::vector<Refinement> records;
-    std::vector<std::optional<double>> orders;
-
-    std::size_t size() const { return rows.size(); }
+    Refinement first;
+    Refinement mean;
 };
 
-Usable usable_rows(std::span<const Refinement> ladder) {
-    Usable usable;
-    for (std::size_t i = 0; i < ladder.size(); ++i) {
-        if (!std::isfinite(ladder[i].error) || ladder[i].error <= 0 || !ladder[i].is_resolved())
-            continue;
-        usable.rows.push_back(i);
-        usable.records.push_back(ladder[i]);
-    }
-    usable.orders = observed_orders(usable.records);
-    return usable;
+/// Whether two records are one piece of information.
+bool are_one_level(const Refinement& from, const Refinement& to) {
+    const auto same = [](double a, double b) { return (std::isnan(a) && std::isnan(b)) || a == b; };
+    if (same(from.h, to.h) && same(from.dt, to.dt))
+        return true;
+    const auto ratio = refinement_ratio(from, to);
+    return ratio && std::abs(std::log(*ratio)) < std::log(OrderTuning{}.one_level);
 }
 
-/// Positions in Usable; the orders are those of first + 1 … last.
+/// Their mean, exactly where all are the same.
+void take_mean(std::span<const Refinement> ladder, Level& level) {
+    for (double Refinement::*figure : {&Refinement::h, &Refinement::dt, &Refinement::error}) {
+        double sum = 0;
+        bool differ = false;
+        for (const auto i : level.rows) {
+            sum += std::log(ladder[i].*figure);
+            differ = differ || ladder[i].*figure != level.first.*figure;
+        }
+        if (differ)
+            level.mean.*figure = std::exp(sum / static_cast<double>(level.rows.size()));
+    }
+}
+
+/// The rows that have an error that is known: a failed row in between is passed over.
+std::vector<Level> levels_of(std::span<const Refinement> ladder) {
+    std::vector<Level> levels;
+    for (std::size_t i = 0; i < ladder.size(); ++i) {
+        if (!is_positive(ladder[i].error) || !ladder[i].is_resolved())
+            continue;
+        if (levels.empty() || !are_one_level(levels.back().first, ladder[i]))
+            levels.push_back({{}, ladder[i], ladder[i]});
+        levels.back().rows.push_back(i);
+    }
+    for (auto& level : levels)
+        take_mean(ladder, level);
+    return levels;
+}
+
+/// Levels first … last whose orders, those of first + 1 … last, agree.
 struct Run {
     std::size_t first = 0;
     std::size_t last = 0;
@@ -64,183 +87,216 @@ struct Run {
     std::size_t orders() const { return last - first; }
 };
 
-double mean_order(const Usable& usable, std::size_t first, std::size_t last) {
-    const auto ratio = refinement_ratio(usable.records[first], usable.records[last]);
-    return ratio ? std::log(usable.records[first].error / usable.records[last].error) /
-                       std::log(*ratio)
-                 : 0.0;
-}
+/// The orders between levels, judged without a model.
+class Pairwise {
+public:
+    Pairwise(std::vector<Refinement> levels, const VerdictOptions& options)
+        : levels_(std::move(levels)), orders_(observed_orders(levels_)), options_(options) {
+        find_window();
+        if (!run_)
+            judge_without_window();
+    }
+    const std::vector<RowVerdict>& verdicts() const { return verdicts_; }
+    const std::optional<Run>& run() const { return run_; }
 
-/// The run that ends at `last` and grows towards coarser rows as long as they agree with it.
-std::optional<Run> run_ending_at(const Usable& usable, std::size_t last,
-                                 const VerdictOptions& options) {
-    const auto sound = [&](std::size_t i) {
-        return usable.orders[i] && *usable.orders[i] > standstill &&
-               (!options.expected_order ||
-                agree(*usable.orders[i], *options.expected_order, options.tolerance));
-    };
-    const std::size_t fewest = options.expected_order ? 1 : 2;
-    if (!sound(last))
-        return std::nullopt;
-    std::size_t first = last - 1;
-    while (first > 0 && sound(first) &&
-           agree(*usable.orders[first], mean_order(usable, first, last), options.tolerance) &&
-           agree(*usable.orders[first], *usable.orders[first + 1], options.tolerance))
-        --first;
-    if (last - first < fewest)
-        return std::nullopt;
-    return Run{first, last, mean_order(usable, first, last)};
-}
+private:
+    std::size_t size() const { return levels_.size(); }
 
-/// A dip: steeper than the window's order into the row, flatter or back up out of it.
-bool is_dip(const Usable& usable, std::size_t i, const Run& run, double tolerance) {
-    return i + 1 < usable.size() && usable.orders[i] && usable.orders[i + 1] &&
-           *usable.orders[i] > (1 + tolerance) * run.order &&
-           *usable.orders[i + 1] < (1 - tolerance) * run.order;
-}
+    bool agree(double left, double right) const {
+        return std::abs(left - right) <=
+               options_.tolerance * std::max(std::abs(left), std::abs(right));
+    }
 
-double least_error(const Usable& usable, std::size_t last) {
-    double least = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i <= last; ++i)
-        least = std::min(least, usable.records[i].error);
-    return least;
-}
+    bool is_sound(std::size_t i) const {
+        return orders_[i] && *orders_[i] > standstill &&
+               (!options_.expected_order || agree(*orders_[i], *options_.expected_order));
+    }
 
-RowVerdict past_the_window(const Usable& usable, std::size_t i, const Run& run,
-                           const VerdictOptions& options) {
-    if (!usable.orders[i])
-        return {Verdict::pre_asymptotic, "nothing is refined against the row before"};
-    const double order = *usable.orders[i];
-    if (order < 0 && usable.records[i].error > floor_scatter * least_error(usable, i))
-        return {Verdict::diverging,
-                text("the error grows again, order %.2f after %.2f", order, run.order)};
-    if (order < floor_part * run.order)
-        return {Verdict::floor, text("the error stands still near %.1e, order %.2f",
-                                     usable.records[i].error, order)};
-    if (agree(order, run.order, options.tolerance))
+    double mean_order(std::size_t first, std::size_t last) const {
+        const Refinement ends[] = {levels_[first], levels_[last]};
+        return observed_orders(ends)[1].value_or(0.0);
+    }
+
+    /// The run that ends at `last` and grows towards coarser levels as long as they agree with it.
+    std::optional<Run> run_ending_at(std::size_t last) const {
+        if (!is_sound(last))
+            return std::nullopt;
+        std::size_t first = last - 1;
+        while (first > 0 && is_sound(first) && agree(*orders_[first], mean_order(first, last)) &&
+               agree(*orders_[first], *orders_[first + 1]))
+            --first;
+        const std::size_t fewest = options_.expected_order ? 1 : 2;
+        if (last - first < fewest)
+            return std::nullopt;
+        return Run{first, last, mean_order(first, last)};
+    }
+
+    /// The finest run that finer levels do not refute.
+    void find_window() {
+        std::vector<Run> runs; // finest first
+        for (std::size_t last = size(); last-- > 1;)
+            if (const auto run = run_ending_at(last)) {
+                runs.push_back(*run);
+                last = run->first + 1;
+            }
+        for (std::size_t k = 0; k < runs.size(); ++k) {
+            const bool floor_in_disguise =
+                std::any_of(runs.begin() + static_cast<std::ptrdiff_t>(k) + 1, runs.end(),
+                            [&](const Run& coarser) {
+                                return coarser.orders() >= runs[k].orders() &&
+                                       coarser.order > much_larger * runs[k].order;
+                            });
+            if (floor_in_disguise)
+                continue;
+            judge_with(runs[k]);
+            if (is_refuted(runs[k])) {
+                verdicts_.clear();
+                continue;
+            }
+            run_ = runs[k];
+            return;
+        }
+    }
+
+    /// A dip: steeper than the window's order into the level, flatter or back up out of it.
+    bool is_dip(std::size_t i, const Run& run) const {
+        return i + 1 < size() && orders_[i] && orders_[i + 1] &&
+               *orders_[i] > (1 + options_.tolerance) * run.order &&
+               *orders_[i + 1] < (1 - options_.tolerance) * run.order;
+    }
+
+    void judge_with(const Run& run) {
+        verdicts_.assign(size(), {});
+        double least = levels_.empty() ? 0.0 : levels_.front().error;
+        for (std::size_t i = 0; i < size(); ++i) {
+            least = std::min(least, levels_[i].error);
+            if (i >= run.first && i <= run.last)
+                verdicts_[i] = {Verdict::asymptotic,
+                                text("order %.2f over the rows that agree", run.order)};
+            else if (is_dip(i, run))
+                verdicts_[i] = {
+                    Verdict::cancellation,
+                    text("the error dips, order %.2f and then %.2f", *orders_[i], *orders_[i + 1])};
+            else if (i > 0 && verdicts_[i - 1].verdict == Verdict::cancellation)
+                verdicts_[i] = {Verdict::cancellation,
+                                text("order %.2f out of the dip before", *orders_[i])};
+            else if (i > run.last)
+                verdicts_[i] = past_the_window(i, run, least);
+            else
+                verdicts_[i] = {Verdict::pre_asymptotic,
+                                text("coarser than the rows that show order %.2f", run.order)};
+        }
+        // On its way into a floor the order falls through all values in between.
+        for (std::size_t i = size() - 1; i-- > run.last + 1;)
+            if (verdicts_[i + 1].verdict == Verdict::floor &&
+                verdicts_[i].verdict == Verdict::pre_asymptotic && orders_[i] &&
+                *orders_[i] < (1 - options_.tolerance) * run.order)
+                verdicts_[i] = {Verdict::floor, text("a floor begins to show, order %.2f of %.2f",
+                                                     *orders_[i], run.order)};
+    }
+
+    RowVerdict past_the_window(std::size_t i, const Run& run, double least) const {
+        if (!orders_[i])
+            return {Verdict::pre_asymptotic, "nothing is refined against the row before"};
+        const double order = *orders_[i];
+        if (order < 0 && levels_[i].error > floor_scatter * least)
+            return {Verdict::diverging,
+                    text("the error grows again, order %.2f after %.2f", order, run.order)};
+        if (order < floor_part * run.order)
+            return {Verdict::floor, text("the error stands still near %.1e", levels_[i].error)};
+        if (agree(order, run.order))
+            return {Verdict::pre_asymptotic,
+                    text("order %.2f, but no longer with its neighbours", order)};
         return {Verdict::pre_asymptotic,
-                text("order %.2f, but no longer with its neighbours", order)};
-    return {Verdict::pre_asymptotic,
-            text("order %.2f departs from the %.2f of the rows before", order, run.order)};
-}
-
-/// On its way into a floor the order falls through all values in between.
-void lead_into_floor(const Usable& usable, const Run& run, const VerdictOptions& options,
-                     std::vector<RowVerdict>& verdicts) {
-    for (std::size_t i = usable.size() - 1; i-- > run.last + 1;)
-        if (verdicts[i + 1].verdict == Verdict::floor &&
-            verdicts[i].verdict == Verdict::pre_asymptotic && usable.orders[i] &&
-            *usable.orders[i] < (1 - options.tolerance) * run.order)
-            verdicts[i] = {Verdict::floor, text("a floor begins to show, order %.2f of %.2f",
-                                                *usable.orders[i], run.order)};
-}
-
-std::vector<RowVerdict> with_window(const Usable& usable, const Run& run,
-                                    const VerdictOptions& options) {
-    std::vector<RowVerdict> verdicts(usable.size());
-    for (std::size_t i = 0; i < usable.size(); ++i) {
-        const bool inside = i >= run.first && i <= run.last;
-        if (inside)
-            verdicts[i] = {Verdict::asymptotic,
-                           text("order %.2f over the rows that agree", run.order)};
-        else if (is_dip(usable, i, run, options.tolerance))
-            verdicts[i] = {Verdict::cancellation, text("the error dips, order %.2f and then %.2f",
-                                                       *usable.orders[i], *usable.orders[i + 1])};
-        else if (i > 0 && verdicts[i - 1].verdict == Verdict::cancellation)
-            verdicts[i] = {Verdict::cancellation,
-                           text("order %.2f out of the dip before", *usable.orders[i])};
-        else if (i > run.last)
-            verdicts[i] = past_the_window(usable, i, run, options);
-        else if (usable.orders[i])
-            verdicts[i] = {Verdict::pre_asymptotic,
-                           text("order %.2f, finer rows show %.2f", *usable.orders[i], run.order)};
-        else
-            verdicts[i] = {Verdict::pre_asymptotic,
-                           text("coarser than the rows that show order %.2f", run.order)};
+                text("order %.2f departs from the %.2f of the rows before", order, run.order)};
     }
-    lead_into_floor(usable, run, options, verdicts);
-    return verdicts;
-}
 
-/// The orders of the window already run towards that of the finest row, by this part of the step
-/// that is left: a drift, and no kink that one row shows.
-constexpr double drift_part = 0.1;
-
-/// Do finer rows contradict the window? A floor, a dip and a divergence past it are events of their
-/// own; any other order is what the window's would have to be. The finest row alone is not
-/// confirmed by another, so that its kink stands beside the window, unless the window drifts there.
-bool is_refuted(const Usable& usable, const Run& run, const std::vector<RowVerdict>& verdicts) {
-    for (std::size_t i = run.last + 1; i < usable.size(); ++i) {
-        if (verdicts[i].verdict != Verdict::pre_asymptotic || !usable.orders[i])
-            continue;
-        if (i != run.last + 1 || i + 1 != usable.size())
-            return true;
-        const double step = *usable.orders[i] - *usable.orders[run.last];
-        const double drift = *usable.orders[run.last] - *usable.orders[run.first + 1];
-        if (drift * step > drift_part * step * step)
-            return true;
+    /// Do finer levels contradict the window? A floor, a dip and a divergence past it are events of
+    /// their own; any other order is what the window's would have to be. The finest level alone is
+    /// not confirmed by another, so that its kink stands beside the window, unless the window
+    /// drifts there.
+    bool is_refuted(const Run& run) const {
+        for (std::size_t i = run.last + 1; i < size(); ++i) {
+            if (verdicts_[i].verdict != Verdict::pre_asymptotic || !orders_[i])
+                continue;
+            if (i != run.last + 1 || i + 1 != size())
+                return true;
+            const double step = *orders_[i] - *orders_[run.last];
+            const double drift = *orders_[run.last] - *orders_[run.first + 1];
+            if (drift * step > drift_part * step * step)
+                return true;
+        }
+        return false;
     }
-    return false;
-}
 
-/// The finest window that holds, and the verdicts it leads to.
-struct Judged {
-    Run run;
-    std::vector<RowVerdict> verdicts;
+    RowVerdict alone(double order, bool only_order) const {
+        if (order < -standstill)
+            return {Verdict::diverging,
+                    text("the error grows under refinement, order %.2f", order)};
+        if (order <= standstill)
+            return {Verdict::floor, text("the error does not change, order %.2f", order)};
+        if (options_.expected_order)
+            return {Verdict::pre_asymptotic,
+                    text("order %.2f, expected is %.2f", order, *options_.expected_order)};
+        if (only_order)
+            return {Verdict::pre_asymptotic,
+                    text("order %.2f, which no other row confirms", order)};
+        return {Verdict::pre_asymptotic, "the orders do not agree"};
+    }
+
+    void judge_without_window() {
+        const auto known = std::count_if(orders_.begin(), orders_.end(),
+                                         [](const auto& order) { return order.has_value(); });
+        for (std::size_t i = 0; i < size(); ++i)
+            verdicts_.push_back(
+                orders_[i] ? alone(*orders_[i], known == 1)
+                : size() == 1
+                    ? RowVerdict{Verdict::pre_asymptotic, "one width alone shows no order"}
+                    : RowVerdict{Verdict::pre_asymptotic,
+                                 "nothing is refined against the row before"});
+        // The first level is one end of the pair that is judged in the second.
+        if (size() > 1 && orders_[1])
+            verdicts_[0] = verdicts_[1];
+    }
+
+    std::vector<Refinement> levels_;
+    std::vector<std::optional<double>> orders_;
+    const VerdictOptions& options_;
+    std::optional<Run> run_;
+    std::vector<RowVerdict> verdicts_;
 };
 
-std::optional<Judged> asymptotic_run(const Usable& usable, const VerdictOptions& options) {
-    std::vector<Run> runs; // finest first
-    for (std::size_t last = usable.size(); last-- > 1;)
-        if (const auto run = run_ending_at(usable, last, options)) {
-            runs.push_back(*run);
-            last = run->first + 1;
-        }
-    for (std::size_t k = 0; k < runs.size(); ++k) {
-        const bool floor_in_disguise = std::any_of(
-            runs.begin() + static_cast<std::ptrdiff_t>(k) + 1, runs.end(), [&](const Run& coarser) {
-                return coarser.orders() >= runs[k].orders() &&
-                       coarser.order > much_larger * runs[k].order;
-            });
-        if (floor_in_disguise)
+/// Levels that stand off a line on which the neighbours on both sides lie: the order into one and
+/// the order out of it depart from the order past it, one up and one down, and two more orders
+/// agree with that.
+std::vector<bool> outliers_of(std::span<const Refinement> levels, double tolerance) {
+    std::vector<bool> out(levels.size(), false);
+    const auto orders = observed_orders(levels);
+    for (std::size_t i = 1; i + 1 < levels.size(); ++i) {
+        const Refinement past[] = {levels[i - 1], levels[i + 1]};
+        const auto across = observed_orders(past)[1];
+        if (out[i - 1] || !across || !orders[i] || !orders[i + 1] || *across <= standstill)
             continue;
-        auto verdicts = with_window(usable, runs[k], options);
-        if (!is_refuted(usable, runs[k], verdicts))
-            return Judged{runs[k], std::move(verdicts)};
+        const double into = *orders[i] - *across;
+        const double out_of = *orders[i + 1] - *across;
+        const double slack = tolerance * *across;
+        if (into * out_of >= 0 || std::min(std::abs(into), std::abs(out_of)) < 2 * slack)
+            continue;
+        std::size_t confirmed = 0;
+        bool denied = false;
+        for (std::size_t k = 1; k < levels.size(); ++k)
+            if (k != i && k != i + 1 && orders[k]) {
+                const bool near = std::abs(*orders[k] - *across) <= slack;
+                confirmed += near ? 1 : 0;
+                denied = denied || (!near && (k + 1 == i || k == i + 2));
+            }
+        out[i] = confirmed >= 2 && !denied;
     }
-    return std::nullopt;
+    return out;
 }
 
-RowVerdict alone(double order, bool only_order, const VerdictOptions& options) {
-    if (order < -standstill)
-        return {Verdict::diverging, text("the error grows under refinement, order %.2f", order)};
-    if (order <= standstill)
-        return {Verdict::floor, text("the error does not change, order %.2f", order)};
-    if (options.expected_order)
-        return {Verdict::pre_asymptotic,
-                text("order %.2f, expected is %.2f", order, *options.expected_order)};
-    if (only_order)
-        return {Verdict::pre_asymptotic, text("order %.2f, which no other row confirms", order)};
-    return {Verdict::pre_asymptotic, text("order %.2f, the orders do not agree", order)};
-}
-
-std::vector<RowVerdict> without_window(const Usable& usable, const VerdictOptions& options) {
-    std::vector<RowVerdict> verdicts(usable.size());
-    const auto known = static_cast<std::size_t>(
-        std::count_if(usable.orders.begin(), usable.orders.end(),
-                      [](const auto& order) { return order.has_value(); }));
-    for (std::size_t i = 0; i < usable.size(); ++i)
-        verdicts[i] = usable.orders[i]
-                          ? alone(*usable.orders[i], known == 1, options)
-                          : RowVerdict{Verdict::pre_asymptotic, "one row alone shows no order"};
-    // The first row is one end of the pair that is judged in the second.
-    if (usable.size() > 1 && usable.orders[1])
-        verdicts[0] = {verdicts[1].verdict, "first of a pair: " + verdicts[1].reason};
-    return verdicts;
-}
-
-std::string ruled_by(const ForecastRow& row) {
-    return row.ruling == Ruling::space ? "the h term rules" : "the dt term rules";
+std::string dominant(const ForecastRow& row) {
+    return row.ruling == Ruling::space ? "the h term dominates" : "the dt term dominates";
 }
 
 RowVerdict by_model(const LadderForecast& view, std::size_t i, std::size_t rows) {
@@ -250,9 +306,9 @@ RowVerdict by_model(const LadderForecast& view, std::size_t i, std::size_t rows)
                                             row.spatial, row.temporal)};
     if (view.asymptotic_from && i >= view.asymptotic_from->row)
         return {Verdict::asymptotic,
-                ruled_by(row) + text(", order %.2f to the end", view.asymptotic_order)};
+                dominant(row) + text(", order %.2f to the end", view.asymptotic_order)};
     std::string reason =
-        ruled_by(row) + text(" here; in the end the order is %.2f", view.asymptotic_order);
+        dominant(row) + text(" here; in the end the order is %.2f", view.asymptotic_order);
     if (view.asymptotic_from && view.asymptotic_from->row >= rows)
         reason += text(", from h = %.1e, dt = %.1e on", view.asymptotic_from->h,
                        view.asymptotic_from->dt);
@@ -260,16 +316,15 @@ RowVerdict by_model(const LadderForecast& view, std::size_t i, std::size_t rows)
 }
 
 /// Rows of which the model speaks true take its verdict.
-void prefer_model(const Usable& usable, const VerdictOptions& options,
+void prefer_model(std::span<const Refinement> levels, const VerdictOptions& options,
                   std::vector<RowVerdict>& verdicts) {
-    for (const auto& record : usable.records)
+    for (const auto& record : levels)
         if (!(record.h > 0 && record.dt > 0 && std::isfinite(record.h * record.dt)))
             return;
-    const auto view = forecast(*options.model, usable.records, options.tolerance);
-    for (std::size_t i = 0; i < usable.size(); ++i)
-        if (std::abs(usable.records[i].error - view.rows[i].error) <=
-            model_tolerance * usable.records[i].error)
-            verdicts[i] = by_model(view, i, usable.size());
+    const auto view = forecast(*options.model, levels, options.tolerance);
+    for (std::size_t i = 0; i < levels.size(); ++i)
+        if (std::abs(levels[i].error - view.rows[i].error) <= model_tolerance * levels[i].error)
+            verdicts[i] = by_model(view, i, levels.size());
 }
 
 RowVerdict unusable(const Refinement& record) {
@@ -297,6 +352,8 @@ const char* name_of(Verdict verdict) {
         return "floor";
     case Verdict::diverging:
         return "diverging";
+    case Verdict::outlier:
+        return "outlier";
     case Verdict::unresolved:
         return "unresolved";
     case Verdict::exact:
@@ -311,18 +368,38 @@ LadderVerdict judge(std::span<const Refinement> ladder, const VerdictOptions& op
     LadderVerdict result;
     for (const auto& record : ladder)
         result.rows.push_back(unusable(record));
-    const auto usable = usable_rows(ladder);
-    if (usable.size() == 0)
+    result.orders.resize(ladder.size());
+    const auto levels = levels_of(ladder);
+    if (levels.empty())
         return result;
-    auto judged = asymptotic_run(usable, options);
-    auto verdicts = judged ? std::move(judged->verdicts) : without_window(usable, options);
-    if (judged)
-        result.window = {usable.rows[judged->run.first], usable.rows[judged->run.last],
-                         judged->run.order};
+    std::vector<Refinement> means;
+    for (const auto& level : levels)
+        means.push_back(level.mean);
+    const auto orders = observed_orders(means);
+    const auto out = outliers_of(means, options.tolerance);
+    std::vector<std::size_t> kept; // positions in levels
+    std::vector<Refinement> in_line;
+    for (std::size_t i = 0; i < levels.size(); ++i)
+        if (!out[i]) {
+            kept.push_back(i);
+            in_line.push_back(means[i]);
+        }
+    const Pairwise judged(in_line, options);
+    if (const auto& run = judged.run())
+        result.window = {levels[kept[run->first]].rows.front(), levels[kept[run->last]].rows.back(),
+                         run->order};
+    auto of_kept = judged.verdicts();
     if (options.model != nullptr)
-        prefer_model(usable, options, verdicts);
-    for (std::size_t i = 0; i < usable.size(); ++i)
-        result.rows[usable.rows[i]] = std::move(verdicts[i]);
+        prefer_model(in_line, options, of_kept);
+    std::vector<RowVerdict> verdicts(levels.size(),
+                                     {Verdict::outlier, "out of line with the rows beside it"});
+    for (std::size_t k = 0; k < kept.size(); ++k)
+        verdicts[kept[k]] = std::move(of_kept[k]);
+    for (std::size_t i = 0; i < levels.size(); ++i) {
+        result.orders[levels[i].rows.front()] = orders[i];
+        for (const std::size_t row : levels[i].rows)
+            result.rows[row] = verdicts[i];
+    }
     return result;
 }
 

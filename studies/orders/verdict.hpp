@@ -1,13 +1,15 @@
 /// What each row of a ladder of refinements shows, in a word and a short sentence.
 ///
-/// The rows run from coarse to fine. Without a model the judgement rests on the pairwise orders
-/// alone: the asymptotic window is the finest run of rows whose orders are positive and agree with
-/// each other, and are not refuted by finer rows: past the window there is nothing, a floor, a dip
-/// or a divergence, or one last row whose other order nothing confirms and towards which the window
-/// does not drift. One order is never enough for that, so a ladder of two rows is not asymptotic,
-/// unless the expected order is given and met. With a two-term model of the same norm, rows that
-/// the model describes are judged by it: it knows the order that the ladder will show in the end,
-/// and a cancellation from an order.
+/// The rows run from coarse to fine. Rows whose widths differ by less than an eighth are one level,
+/// of their mean error: an order read between them is noise. Without a model the judgement rests on
+/// the orders between levels alone: a level far off the line of its neighbours is an outlier, and
+/// passed over; the asymptotic window is the finest run of rows whose orders are positive and agree
+/// with each other, and are not refuted by finer rows: past the window there is nothing, a floor, a
+/// dip or a divergence, or one last row whose other order nothing confirms and towards which the
+/// window does not drift. One order is never enough for that, so a ladder of two rows is not
+/// asymptotic, unless the expected order is given and met. With a two-term model of the same norm,
+/// rows that the model describes are judged by it: it knows the order that the ladder will show in
+/// the end, and a cancellation from an order.
 #pragma once
 
 #include "studies/orders/observed_order.hpp"
@@ -27,13 +29,14 @@ enum class Verdict {
     cancellation,   ///< two error terms take each other away
     floor,          ///< the error stands still: rounding, or a term that is not refined
     diverging,      ///< the error grows under refinement
+    outlier,        ///< out of line with rows on both sides, which agree without it
     unresolved, ///< the error itself is uncertain (Refinement::uncertainty); confirms no other row
     exact,      ///< the error is zero
     failed      ///< no error, or none that is a number
 };
 
-/// "asymptotic", "pre-asymptotic", "cancellation", "floor", "diverging", "unresolved", "exact",
-/// "failed"
+/// "asymptotic", "pre-asymptotic", "cancellation", "floor", "diverging", "outlier", "unresolved",
+/// "exact", "failed"
 const char* name_of(Verdict verdict);
 
 struct RowVerdict {
@@ -52,6 +55,8 @@ struct VerdictOptions {
 
 struct LadderVerdict {
     std::vector<RowVerdict> rows; ///< one for each record
+    /// Between levels: in the first record of each, against the level before that has an error.
+    std::vector<std::optional<double>> orders;
     /// The first and last record of the asymptotic window, and the order of the errors between
     /// them; none where no window is found. These come from the pairwise orders, also where there
     /// is a model.

@@ -83,7 +83,9 @@ BOOST_AUTO_TEST_CASE(csv_and_json_hold_the_same_doubles) {
     BOOST_TEST(
         line ==
         "elements,h,dt,steps,status,theta_L2L2_sq,theta_L2L2_sq_order,theta_L2L2_sq_predicted,"
-        "u_LinfH2semi_sq,u_LinfH2semi_sq_order,u_LinfH2semi_sq_predicted,seconds,reason");
+        "theta_L2L2_sq_predicted_low,theta_L2L2_sq_predicted_high,"
+        "u_LinfH2semi_sq,u_LinfH2semi_sq_order,u_LinfH2semi_sq_predicted,"
+        "u_LinfH2semi_sq_predicted_low,u_LinfH2semi_sq_predicted_high,seconds,reason");
     for (const auto& rung : json.at("ladder").at("rungs")) {
         BOOST_REQUIRE(std::getline(lines, line));
         std::istringstream fields(line);
@@ -262,6 +264,56 @@ BOOST_AUTO_TEST_CASE(analyse_reads_any_solver_s_errors) {
     BOOST_TEST(call(directory, small + " --csv " + csv).exit == 0);
     BOOST_TEST(has(call(directory, "analyse " + csv + " --error theta_L2L2_sq").output, "order"));
     BOOST_TEST(call(directory, "analyse " + directory.write("bad.csv", "a,b\n1,2\n")).exit == 2);
+}
+
+// e = 100/n² in the plane, h = n^(-1/2): order 4 in h. The same gates as a scene has.
+BOOST_AUTO_TEST_CASE(analyse_writes_and_gates_as_a_scene_does) {
+    const TemporaryDirectory directory;
+    const std::string in = directory.path().string() + "/";
+    const std::string table = directory.write(
+        "t.dat", "# ndofs L2 drag\n6400 2.44140625D-06 2.00015625\n100 1.0D-02 2.01\n"
+                 "1600 3.90625d-5 2.000625\n400 6.25-4 2.0025\n");
+    const std::string analyse =
+        "analyse " + table + " --size ndofs --dimension 2 --error L2 --value drag ";
+    const std::string files = "--json " + in + "a.json --csv " + in + "a.csv --out " + in +
+                              "out --junit " + in + "j.xml --record " + in + "b.json ";
+    const Called good = call(directory, analyse + files + "--expect 'L2.order = [3.9, 4.1]'",
+                             "GITHUB_STEP_SUMMARY=" + in + "summary.md ");
+    BOOST_TEST(good.exit == 0);
+    BOOST_TEST(has(good.output, "h = ndofs^(-1/2)"));
+    BOOST_TEST(has(good.output, "order in h 4.000"));
+    const auto text_of = [&](const std::string& name) {
+        std::ostringstream text;
+        text << std::ifstream(in + name).rdbuf();
+        return text.str();
+    };
+    const auto json = nlohmann::json::parse(text_of("a.json"));
+    BOOST_TEST(json["schema"] == "tvbeam-analysis/1");
+    BOOST_TEST(json["columns"][0]["orders"]["h"]["low"].get<double>() < 4.0);
+    BOOST_TEST(json["columns"][0]["orders"]["h"]["high"].get<double>() > 4.0);
+    BOOST_TEST(json["columns"][1]["kind"] == "value");
+    BOOST_TEST(json["columns"][1]["limit"]["low"].get<double>() < 2.0);
+    BOOST_TEST(json["columns"][1]["limit"]["high"].get<double>() > 2.0);
+    BOOST_TEST(has(text_of("a.csv"), "h,L2,L2_order,L2_verdict,drag"));
+    BOOST_TEST(has(text_of("j.xml"), "failures=\"0\""));
+    BOOST_TEST(has(text_of("out/report.html"), "L2"));
+    BOOST_TEST(has(text_of("out/plots/convergence.gp"), "convergence.svg"));
+    BOOST_TEST(has(text_of("summary.md"), "| ok |"));
+
+    const std::string gates =
+        directory.write("gates.toml", "[L2]\norder.h = [1.9, 2.1]\norders = [3.9, 4.1]\n[drag]\n"
+                                      "limit = [1.9, 2.1]\nuncertainty = [0, 1]\n");
+    const Called bad = call(directory, analyse + "--expect " + gates);
+    BOOST_TEST(bad.exit == 1);
+    BOOST_TEST(has(bad.output, "gates.toml:2:"));
+    BOOST_TEST(has(bad.output, "L2: order in h: expected 1.9 to 2.1, found 4"));
+    BOOST_TEST(call(directory, analyse + "--baseline " + in + "b.json").exit == 0);
+    BOOST_TEST(call(directory, "analyse " + table +
+                                   " --size ndofs --dimension 2 --error drag --baseline " + in +
+                                   "b.json")
+                   .exit == 1);
+    BOOST_TEST(call(directory, analyse + "--expect 'L1.order = [1, 2]'").exit == 2);
+    BOOST_TEST(call(directory, "analyse - --size ndofs --error L2 < " + table).exit == 0);
 }
 
 BOOST_AUTO_TEST_CASE(the_examples_of_the_readme_run_as_they_stand) {

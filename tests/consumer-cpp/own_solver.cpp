@@ -51,7 +51,7 @@ int main() {
         const tvbeam::TwoTermFit& fit = *analysis.two_term;
         std::cout << name << ": order " << fit.model.p << " +- " << fit.p_uncertainty() << " in h, "
                   << fit.model.q << " +- " << fit.q_uncertainty() << " in dt\n";
-        const bool right = fit.holds() && std::abs(fit.model.p - 2.0) <= 0.05 &&
+        const bool right = fit.predicts() && std::abs(fit.model.p - 2.0) <= 0.05 &&
                            std::abs(fit.model.q - 1.0) <= 0.05;
         wrong += right ? 0 : 1;
     }

@@ -99,6 +99,51 @@ BOOST_AUTO_TEST_CASE(replicates_are_one_level) {
                1e-9);
 }
 
+// Steps that grow up to the finest, and equal steps (ln h): there is no limit.
+BOOST_AUTO_TEST_CASE(values_that_run_apart_have_no_limit_and_the_status_says_so) {
+    for (const auto& value : std::vector<std::function<double(double)>>{
+             [](double h) { return 1 / h; }, [](double h) { return std::log(h); },
+             [](double h) { return 3 - std::pow(h, -0.3); }}) {
+        const auto limit = estimate_limit(sequence(5, value));
+        BOOST_TEST(!limit.limit.determined);
+        BOOST_TEST(limit.limit.status == "the values run apart");
+        BOOST_TEST(!limit.gci.has_value());
+    }
+}
+
+// f = f₀ + C hᵖ is what the grid convergence index inverts: order and limit come back at any two
+// ratios, equal or not, and the index is 1.25 times the distance to the limit.
+BOOST_AUTO_TEST_CASE(a_pure_power_is_extrapolated_exactly) {
+    for (const double p : {0.5, 1.0, 2.0, 3.7, 7.0})
+        for (const double ratio : {1.3, 2.0, 10.0}) {
+            const auto row = [p](double h) { return ValueRow{h, -2 + 5 * std::pow(h, p)}; };
+            const auto found = gci_of(std::vector<ValueRow>{row(0.2), row(0.1), row(0.1 / ratio)});
+            BOOST_REQUIRE(found.has_value());
+            // Values near 2 carry 4e-16, on a smallest difference of 5 · 0.1⁷ = 5e-7.
+            BOOST_TEST(std::abs(found->order - p) < 1e-8);
+            BOOST_TEST(std::abs(found->limit + 2) < 1e-11);
+            BOOST_TEST(std::abs(found->uncertainty - 1.25 * 5 * std::pow(0.1 / ratio, p)) < 1e-11);
+        }
+}
+
+BOOST_AUTO_TEST_CASE(values_that_stand_still_or_oscillate_have_no_index) {
+    BOOST_TEST(!gci_of(std::vector<ValueRow>{{1.0, 1.0}, {0.5, 2.0}, {0.25, 1.5}}));
+    BOOST_TEST(!gci_of(std::vector<ValueRow>{{1.0, 1.0}, {0.5, 2.0}, {0.25, 2.0}}));
+}
+
+// Very many widths are averaged over cells, and show the same limit.
+BOOST_AUTO_TEST_CASE(a_thousand_widths_have_the_limit_of_few) {
+    std::vector<ValueRow> rows;
+    for (int k = 0; k < 1000; ++k) {
+        const double h = std::exp(-0.005 * k);
+        rows.push_back({h, 7 + h * h});
+    }
+    const auto limit = estimate_limit(rows);
+    BOOST_TEST(limit.limit.determined);
+    BOOST_TEST(holds(limit.limit, 7.0));
+    BOOST_TEST(limit.limit.high - limit.limit.low < 1e-4);
+}
+
 BOOST_AUTO_TEST_CASE(two_widths_have_no_limit_and_the_status_says_so) {
     const auto limit =
         estimate_limit(std::vector<ValueRow>{{0.1, 1.0}, {0.1, 1.1}, {0.05, 1.2}, {0.025, NAN}});

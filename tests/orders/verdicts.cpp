@@ -55,6 +55,9 @@ std::string word(const LadderVerdict& judged) {
         case Verdict::diverging:
             letters += 'd';
             break;
+        case Verdict::outlier:
+            letters += 'o';
+            break;
         case Verdict::unresolved:
             letters += 'u';
             break;
@@ -233,7 +236,54 @@ BOOST_AUTO_TEST_CASE(a_model_of_something_else_decides_nothing) {
     BOOST_TEST(word(ladder) == "AAAA");
 }
 
+// h² with every row doubled is h²: the rows of one width are one level.
+BOOST_AUTO_TEST_CASE(duplicates_change_no_verdict_and_no_order) {
+    std::vector<Refinement> ladder;
+    for (const double h : {0.4, 0.2, 0.1, 0.05})
+        for (const double factor : {1.0, 2.0})
+            ladder.push_back({.h = h, .error = factor * h * h});
+    const auto judged = judge(ladder);
+    BOOST_TEST(word(judged) == "AAAAAAAA");
+    for (std::size_t i = 0; i < ladder.size(); ++i) {
+        BOOST_TEST(judged.orders[i].has_value() == (i % 2 == 0 && i > 0));
+        if (judged.orders[i])
+            BOOST_TEST(*judged.orders[i] == 2.0, boost::test_tools::tolerance(1e-12));
+    }
+}
+
+// Widths that differ by two per cent, errors by scatter: no order of such a pair says anything.
+BOOST_AUTO_TEST_CASE(rows_too_close_in_h_are_one_level) {
+    std::vector<Refinement> ladder;
+    for (const double h : {0.4, 0.2, 0.1, 0.05}) {
+        ladder.push_back({.h = h, .error = h * h});
+        ladder.push_back({.h = 0.98 * h, .error = 1.01 * h * h});
+    }
+    BOOST_TEST(word(ladder) == "AAAAAAAA");
+    BOOST_TEST(word({{.h = 0.1, .error = 1.0}, {.h = 0.099, .error = 3.0}}) == "pp");
+    BOOST_TEST(judge({{{.h = 0.1, .error = 1.0}, {.h = 0.1, .error = 3.0}}}).rows[0].reason ==
+               "one width alone shows no order");
+}
+
+// One error of 3 times its line, or a third: the rows on both sides agree without it.
+BOOST_AUTO_TEST_CASE(a_row_off_the_line_of_its_neighbours_is_an_outlier) {
+    for (const double factor : {3.0, 1.0 / 3}) {
+        auto ladder = with_orders({2, 2, 2, 2, 2, 2});
+        ladder[3].error *= factor;
+        const auto judged = judge(ladder);
+        BOOST_TEST(word(judged) == "AAAoAAA");
+        BOOST_TEST(judged.window->order == 2.0, boost::test_tools::tolerance(1e-12));
+    }
+}
+
+BOOST_AUTO_TEST_CASE(infinite_errors_are_failed_runs) {
+    const double infinite = std::numeric_limits<double>::infinity();
+    const auto judged = judge(halving({infinite, 1.0, 0.25, 0.0625, infinite}));
+    BOOST_TEST(word(judged) == "xAAAx");
+    BOOST_TEST(judged.rows[0].reason == "the error is infinite");
+}
+
 BOOST_AUTO_TEST_CASE(every_verdict_has_its_name) {
+    BOOST_TEST(name_of(Verdict::outlier) == "outlier");
     BOOST_TEST(name_of(Verdict::asymptotic) == "asymptotic");
     BOOST_TEST(name_of(Verdict::pre_asymptotic) == "pre-asymptotic");
     BOOST_TEST(name_of(Verdict::cancellation) == "cancellation");

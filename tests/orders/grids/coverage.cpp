@@ -1,10 +1,9 @@
 // Scores the engine on grids whose asymptotic orders are known: how many orders it calls
-// determined, how many of those intervals hold the order, and how wide they are; beside it the
-// two-term fit through its window. Usage: order_coverage [--list] GRIDS.txt…, as make_grids.py
-// writes them. Exit 1 where fewer than 95 % hold.
+// determined, how many of those intervals hold the order, and how wide they are. Usage:
+// order_coverage [--list] GRIDS.txt…, as make_grids.py writes them. Exit 1 where fewer than 95 %
+// hold.
 
 #include "studies/orders/order_engine.hpp"
-#include "studies/orders/two_term_fit.hpp"
 
 #include <algorithm>
 #include <array>
@@ -90,46 +89,33 @@ std::array<Answer, 2> by_engine(const Case& one, bool list) {
     return answers;
 }
 
-std::array<Answer, 2> by_window(const Case& one) {
-    const auto fit = fit_two_term(one.rows);
-    if (!fit.holds())
-        return {};
-    return {Answer{fit.model.p, fit.p_uncertainty(), fit.p_determined()},
-            Answer{fit.model.q, fit.q_uncertainty(), fit.q_determined()}};
-}
-
-void print(const std::map<std::string, std::array<Score, 2>>& scores) {
-    std::printf("%-18s %6s | %10s %6s %6s | %10s %6s %6s\n", "", "asked", "determined", "held",
-                "width", "window: d.", "held", "width");
-    for (const auto& [key, both] : scores) {
-        std::printf("%-18s %6d", key.c_str(), both[0].asked);
-        for (const auto& score : both)
-            std::printf(" | %8.1f %% %4.1f %% %6.3f", 100.0 * score.determined / score.asked,
-                        100 * score.share_held(), median_of(score.widths));
-        std::printf("\n");
-    }
+void print(const std::map<std::string, Score>& scores) {
+    std::printf("%-18s %6s | %10s %6s %6s\n", "", "asked", "determined", "held", "width");
+    for (const auto& [key, score] : scores)
+        std::printf("%-18s %6d | %8.1f %% %4.1f %% %6.3f\n", key.c_str(), score.asked,
+                    100.0 * score.determined / score.asked, 100 * score.share_held(),
+                    median_of(score.widths));
 }
 
 } // namespace
 
 int main(int arguments, char** argument) {
     const bool list = arguments > 1 && std::string(argument[1]) == "--list";
-    std::map<std::string, std::array<Score, 2>> scores; // the engine's, the window's
+    std::map<std::string, Score> scores;
     for (int k = list ? 2 : 1; k < arguments; ++k) {
         std::ifstream file(argument[k]);
         for (Case one; file >> one;) {
-            const std::array answers{by_engine(one, list), by_window(one)};
+            const auto answers = by_engine(one, list);
             for (std::size_t v = 0; v < 2; ++v) {
                 const std::string order(1, "pq"[v]);
                 for (const auto& key :
                      {std::string("all"), order, order + " " + one.scheme, order + " " + one.mass,
                       order + " " + one.norm, order + " " + one.family})
-                    for (std::size_t way = 0; way < 2; ++way)
-                        scores[key][way].add(answers[way][v], one.order[v]);
+                    scores[key].add(answers[v], one.order[v]);
             }
         }
     }
     print(scores);
     constexpr double promised = 0.95;
-    return scores.contains("all") && scores.at("all")[0].share_held() >= promised ? 0 : 1;
+    return scores.contains("all") && scores.at("all").share_held() >= promised ? 0 : 1;
 }

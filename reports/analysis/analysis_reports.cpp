@@ -1,0 +1,223 @@
+#include "reports/analysis/analysis_reports.hpp"
+
+#include "reports/analysis/analysis_document.hpp"
+#include "reports/plots/drawing.hpp"
+#include "reports/plots/plot_style.hpp"
+#include "reports/studies/run_fields.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace tvbeam {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json json_of(const OrderInterval& interval) {
+    const auto known = [&](double number) {
+        return number_json(interval.determined ? std::optional(number) : std::nullopt);
+    };
+    Json json{{"value", known(interval.value)},
+              {"low", known(interval.low)},
+              {"high", known(interval.high)}};
+    if (!interval.determined)
+        json["status"] = interval.status;
+    return json;
+}
+
+Json json_of(const std::optional<MethodLimit>& method) {
+    if (!method)
+        return nullptr;
+    return {{"limit", number_json(method->limit)},
+            {"uncertainty", number_json(method->uncertainty)},
+            {"order", number_json(method->order)},
+            {"model", method->model}};
+}
+
+Json json_of(const DataAnalysis& analysis, const ColumnAnalysis& column) {
+    Json rows = Json::array();
+    for (std::size_t i = 0; i < analysis.rows(); ++i) {
+        Json row = Json::object();
+        for (const auto& width : analysis.widths)
+            row[width.name] = width.numbers[i];
+        row[column.is_value ? "value" : "error"] = number_json(column.numbers[i]);
+        if (!column.verdicts.empty()) {
+            row["order"] = number_json(column.orders[i]);
+            row["verdict"] = name_of(column.verdicts[i].verdict);
+            row["reason"] = column.verdicts[i].reason;
+        }
+        rows.push_back(std::move(row));
+    }
+    Json orders = Json::object();
+    for (std::size_t i = 0; i < analysis.widths.size(); ++i)
+        orders[analysis.widths[i].name] = json_of(column.by_width[i]);
+    Json json{{"name", column.name},
+              {"kind", column.is_value ? "value" : "error"},
+              {"rows", std::move(rows)},
+              {"orders", std::move(orders)},
+              {"findings", column.findings}};
+    if (column.limit) {
+        json["limit"] = json_of(column.limit->limit);
+        json["uncertainty"] = number_json(column.limit->uncertainty);
+        json["methods"] = {{"gci", json_of(column.limit->gci)},
+                           {"celik", json_of(column.limit->celik)},
+                           {"eca_hoekstra", json_of(column.limit->eca_hoekstra)}};
+    }
+    return json;
+}
+
+/// The first width that is refined.
+const DataColumn& refined(const DataAnalysis& analysis) {
+    const auto varies = [](const DataColumn& width) {
+        return width.numbers.front() != width.numbers.back();
+    };
+    const auto found = std::find_if(analysis.widths.begin(), analysis.widths.end(), varies);
+    return found == analysis.widths.end() ? analysis.widths.front() : *found;
+}
+
+/// Blocks of more rows than this draw nothing that fewer do not.
+constexpr std::size_t most_points = 2000;
+
+std::string points_of(const DataColumn& width, const ColumnAnalysis& column) {
+    std::string rows;
+    const std::size_t step = 1 + column.numbers.size() / most_points;
+    for (std::size_t i = 0; i < column.numbers.size(); i += step)
+        rows += fmt::format("{} {}\n", width.numbers[i], column.numbers[i]);
+    return rows;
+}
+
+/// A line of the determined order through the finest positive error.
+void add_order_line(const DataColumn& width, const ColumnAnalysis& column,
+                    const OrderInterval& order, const SeriesStyle& style, Drawing& drawing) {
+    std::size_t last = column.numbers.size();
+    while (last > 0 && !is_positive(column.numbers[last - 1]))
+        --last;
+    if (!order.determined || column.two_term || last == 0)
+        return;
+    std::string rows;
+    for (const double x : {width.numbers.front(), width.numbers[last - 1]})
+        rows += fmt::format("{} {}\n", x,
+                            column.numbers[last - 1] *
+                                std::pow(x / width.numbers[last - 1], order.value));
+    const std::string block = drawing.add_block(column.name + ": its order", rows);
+    drawing.add_curve(fmt::format("{} using 1:2 with lines lc rgb '{}' dt {} lw 1.6", block,
+                                  style.colour, style.dash));
+}
+
+Plot value_plot(const DataColumn& width, const ColumnAnalysis& column) {
+    Drawing drawing;
+    const SeriesStyle style = series_style(0);
+    const auto& limit = column.limit->limit;
+    if (limit.determined) {
+        const auto [least, greatest] =
+            std::minmax_element(width.numbers.begin(), width.numbers.end());
+        std::string rows;
+        for (const double x : {*least, *greatest})
+            rows += fmt::format("{} {} {} {}\n", x, limit.low, limit.value, limit.high);
+        const std::string block = drawing.add_block("limit: low, value, high", rows);
+        drawing.add_curve(block + " using 1:2:4 with filledcurves fillstyle solid noborder "
+                                  "fillcolor rgb '#deebf7'",
+                          "95 % interval of the limit");
+        drawing.add_curve(block + " using 1:3 with lines lc rgb '#08519c' lw 1.2", "limit");
+    }
+    const std::string block = drawing.add_block(column.name, points_of(width, column));
+    drawing.add_curve(fmt::format("{} using 1:2 with linespoints lc rgb '{}' pt {} ps 0.9", block,
+                                  style.colour, style.point),
+                      column.name);
+    std::string name = "value_";
+    for (const char c : column.name)
+        name += std::isalnum(static_cast<unsigned char>(c)) != 0 ? c : '_';
+    return drawing.plot(name, column.name + " against " + width.name + ", with its limit.",
+                        fmt::format("set logscale x\n{}set xlabel {} noenhanced\n",
+                                    range_text("x", width.numbers, 1.5), gnuplot_text(width.name)));
+}
+
+} // namespace
+
+std::string analysis_json(const DataAnalysis& analysis) {
+    Json sizes = Json::array();
+    for (const auto& width : analysis.widths)
+        sizes.push_back(width.name);
+    Json columns = Json::array();
+    for (const auto& column : analysis.columns)
+        columns.push_back(json_of(analysis, column));
+    const Json json{{"schema", "tvbeam-analysis/1"},
+                    {"file", analysis.name},
+                    {"sizes", std::move(sizes)},
+                    {"remarks", analysis.remarks},
+                    {"columns", std::move(columns)}};
+    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string analysis_csv(const DataAnalysis& analysis) {
+    std::string text;
+    for (const auto& width : analysis.widths)
+        text += (text.empty() ? "" : ",") + quoted(width.name);
+    for (const auto& column : analysis.columns) {
+        text += "," + quoted(column.name);
+        if (!column.verdicts.empty())
+            text += "," + quoted(column.name + "_order") + "," + quoted(column.name + "_verdict");
+    }
+    text += "\n";
+    for (std::size_t i = 0; i < analysis.rows(); ++i) {
+        for (std::size_t k = 0; k < analysis.widths.size(); ++k)
+            text += fmt::format("{}{}", k == 0 ? "" : ",", analysis.widths[k].numbers[i]);
+        for (const auto& column : analysis.columns) {
+            text += finite_field(column.numbers[i]);
+            if (!column.verdicts.empty())
+                text += number_field(column.orders[i]) + "," + name_of(column.verdicts[i].verdict);
+        }
+        text += "\n";
+    }
+    return text;
+}
+
+std::vector<Plot> analysis_plots(const DataAnalysis& analysis) {
+    const DataColumn& width = refined(analysis);
+    const auto along = static_cast<std::size_t>(&width - analysis.widths.data());
+    std::vector<Plot> plots;
+    Drawing drawing;
+    std::vector<double> errors;
+    for (std::size_t k = 0; k < analysis.columns.size(); ++k) {
+        const auto& column = analysis.columns[k];
+        if (column.is_value) {
+            plots.push_back(value_plot(width, column));
+            continue;
+        }
+        std::copy_if(column.numbers.begin(), column.numbers.end(), std::back_inserter(errors),
+                     is_positive);
+        const SeriesStyle style = series_style(k);
+        const std::string block = drawing.add_block(column.name, points_of(width, column));
+        drawing.add_curve(fmt::format("{} using 1:2 with points lc rgb '{}' pt {} ps 0.9", block,
+                                      style.colour, style.point),
+                          column.name);
+        add_order_line(width, column, column.by_width[along], style, drawing);
+    }
+    if (!errors.empty())
+        plots.insert(
+            plots.begin(),
+            drawing.plot("convergence",
+                         "Errors against " + width.name +
+                             ", on logarithmic axes; lines: orders that are determined.",
+                         fmt::format("set logscale xy\n{}{}set format y '10^{{%L}}'\nset "
+                                     "xlabel {} noenhanced\nset ylabel 'error'\n",
+                                     range_text("x", width.numbers, 1.5),
+                                     range_text("y", errors, 2.0), gnuplot_text(width.name))));
+    return plots;
+}
+
+Reported reported(const DataAnalysis& analysis) {
+    return {.document = analysis_document(analysis),
+            .json = [&analysis] { return analysis_json(analysis); },
+            .csvs =
+                [&analysis] {
+                    return std::vector<NamedText>{{"analysis.csv", analysis_csv(analysis)}};
+                },
+            .plots = [&analysis] { return analysis_plots(analysis); }};
+}
+
+} // namespace tvbeam

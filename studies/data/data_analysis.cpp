@@ -1,0 +1,182 @@
+#include "studies/data/data_analysis.hpp"
+
+#include "studies/text/number_text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace tvbeam {
+
+namespace {
+
+std::vector<double> in_order(const std::vector<double>& numbers,
+                             const std::vector<std::size_t>& order) {
+    std::vector<double> sorted;
+    sorted.reserve(numbers.size());
+    for (const std::size_t i : order)
+        sorted.push_back(numbers[i]);
+    return sorted;
+}
+
+bool varies(const std::vector<double>& numbers) {
+    return std::adjacent_find(numbers.begin(), numbers.end(), std::not_equal_to<>()) !=
+           numbers.end();
+}
+
+/// The places of the widths that are refined.
+std::vector<std::size_t> refined(const std::vector<DataColumn>& widths) {
+    std::vector<std::size_t> result;
+    for (std::size_t i = 0; i < widths.size(); ++i)
+        if (varies(widths[i].numbers))
+            result.push_back(i);
+    return result;
+}
+
+std::string order_words(const std::string& width, const OrderInterval& order) {
+    return order.determined ? fmt::format("order in {} {} ± {}", width, fixed(order.value, 3),
+                                          fixed(order.half_width(), 3))
+                            : fmt::format("order in {} not determined: {}", width, order.status);
+}
+
+/// Errors of one or two widths.
+void analyse_records(const DataAnalysis& data, const std::vector<std::size_t>& used,
+                     const std::vector<double>& sigma, ColumnAnalysis& column) {
+    std::vector<Refinement> records(data.rows());
+    for (std::size_t i = 0; i < records.size(); ++i) {
+        records[i].h = data.widths[used.front()].numbers[i];
+        if (used.size() > 1)
+            records[i].dt = data.widths[used.back()].numbers[i];
+        records[i].error = column.numbers[i];
+    }
+    auto found = analyse(std::move(records), sigma);
+    if (found.two_term) {
+        column.by_width[used.front()] = found.two_term->p;
+        column.by_width[used.back()] = found.two_term->q;
+        if (!found.two_term->holds())
+            for (const auto i : used)
+                column.by_width[i].status = found.two_term->failure;
+        column.two_term = std::move(found.two_term);
+        return;
+    }
+    column.orders = std::move(found.orders);
+    column.verdicts = std::move(found.verdict->rows);
+    column.by_width[used.front()] = found.order;
+    if (used.size() > 1)
+        column.by_width[used.back()].status =
+            "it is refined with " + data.widths[used.front()].name;
+    if (found.has_logarithm)
+        column.findings.push_back(fmt::format("{}: a factor ln {} stands beside the power",
+                                              column.name, data.widths[used.front()].name));
+}
+
+ColumnAnalysis analyse_errors(const DataAnalysis& data, const DataColumn& errors,
+                              const std::vector<double>& sigma) {
+    ColumnAnalysis column;
+    column.name = errors.name;
+    column.numbers = errors.numbers;
+    column.by_width.resize(data.widths.size());
+    auto used = refined(data.widths);
+    for (std::size_t i = 0; i < data.widths.size(); ++i)
+        if (std::find(used.begin(), used.end(), i) == used.end())
+            column.by_width[i].status = "it is the same in all rows";
+    if (used.empty())
+        used = {0};
+    if (used.size() <= 2) {
+        analyse_records(data, used, sigma, column);
+    } else {
+        std::vector<ErrorRow> rows(data.rows());
+        for (std::size_t r = 0; r < rows.size(); ++r) {
+            for (const auto i : used)
+                rows[r].widths.push_back(data.widths[i].numbers[r]);
+            rows[r].error = column.numbers[r];
+        }
+        const auto orders = estimate_orders(rows);
+        for (std::size_t k = 0; k < used.size(); ++k)
+            column.by_width[used[k]] = orders[k];
+    }
+    std::string words;
+    for (const auto i : used)
+        words += (words.empty() ? "" : "; ") + order_words(data.widths[i].name, column.by_width[i]);
+    column.findings.insert(column.findings.begin(), column.name + ": " + words);
+    return column;
+}
+
+/// Whether finer rows by one width are nowhere coarser by another, so that one width stands for
+/// all.
+bool is_one_path(const std::vector<DataColumn>& widths) {
+    for (const auto& width : widths)
+        for (std::size_t r = 1; r < width.numbers.size(); ++r)
+            if (width.numbers[r] > width.numbers[r - 1])
+                return false;
+    return true;
+}
+
+ColumnAnalysis analyse_values(const DataAnalysis& data, const DataColumn& values,
+                              const std::vector<double>& sigma) {
+    ColumnAnalysis column;
+    column.name = values.name;
+    column.is_value = true;
+    column.numbers = values.numbers;
+    column.by_width.resize(data.widths.size());
+    const auto used = refined(data.widths);
+    const std::size_t along = used.empty() ? 0 : used.front();
+    std::vector<ValueRow> rows(data.rows());
+    for (std::size_t r = 0; r < rows.size(); ++r) {
+        rows[r] = {data.widths[along].numbers[r], column.numbers[r]};
+        if (!sigma.empty())
+            rows[r].sigma = sigma[r];
+    }
+    if (is_one_path(data.widths)) {
+        column.limit = estimate_limit(rows);
+    } else {
+        column.limit.emplace();
+        column.limit->limit.status = column.limit->order.status =
+            "a limit is found along one way of refinement: " + data.widths[along].name +
+            " falls where another width grows";
+    }
+    const auto& [limit, order, uncertainty, basis, gci, celik, eca] = *column.limit;
+    column.by_width[along] = order;
+    for (std::size_t i = 0; i < data.widths.size(); ++i)
+        if (i != along)
+            column.by_width[i].status = varies(data.widths[i].numbers)
+                                            ? "it is refined with " + data.widths[along].name
+                                            : "it is the same in all rows";
+    column.findings.push_back(
+        column.name + ": " +
+        (limit.determined
+             ? fmt::format("limit {:.8g}, 95 % from {:.8g} to {:.8g} ({}); the finest value ± {}; ",
+                           limit.value, limit.low, limit.high, basis, scientific(uncertainty, 2)) +
+                   order_words(data.widths[along].name, order)
+             : "no limit: " + limit.status));
+    return column;
+}
+
+} // namespace
+
+DataAnalysis analyse(const DataFile& data) {
+    DataAnalysis analysis{data.name, {}, {}, data.remarks};
+    std::vector<std::size_t> order(data.widths.front().numbers.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t left, std::size_t right) {
+        for (const auto& width : data.widths)
+            if (width.numbers[left] != width.numbers[right])
+                return width.numbers[left] > width.numbers[right];
+        return false;
+    });
+    for (const auto& width : data.widths)
+        analysis.widths.push_back({width.name, in_order(width.numbers, order)});
+    const auto sigma = data.sigma.empty() ? std::vector<double>() : in_order(data.sigma, order);
+    for (const auto& errors : data.errors)
+        analysis.columns.push_back(
+            analyse_errors(analysis, {errors.name, in_order(errors.numbers, order)}, sigma));
+    for (const auto& values : data.values)
+        analysis.columns.push_back(
+            analyse_values(analysis, {values.name, in_order(values.numbers, order)}, sigma));
+    return analysis;
+}
+
+} // namespace tvbeam

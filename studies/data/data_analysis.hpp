@@ -1,0 +1,39 @@
+/// What a table of errors and values shows (data_file.hpp): orders with 95 % intervals, limits,
+/// verdicts, and a sentence for each column.
+#pragma once
+
+#include "studies/data/data_file.hpp"
+#include "studies/data/record_analysis.hpp"
+#include "studies/orders/limit_engine.hpp"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace tvbeam {
+
+struct ColumnAnalysis {
+    std::string name;
+    bool is_value = false;       ///< of a number without known limit; else an error
+    std::vector<double> numbers; ///< one a row
+    /// One a row; empty where several widths are refined independently, and for values.
+    std::vector<std::optional<double>> orders;
+    std::vector<RowVerdict> verdicts;
+    std::vector<OrderInterval> by_width; ///< one a width
+    std::optional<TwoTermFit> two_term;  ///< of errors on a grid of two widths
+    std::optional<LimitEstimate> limit;  ///< of values
+    std::vector<std::string> findings;   ///< in words
+};
+
+struct DataAnalysis {
+    std::string name;               ///< of the file
+    std::vector<DataColumn> widths; ///< from coarse to fine by the first, then by the others
+    std::vector<ColumnAnalysis> columns;
+    std::vector<std::string> remarks;
+
+    std::size_t rows() const { return widths.front().numbers.size(); }
+};
+
+DataAnalysis analyse(const DataFile& data);
+
+} // namespace tvbeam

@@ -1,0 +1,26 @@
+#pragma once
+
+#include "studies/data/data_analysis.hpp"
+#include "studies/gates/check.hpp"
+
+#include <string>
+#include <vector>
+
+namespace tvbeam {
+
+/// Holds an analysis against expectations in TOML, a table a column: the name of a file, or the
+/// text itself.
+///
+///     [L2]
+///     order  = [1.9, 2.1]            # in the first width; or order.dt = [0.9, 1.1]: in that one
+///     orders = [1.8, 2.2]            # from row to row
+///     errors = [1e-2, 2.5e-3]        # one a row, coarse to fine, with within = 1e-3
+///     [drag]
+///     limit       = [1.19, 1.21]
+///     uncertainty = [0, 1e-3]        # of the finest value
+///
+/// Throws InputError for what is not such an expectation, and for columns that are not there.
+std::vector<CheckedExpectation> check(const DataAnalysis& analysis,
+                                      const std::string& expectations);
+
+} // namespace tvbeam

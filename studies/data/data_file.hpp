@@ -1,0 +1,46 @@
+/// A table of errors or values of any solver, as people have it.
+///
+/// One record a line, a name a column. Fields are separated by commas, tabs, semicolons (then a
+/// comma may be a decimal point) or blanks, as the line of names has it. The names stand in the
+/// first line, or, as NumPy writes them, in the comment (#) just above the first line of numbers.
+/// Empty lines and other comments are passed over. Numbers are read alike in every locale, also
+/// with Fortran's exponents (1.5D-03, 1.5-103); an empty field, nan or NA is a failed run, and what
+/// is too small for a double is 0.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace tvbeam {
+
+/// What the columns mean. Without a choice: h (or elements) and dt are widths, error or, where
+/// there is none, value is what was found.
+struct DataChoice {
+    std::vector<std::string> sizes = {}; ///< widths of meshes, or numbers of cells, unknowns, …
+    std::optional<double> dimension =
+        {}; ///< sizes are numbers n of things that fill it: h = n^(-1/d)
+    std::optional<std::string> step = {};
+    std::vector<std::string> errors = {};
+    std::vector<std::string> values = {};
+    std::optional<std::string> sigma = {}; ///< standard deviations of the figures
+};
+
+struct DataColumn {
+    std::string name;
+    std::vector<double> numbers; ///< one a record; NaN: failed
+};
+
+struct DataFile {
+    std::string name;
+    std::vector<DataColumn> widths; ///< what was refined; positive
+    std::vector<DataColumn> errors;
+    std::vector<DataColumn> values;
+    std::vector<double> sigma;        ///< empty: not known
+    std::vector<std::string> remarks; ///< what was assumed
+};
+
+/// Reads a file, or standard input where it is called "-". Throws InputError at file:line:column.
+DataFile read_data(const std::string& file, const DataChoice& choice = {});
+
+} // namespace tvbeam
