@@ -1,41 +1,18 @@
 #include "core/certify/energy_law.hpp"
 
-#include <Eigen/LU>
-
 #include <cmath>
-#include <stdexcept>
+#include <limits>
 
 namespace tvbeam {
 
-ButcherTableau ButcherTableau::of(const TimeScheme& scheme) {
-    const auto stages = static_cast<Eigen::Index>(scheme.stages.size());
-    Eigen::MatrixXd rates = Eigen::MatrixXd::Identity(stages, stages); // of the increments
-    for (Eigen::Index i = 0; i < stages; ++i) {
-        const Stage& stage = scheme.stages[static_cast<std::size_t>(i)];
-        for (std::size_t j = 0; j < stage.weights.size(); ++j)
-            rates(i, static_cast<Eigen::Index>(j)) -= stage.weights[j];
-        rates.row(i) *= stage.leading;
-    }
-    ButcherTableau tableau;
-    tableau.a = rates.inverse();
-    tableau.b = tableau.a.row(stages - 1).transpose();
-    return tableau;
-}
-
-Eigen::MatrixXd ButcherTableau::algebraic_stability() const {
-    const Eigen::MatrixXd weighted = b.asDiagonal() * a;
-    return weighted + weighted.transpose() - b * b.transpose();
-}
-
 EnergyLaw::EnergyLaw(const Beam& beam, const Mesh& mesh, ThermalMass mass, double underflow)
-    : beam_(beam), mesh_(mesh), mass_(thermal_mass_matrix(mesh, mass)), underflow_(underflow) {}
+    : beam_(beam), mesh_(mesh), mass_(mass), underflow_(underflow) {}
 
-double EnergyLaw::product(const Eigen::VectorXd& theta, const DiscontinuousLinear& w,
+double EnergyLaw::product(const Eigen::VectorXd& theta, const certify::BrokenLinear& w,
                           const Eigen::VectorXd& other_theta,
-                          const DiscontinuousLinear& other_w) const {
-    const Eigen::Index inner = mesh_.elements() - 1;
-    const Eigen::VectorXd other = other_theta.segment(1, inner);
-    return theta.segment(1, inner).dot(mass_ * other) + inner_product(mesh_, w, other_w);
+                          const certify::BrokenLinear& other_w) const {
+    return theta.dot(certify::mass_times(mesh_, mass_, other_theta)) +
+           certify::product(mesh_, w, other_w);
 }
 
 double EnergyLaw::square(const RecordedState& y) const {
@@ -54,12 +31,12 @@ void EnergyLaw::add(const SolveRecord& record) {
     const Eigen::ArrayXd flux = ((before.tail(s) - before.head(s)).array() / mesh_.lengths).abs();
     const double fluxes =
         (flux * (theta.head(s).array().abs() + theta.tail(s).array().abs())).sum();
-    const double viscosity = beam_.zeta * inner_product(mesh_, rate.w, rate.w);
+    const double viscosity = beam_.zeta * certify::product(mesh_, rate.w, rate.w);
     const double heating = record.heat_load.dot(theta);
-    const double load = inner_product(mesh_, record.moment, rate.w);
+    const double load = certify::product(mesh_, record.moment, rate.w);
     const double theta_A = beam_.alpha * beam_.theta_A / record.unit;
-    const double arm = tip_moment(mesh_, rate.w);
-    balances_.push_back(conduction + viscosity - heating + load + (theta_A - record.stress) * arm);
+    const double tip = certify::product(mesh_, certify::moment_arm(mesh_), rate.w);
+    balances_.push_back(conduction + viscosity - heating + load + (theta_A - record.stress) * tip);
 
     // |ẇ| ≤ c (|w| + |w*|) term by term.
     const double rate_size =
@@ -67,7 +44,7 @@ void EnergyLaw::add(const SolveRecord& record) {
     const double forces = beam_.alpha * record.now.temperature_size +
                           record.moment.abs().maxCoeff() + std::abs(theta_A) +
                           std::abs(record.stress) +
-                          beam_.zeta * std::sqrt(inner_product(mesh_, rate.w, rate.w));
+                          beam_.zeta * std::sqrt(certify::product(mesh_, rate.w, rate.w));
     sizes_.push_back(conduction + fluxes + viscosity +
                      (c + 4.0 / mesh_.lengths.square().minCoeff()) * record.now.temperature_size *
                          underflow_ +
@@ -80,15 +57,18 @@ double EnergyLaw::end_step(const SolveRecorder& recorder, const SolveRecord& las
     const RecordedState& before = recorder.before();
     double change = 0.0;
     double size = 0.0;
-    if (last.scheme->history == 0) {
-        const ButcherTableau tableau = ButcherTableau::of(*last.scheme);
-        const Eigen::MatrixXd m = tableau.algebraic_stability();
+    const StatedStep& step = last.step;
+    if (static_cast<Eigen::Index>(rates_.size()) != step.solves()) {
+        change = std::numeric_limits<double>::infinity();
+        size = 1.0;
+    } else if (!step.two_step) {
+        const Eigen::MatrixXd m = step.algebraic_stability();
         energy_ = 0.5 * square(now);
         const double energy_before = 0.5 * square(before);
         change = energy_ - energy_before;
         size = energy_ + energy_before;
         for (std::size_t i = 0; i < rates_.size(); ++i) {
-            const double weight = last.dt * tableau.b(static_cast<Eigen::Index>(i));
+            const double weight = last.dt * step.a(step.solves() - 1, static_cast<Eigen::Index>(i));
             change += weight * balances_[i];
             size += std::abs(weight) * sizes_[i];
             for (std::size_t j = 0; j < rates_.size(); ++j) {
@@ -100,14 +80,12 @@ double EnergyLaw::end_step(const SolveRecorder& recorder, const SolveRecord& las
                 size += std::abs(dissipated);
             }
         }
-    } else if (last.scheme->name != "bdf2") {
-        throw std::logic_error("no energy law is known of the time scheme " + last.scheme->name);
     } else {
         // One stage, b = 1, and the form of ẏ in y^n, y^{n−1}, y^{n−2} is its G-norm's.
         const RecordedState& earlier = recorder.before(2);
         const auto combined = [&](double a, double b, double c) {
             const Eigen::VectorXd theta = a * now.theta + b * before.theta + c * earlier.theta;
-            const DiscontinuousLinear w = a * now.w + b * before.w + c * earlier.w;
+            const certify::BrokenLinear w = a * now.w + b * before.w + c * earlier.w;
             return product(theta, w, theta, w);
         };
         energy_ = 0.25 * (square(now) + combined(2.0, -1.0, 0.0));

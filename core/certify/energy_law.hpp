@@ -1,25 +1,12 @@
 #pragma once
 
-#include "core/solve_record.hpp"
+#include "core/certify/solve_record.hpp"
 
 #include <Eigen/Core>
 
 #include <vector>
 
 namespace tvbeam {
-
-/// The Runge–Kutta coefficients of a one-step scheme, from its row: with the increments
-/// E = Y − y of the stages, Δt ẏ = L (I − W) E and so A = (L (I − W))⁻¹.
-struct ButcherTableau {
-    Eigen::MatrixXd a;
-    Eigen::VectorXd b; ///< the last row of a
-
-    static ButcherTableau of(const TimeScheme& scheme);
-
-    /// m_ij = b_i a_ij + b_j a_ji − b_i b_j; positive semidefinite with b ≥ 0: algebraically
-    /// stable.
-    [[nodiscard]] Eigen::MatrixXd algebraic_stability() const;
-};
 
 /// The discrete energy law of a time scheme, as an identity. Each solve is tested with Θ and
 /// ẇ = c (w − w*); with y = (Θ, w) in M × L², b the weights of the step,
@@ -53,16 +40,16 @@ public:
 private:
     struct Rate { // ẏ
         Eigen::VectorXd theta;
-        DiscontinuousLinear w;
+        certify::BrokenLinear w;
     };
-    [[nodiscard]] double product(const Eigen::VectorXd& theta, const DiscontinuousLinear& w,
+    [[nodiscard]] double product(const Eigen::VectorXd& theta, const certify::BrokenLinear& w,
                                  const Eigen::VectorXd& other_theta,
-                                 const DiscontinuousLinear& other_w) const;
+                                 const certify::BrokenLinear& other_w) const;
     [[nodiscard]] double square(const RecordedState& y) const;
 
     Beam beam_;
     Mesh mesh_;
-    Tridiagonal mass_;
+    ThermalMass mass_;
     double underflow_;
     std::vector<Rate> rates_;      // of the stages of this step
     std::vector<double> balances_; // D − W of each

@@ -22,14 +22,15 @@ double heat_residual(const Beam& beam, const Mesh& mesh, ThermalMass mass,
         return 0.0;
     const double c = record.leading;
     const Eigen::VectorXd& theta = record.now.theta;
+    if (theta(0) != 0.0 || theta(s) != 0.0) // (9), (10)
+        return std::numeric_limits<double>::infinity();
     const Eigen::VectorXd flux =
         ((theta.tail(s) - theta.head(s)).array() / mesh.lengths).matrix(); // Θ_x
-    const DiscontinuousLinear change = record.now.w - record.star.w;
+    const Eigen::VectorXd storage = certify::mass_times(mesh, mass, theta - record.star.theta);
+    const Eigen::VectorXd coupling = certify::hat_loads(mesh, record.now.w - record.star.w);
     const Eigen::VectorXd residual =
-        c * (thermal_mass_matrix(mesh, mass) * (theta - record.star.theta).segment(1, inner)) +
-        flux.head(inner) - flux.tail(inner) -
-        (beam.alpha * c) * hat_loads(mesh, change).segment(1, inner) -
-        record.heat_load.segment(1, inner);
+        c * storage.segment(1, inner) + flux.head(inner) - flux.tail(inner) -
+        (beam.alpha * c) * coupling.segment(1, inner) - record.heat_load.segment(1, inner);
     const double temperature = record.now.temperature_size + underflow;
     const double h = mesh.lengths.maxCoeff();
     const double size =
@@ -41,15 +42,11 @@ double heat_residual(const Beam& beam, const Mesh& mesh, ThermalMass mass,
 
 double beam_residual(const Beam& beam, const Mesh& mesh, const SolveRecord& record,
                      double underflow, double unit_theta_A) {
-    const Eigen::Index s = mesh.elements();
     const double viscous = beam.zeta * record.leading;
-    const Eigen::VectorXd arm = (1.0 - mesh.nodes).matrix();
-    const Eigen::VectorXd continuous =
-        beam.alpha * record.now.theta + (beam.alpha * unit_theta_A - record.stress) * arm;
-    DiscontinuousLinear residual =
-        record.now.w + viscous * (record.now.w - record.star.w) + record.moment;
-    residual.row(0) += continuous.head(s).transpose().array();
-    residual.row(1) += continuous.tail(s).transpose().array();
+    const certify::BrokenLinear residual =
+        record.now.w + viscous * (record.now.w - record.star.w) + record.moment +
+        beam.alpha * certify::broken(record.now.theta) +
+        (beam.alpha * unit_theta_A - record.stress) * certify::moment_arm(mesh);
     const double now = record.now.curvature_size + underflow;
     const double size = now + viscous * (now + record.star.curvature_size + underflow) +
                         beam.alpha * (record.now.temperature_size + std::abs(unit_theta_A)) +

@@ -1,11 +1,12 @@
 #pragma once
 
-#include "core/solve_record.hpp"
+#include "core/certify/solve_record.hpp"
 
 namespace tvbeam {
 
 /// The largest residuals of the two discrete equations of a solve (SolveRecord), in units of
-/// round-off: of ε times the sum of the largest sizes of the terms. w counts with the terms that it
+/// round-off: of ε times the sum of the largest sizes of the terms; infinite where Θ is not zero at
+/// both ends. w counts with the terms that it
 /// is the sum of (RecordedState::curvature_size).
 struct Residuals {
     double heat = 0.0; ///< over the inner nodes

@@ -2,14 +2,12 @@
 
 #include "core/problem.hpp"
 #include "core/space/mesh.hpp"
+#include "core/space/thermal_mass.hpp"
 #include "core/space/tridiagonal.hpp"
 
 #include <Eigen/Core>
 
 namespace tvbeam {
-
-/// The mass matrix of the heat equation: (χ_i, χ_j), or its row sums on the diagonal.
-enum class ThermalMass { consistent, lumped };
 
 /// Matrices of the hat functions χ_1 … χ_{s−1} of S_0^h (zero at both ends); order s − 1.
 Tridiagonal thermal_mass_matrix(const Mesh& mesh, ThermalMass kind);

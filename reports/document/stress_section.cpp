@@ -43,6 +43,7 @@ std::vector<std::string> regimes_of(const StressParameters& p) {
                     : p.elements <= 1000 ? "4 to 1000"
                                          : std::string("> 1000")),
             "stops " + stops_regime(p.stops),
+            p.theta_A == 0.0 ? "theta_A = 0" : "theta_A not 0",
             "load " + by_size(p.load, 1e-9, 1e9),
             "start " + name_of(p.initial),
             "mass " + name_of(p.thermal_mass),
@@ -125,6 +126,8 @@ std::string text_of(const StressParameters& p) {
                                    p.steps, shortest(p.load), name_of(p.initial));
     if (p.stops.exist())
         text += fmt::format(", stops [{}, {}]", p.stops.lower, p.stops.upper);
+    if (p.theta_A != 0.0)
+        text += ", theta_A " + shortest(p.theta_A);
     text += ", " + p.time + ", " + name_of(p.thermal_mass) + " mass";
     if (p.algorithm == Algorithm::fixed_point)
         text += ", fixed-point";

@@ -150,6 +150,7 @@ nlohmann::ordered_json kept(const StressCase& result) {
     json["path_skipped"] = result.checks->path_skipped;
     json["error"] = optional_number(result.checks->error);
     json["error_skipped"] = result.checks->error_skipped;
+    json["order_defect"] = optional_number(result.checks->order_defect);
     return json;
 }
 
@@ -181,6 +182,7 @@ StressCase kept_case(const nlohmann::ordered_json& json) {
     made.path_skipped = text(json, "path_skipped");
     made.error = optional_number(json, "error");
     made.error_skipped = text(json, "error_skipped");
+    made.order_defect = optional_number(json, "order_defect");
     return result;
 }
 

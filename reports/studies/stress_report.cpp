@@ -26,6 +26,7 @@ Json json_of(const StressParameters& p) {
             {"elements", p.elements},
             {"steps", p.steps},
             {"stops", {stop(p.stops.lower), stop(p.stops.upper)}},
+            {"theta_A", p.theta_A},
             {"load", p.load},
             {"initial", name_of(p.initial)},
             {"seed", p.seed},
@@ -48,6 +49,7 @@ Json json_of(const StressChecks& checks) {
     json["error"] = number_json(checks.error);
     if (!checks.error)
         json["error_skipped"] = checks.error_skipped;
+    json["order_defect"] = number_json(checks.order_defect);
     return json;
 }
 
@@ -109,13 +111,14 @@ Json json_of(const StressResult& result) {
 }
 
 std::string stress_csv(const StressResult& result) {
-    std::string text = "alpha,zeta,dt,elements,steps,g1,g2,load,initial,seed,time,thermal_mass,"
-                       "algorithm,outcome,energy,heat_residual,beam_residual,penetration,"
-                       "wrong_sign,complementarity,path,error,seconds,reason\n";
+    std::string text =
+        "alpha,zeta,dt,elements,steps,g1,g2,theta_A,load,initial,seed,time,thermal_mass,"
+        "algorithm,outcome,energy,heat_residual,beam_residual,penetration,"
+        "wrong_sign,complementarity,path,error,order_defect,seconds,reason\n";
     for (const auto& one : result.cases) {
         const StressParameters& p = one.parameters;
-        text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{}", p.alpha, p.zeta, p.dt,
-                            p.elements, p.steps, p.stops.lower, p.stops.upper, p.load,
+        text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}", p.alpha, p.zeta, p.dt,
+                            p.elements, p.steps, p.stops.lower, p.stops.upper, p.theta_A, p.load,
                             name_of(p.initial), p.seed, p.time, name_of(p.thermal_mass),
                             name_of(p.algorithm), name_of(one.outcome));
         const auto check = [&](double StressChecks::*member) {
@@ -125,7 +128,8 @@ std::string stress_csv(const StressResult& result) {
                 check(&StressChecks::beam_residual) + check(&StressChecks::penetration) +
                 check(&StressChecks::wrong_sign) + check(&StressChecks::complementarity) +
                 finite_field(one.checks ? one.checks->path : std::nullopt) +
-                finite_field(one.checks ? one.checks->error : std::nullopt);
+                finite_field(one.checks ? one.checks->error : std::nullopt) +
+                finite_field(one.checks ? one.checks->order_defect : std::nullopt);
         text += fmt::format(",{},{}\n", one.seconds, quoted(one.reason));
     }
     return text;

@@ -1,5 +1,7 @@
 #include "studies/stress/mode_solution.hpp"
 
+#include "core/certify/stated_scheme.hpp"
+
 #include <cmath>
 #include <numbers>
 
@@ -47,7 +49,7 @@ std::vector<Mode> exact_mode(const Beam& beam, Mode initial, double dt, std::int
     return modes;
 }
 
-std::vector<Mode> discrete_mode(const Beam& beam, ThermalMass mass, const TimeScheme& scheme,
+std::vector<Mode> discrete_mode(const Beam& beam, ThermalMass mass, const std::string& scheme,
                                 std::int64_t elements, Mode initial, bool projected, double dt,
                                 std::int64_t steps) {
     const long double alpha = beam.alpha;
@@ -62,22 +64,24 @@ std::vector<Mode> discrete_mode(const Beam& beam, ThermalMass mass, const TimeSc
 
     std::vector<Mode> modes{initial};
     for (std::int64_t n = 1; n <= steps; ++n) {
-        const TimeScheme& running = scheme.at_step(n);
+        const StatedStep step = stated_step(scheme, n);
         const Mode before = modes.back();
-        std::vector<Mode> increments;
-        for (std::size_t k = 0; k < static_cast<std::size_t>(running.history); ++k)
-            increments.push_back(modes[modes.size() - 1 - k] - modes[modes.size() - 2 - k]);
+        std::vector<Mode> rates; // Δt F of the stages
         Mode now;
-        for (const Stage& stage : running.stages) {
+        for (Eigen::Index i = 0; i < step.solves(); ++i) {
             Mode star = before;
-            for (std::size_t j = 0; j < stage.weights.size(); ++j)
-                star = star + static_cast<long double>(stage.weights[j]) * increments[j];
-            const long double c = static_cast<long double>(stage.leading / dt);
+            if (step.two_step)
+                star = star + 1.0L / 3.0L * (before - modes[modes.size() - 2]);
+            for (std::size_t j = 0; j < rates.size(); ++j)
+                star = star +
+                       static_cast<long double>(step.a(i, static_cast<Eigen::Index>(j))) * rates[j];
+            const long double factor = step.leading(i);
+            const long double c = factor / dt;
             const long double kappa = 1.0L / (1.0L + zeta * c);
             now.theta = (c * m * star.theta - alpha * c * kappa * star.w) /
                         (c * m + stiffness + alpha * alpha * c * kappa);
             now.w = star.w - kappa * (star.w + alpha * now.theta);
-            increments.push_back(now - before);
+            rates.push_back(factor * (now - star));
         }
         modes.push_back(now);
     }

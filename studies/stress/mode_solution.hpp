@@ -1,10 +1,10 @@
 #pragma once
 
 #include "core/problem.hpp"
-#include "core/space/linear_elements.hpp"
-#include "core/time/time_scheme.hpp"
+#include "core/space/thermal_mass.hpp"
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 namespace tvbeam {
@@ -19,11 +19,11 @@ struct Mode {
 /// eigenvalues of the symmetric 2 × 2 matrix of (T, A)'. ζ > 0.
 std::vector<Mode> exact_mode(const Beam& beam, Mode initial, double dt, std::int64_t steps);
 
-/// What the scheme makes of it on a uniform mesh, Θ_i = T sin πx_i, by the recurrence of its rows
-/// in long double: sin πx_i is an eigenvector of M, K and M_c. projected: u_xx(x, 0) is the L²
-/// projection of the sine and not its interpolation; the mode then is the part that acts on the
-/// heat equation.
-std::vector<Mode> discrete_mode(const Beam& beam, ThermalMass mass, const TimeScheme& scheme,
+/// What the scheme makes of it on a uniform mesh, Θ_i = T sin πx_i, by the recurrence in long
+/// double of the scheme as it is stated (stated_step): sin πx_i is an eigenvector of M, K and M_c.
+/// projected: u_xx(x, 0) is the L² projection of the sine and not its interpolation; the mode then
+/// is the part that acts on the heat equation.
+std::vector<Mode> discrete_mode(const Beam& beam, ThermalMass mass, const std::string& scheme,
                                 std::int64_t elements, Mode initial, bool projected, double dt,
                                 std::int64_t steps);
 

@@ -100,8 +100,8 @@ std::optional<double> sine_floor(const RoundOffBlock& block, const Beam& beam, c
 RoundOffRow row_of(const RoundOffBlock& block, std::int64_t elements) {
     const Beam beam{.alpha = block.alpha, .zeta = block.zeta};
     const Mesh mesh = Mesh::uniform(elements);
-    const auto modes = discrete_mode(beam, block.thermal_mass, TimeScheme::named(block.time),
-                                     elements, {1.0L, 0.0L}, false, block.dt, block.steps);
+    const auto modes = discrete_mode(beam, block.thermal_mass, block.time, elements, {1.0L, 0.0L},
+                                     false, block.dt, block.steps);
     RoundOffRow row;
     row.elements = elements;
     row.moment = nodal_floor(block, beam, mesh, Algorithm::direct, modes);

@@ -12,7 +12,7 @@ namespace tvbeam {
 
 class TableReader;
 
-/// Initial temperature and curvature of a stress case, of size 1.
+/// Initial temperature, over the steady θ_A (1 − x), and curvature of a stress case, of size 1.
 enum class InitialData {
     zero,
     smooth, ///< θ = −u_xx = sin πx
@@ -28,6 +28,7 @@ struct StressParameters {
     std::int64_t elements = 0;
     std::int64_t steps = 0;
     Stops stops;
+    double theta_A = 0.0;
     double load = 0.0; ///< amplitude of heat source, shear load and end moment; 0: none of them
     InitialData initial = InitialData::zero;
     unsigned seed = 1;
@@ -74,7 +75,7 @@ struct StressBlock {
 /// Reads the block. A sweep holds lists of values for
 ///
 ///     alpha, zeta, dt, elements, gap (inf: no stops), sides ("both", "lower", "upper"), load,
-///     initial ("zero", "smooth", "rough", "random"), time, thermal_mass, algorithm
+///     initial ("zero", "smooth", "rough", "random"), time, thermal_mass, algorithm, theta_A
 ///
 /// and sampling = "each" (the first value of every list is the base, from which one list at a time
 /// is gone through), "product", or "sobol" with the number of `points`. `steps` is the number of

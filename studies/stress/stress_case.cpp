@@ -1,8 +1,8 @@
 #include "studies/stress/stress_case.hpp"
 
+#include "core/certify/contact_law.hpp"
 #include "core/certify/energy_law.hpp"
 #include "core/certify/residuals.hpp"
-#include "core/contact/contact_law.hpp"
 #include "core/round_off.hpp"
 #include "core/run.hpp"
 #include "core/time/time_levels.hpp"
@@ -33,10 +33,12 @@ std::string text_of(double value) {
     return number_text(value, 3);
 }
 
-/// A power of two near the size of the data, which everything linear in them is measured in.
+/// A power of two near the size of the data, which everything linear in them is measured in. The
+/// heated end acts as the force αθ_A.
 double unit_of(const StressParameters& parameters) {
     const double size =
-        std::max(parameters.load, parameters.initial == InitialData::zero ? 0.0 : 1.0);
+        std::max({parameters.load, parameters.initial == InitialData::zero ? 0.0 : 1.0,
+                  parameters.alpha * std::abs(parameters.theta_A)});
     return size == 0.0 ? 1.0 : std::ldexp(1.0, std::ilogb(size));
 }
 
@@ -51,7 +53,7 @@ Scheme scheme_of(const StressParameters& parameters) {
 }
 
 Beam beam_of(const StressParameters& parameters) {
-    return {.alpha = parameters.alpha, .zeta = parameters.zeta, .stops = parameters.stops};
+    return {parameters.alpha, parameters.zeta, parameters.theta_A, parameters.stops};
 }
 
 /// The largest values of a run, for the scales of its norms.
@@ -87,11 +89,15 @@ public:
 
     /// underflow: what counts as zero, over the unit.
     std::string march(double underflow) {
-        SolveRecorder recorder(beam_, data_, mesh_, *solver_, parameters_.dt, options_);
+        const auto state = [this]() -> SolverState {
+            return {solver_->temperature(), solver_->curvature(), solver_->contact_stress()};
+        };
+        SolveRecorder recorder(beam_, data_, mesh_, parameters_.time, parameters_.dt, options_,
+                               state());
         EnergyLaw energy(beam_, mesh_, parameters_.thermal_mass, underflow);
         const SolveRecord* last = nullptr;
-        solver_->observe([&](const Solve& solve) {
-            const SolveRecord& record = recorder.record(solve);
+        solver_->observe([&](const Solve&) {
+            const SolveRecord& record = recorder.record(state());
             add(record, underflow);
             energy.add(record);
             last = &record;
@@ -105,7 +111,8 @@ public:
                 return reason + " in step " + std::to_string(n) + " of " +
                        std::to_string(parameters_.steps);
             take(checks_.energy, energy.end_step(recorder, *last));
-            recorder.end_step();
+            if (other_steps_ = recorder.end_step(); !other_steps_.empty())
+                return {};
         }
         return {};
     }
@@ -113,6 +120,8 @@ public:
     [[nodiscard]] const Solver& solver() const { return *solver_; }
     [[nodiscard]] const StressChecks& checks() const { return checks_; }
     [[nodiscard]] const Sizes& sizes() const { return sizes_; }
+    /// How the steps differ from those of the scheme; empty: not at all.
+    [[nodiscard]] const std::string& other_steps() const { return other_steps_; }
 
 private:
     /// NaN is worse than every number.
@@ -153,6 +162,7 @@ private:
     std::unique_ptr<Solver> solver_;
     StressChecks checks_;
     Sizes sizes_;
+    std::string other_steps_;
 };
 
 const std::vector<std::string> path_norms{"theta_LinfL2", "u_LinfH2semi", "sigma_L2"};
@@ -169,7 +179,7 @@ std::array<double, 3> path_scales(const StressParameters& parameters, const Size
     const double part = std::min(1.0 + coupled, 1.0 + static_cast<double>(parameters.elements));
     const double reaction = 3.0 / kappa * part * sizes.curvature / 2.0;
     const bool contact = sizes.stress > 0.0;
-    return {sizes.temperature +
+    return {sizes.temperature + std::abs(parameters.theta_A) +
                 (contact ? reaction * parameters.alpha * kappa / (1.0 + coupled) : 0.0),
             sizes.curvature * (contact ? 1.0 + std::sqrt(3.0 * part) / 2.0 : 1.0),
             std::sqrt(final_time) * (sizes.stress + reaction)};
@@ -225,18 +235,18 @@ void compare_paths(const StressParameters& parameters, const Mesh& mesh, const P
 void compare_error(const StressParameters& parameters, const Mesh& mesh, const Solver& solver,
                    StressChecks& checks) {
     const Beam beam = beam_of(parameters);
-    if (parameters.load != 0.0 || beam.stops.exist() || parameters.initial != InitialData::smooth ||
-        beam.zeta == 0.0) {
-        checks.error_skipped = "no exact solution: it is known of the mode sin(pi x), without load "
-                               "and stops, for zeta > 0";
+    if (parameters.load != 0.0 || parameters.theta_A != 0.0 || beam.stops.exist() ||
+        parameters.initial != InitialData::smooth || beam.zeta == 0.0) {
+        checks.error_skipped = "no exact solution: it is known of the mode sin(pi x), without "
+                               "load, heated end and stops, for zeta > 0";
         return;
     }
     const auto n = static_cast<std::size_t>(parameters.steps);
     const Mode initial{1.0L, -1.0L};
     const Mode exact = exact_mode(beam, initial, parameters.dt, parameters.steps)[n];
     const Mode discrete =
-        discrete_mode(beam, parameters.thermal_mass, TimeScheme::named(parameters.time),
-                      parameters.elements, initial, true, parameters.dt, parameters.steps)[n];
+        discrete_mode(beam, parameters.thermal_mass, parameters.time, parameters.elements, initial,
+                      true, parameters.dt, parameters.steps)[n];
     const auto predicted = static_cast<double>(std::abs(discrete.theta - exact.theta));
     const double round_off =
         1e4 * epsilon * std::max(1.0, 1e-3 * static_cast<double>(parameters.elements));
@@ -249,6 +259,45 @@ void compare_error(const StressParameters& parameters, const Mesh& mesh, const S
         (solver.temperature().array() - static_cast<double>(exact.theta) * sine).abs().maxCoeff() /
         sine.maxCoeff();
     checks.error = error / predicted;
+}
+
+/// The order in Δt that three runs show, of N, 2N and 4N steps, where they show that of the scheme
+/// when they are exact: where the steps are small and the differences above round-off.
+void compare_order(const StressParameters& parameters, const Mesh& mesh, const ProblemData& data,
+                   const Solver& coarsest, StressChecks& checks) {
+    const Beam beam = beam_of(parameters);
+    const int claimed = stated_order(parameters.time);
+    const auto order_of = [](auto coarse, auto medium, auto fine) {
+        return static_cast<double>(std::log2(std::abs(coarse - medium) / std::abs(medium - fine)));
+    };
+    long double expected[3];
+    for (int k = 0; k < 3; ++k) {
+        const std::int64_t steps = parameters.steps << k;
+        expected[k] =
+            discrete_mode(beam, parameters.thermal_mass, parameters.time, parameters.elements,
+                          {1.0L, -1.0L}, true, std::ldexp(parameters.dt, -k), steps)
+                .back()
+                .theta;
+    }
+    const double round_off =
+        1e5 * epsilon * std::max(1.0, 1e-3 * static_cast<double>(parameters.elements));
+    if (std::abs(expected[1] - expected[2]) < round_off ||
+        std::abs(order_of(expected[0], expected[1], expected[2]) - claimed) > 0.1)
+        return;
+    const Eigen::Index middle = mesh.elements() / 2;
+    double found[3] = {coarsest.temperature()(middle)};
+    for (int k = 1; k < 3; ++k) {
+        const Scheme scheme = scheme_of(parameters);
+        const std::int64_t steps = parameters.steps << k;
+        const double dt = std::ldexp(parameters.dt, -k);
+        const auto solver = make_solver(beam, data, mesh, scheme, dt, Needs{true, true, true});
+        TimeLevels levels(data, scheme.time, dt * static_cast<double>(steps), steps);
+        for (std::int64_t n = 1; n <= steps; ++n)
+            if (!solver->step(levels.at(n)).empty())
+                return;
+        found[k] = solver->temperature()(middle);
+    }
+    checks.order_defect = order_of(found[0], found[1], found[2]) - claimed;
 }
 
 /// The first check that does not hold, in words.
@@ -272,6 +321,9 @@ std::string violation(const StressChecks& checks) {
     if (checks.path && exceeds(*checks.path, checks.path_limit))
         return "sine basis and nodal values differ by " + text_of(*checks.path) +
                " ulp of the scale";
+    if (checks.order_defect && exceeds(std::abs(*checks.order_defect), StressLimits::order))
+        return "the order in dt is " + text_of(*checks.order_defect) +
+               " beside the one that the scheme is known for";
     if (checks.error && exceeds(std::abs(std::log(*checks.error)), std::log(1.1)))
         return "the error is " + text_of(*checks.error) + " of the predicted one";
     return {};
@@ -296,11 +348,18 @@ void run_case(StressCase& result) {
             return;
         }
         result.checks = marcher.checks();
+        if (!marcher.other_steps().empty()) {
+            result.outcome = Outcome::failed;
+            result.reason = marcher.other_steps();
+            return;
+        }
         if (floor == 0.0) {
             compare_paths(parameters, mesh, data, marcher.sizes(), *result.checks);
-            if (parameters.algorithm == Algorithm::direct)
+            if (parameters.algorithm == Algorithm::direct) {
                 compare_error(parameters, mesh, marcher.solver(), *result.checks);
-            else
+                if (result.checks->error)
+                    compare_order(parameters, mesh, data, marcher.solver(), *result.checks);
+            } else
                 result.checks->error_skipped = "measured with the direct algorithm";
         }
         const std::string reason = violation(*result.checks);

@@ -33,6 +33,9 @@ struct StressChecks {
     /// where the case has no exact solution.
     std::optional<double> error;
     std::string error_skipped; ///< why there is none
+    /// The order in Δt by doubling the steps twice, less that which is claimed for the scheme. None
+    /// where there is no error, or where the steps are too large to show the order.
+    std::optional<double> order_defect;
 };
 
 /// What the checks must keep to, in their own units.
@@ -40,6 +43,7 @@ struct StressLimits {
     static constexpr double energy = 1e-12;
     static constexpr double residual = 64.0;
     static constexpr double contact = 1e-13;
+    static constexpr double order = 0.2;
 };
 
 struct StressCase {

@@ -45,7 +45,14 @@ SpaceFunction sawtooth(Eigen::Index elements, bool continuous) {
     };
 }
 
-void set_random(ProblemData& data, const Mesh& mesh, unsigned seed) {
+/// phi(x) + θ_A (1 − x) at every time.
+SpaceTimeFunction over_steady(const SpaceFunction& phi, double theta_A) {
+    return [phi, theta_A](const Eigen::ArrayXd& x, double) -> Eigen::ArrayXd {
+        return phi(x) + theta_A * (1.0 - x);
+    };
+}
+
+void set_random(ProblemData& data, const Mesh& mesh, unsigned seed, double theta_A) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> uniform(-1.0, 1.0);
     const Eigen::Index s = mesh.elements();
@@ -59,18 +66,20 @@ void set_random(ProblemData& data, const Mesh& mesh, unsigned seed) {
         w(0, j) = uniform(random);
         w(1, j) = uniform(random);
     }
-    const auto at_any_time = [](const SpaceFunction& phi) -> SpaceTimeFunction {
-        return [phi](const Eigen::ArrayXd& x, double) -> Eigen::ArrayXd { return phi(x); };
-    };
-    data.theta_initial.rest = at_any_time(piecewise_linear(theta));
-    data.curvature_initial.rest = at_any_time(piecewise_linear(w));
+    data.theta_initial.rest = over_steady(piecewise_linear(theta), theta_A);
+    data.curvature_initial.rest = over_steady(piecewise_linear(w), 0.0);
 }
 
 void set_initial(ProblemData& data, const StressParameters& parameters, const Mesh& mesh) {
-    if (parameters.initial == InitialData::zero)
+    if (parameters.initial == InitialData::zero) {
+        if (parameters.theta_A != 0.0)
+            data.theta_initial.rest =
+                over_steady([](const Eigen::ArrayXd& x) -> Eigen::ArrayXd { return 0.0 * x; },
+                            parameters.theta_A);
         return;
+    }
     if (parameters.initial == InitialData::random) {
-        set_random(data, mesh, parameters.seed);
+        set_random(data, mesh, parameters.seed, parameters.theta_A);
         return;
     }
     const bool smooth = parameters.initial == InitialData::smooth;
@@ -78,9 +87,7 @@ void set_initial(ProblemData& data, const StressParameters& parameters, const Me
         return (std::numbers::pi * x).sin();
     };
     const SpaceFunction theta = smooth ? SpaceFunction(mode) : sawtooth(mesh.elements(), true);
-    data.theta_initial.rest = [theta](const Eigen::ArrayXd& x, double) -> Eigen::ArrayXd {
-        return theta(x);
-    };
+    data.theta_initial.rest = over_steady(theta, parameters.theta_A);
     data.profiles[bending] = smooth ? SpaceFunction(mode) : sawtooth(mesh.elements(), false);
     data.curvature_initial.terms = {{initial_bending, bending}};
 }

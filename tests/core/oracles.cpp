@@ -114,7 +114,7 @@ BOOST_DATA_TEST_CASE(a_million_steps_neither_grow_nor_drift, data::make(TimeSche
     };
     const Mesh mesh = Mesh::uniform(elements);
     const Scheme scheme{Algorithm::direct, ThermalMass::consistent, 0.0, TimeScheme::named(time)};
-    const auto modes = discrete_mode(beam, ThermalMass::consistent, scheme.time, elements,
+    const auto modes = discrete_mode(beam, ThermalMass::consistent, scheme.time.name, elements,
                                      {1.0L, 0.0L}, false, dt, steps);
     const auto solver = make_solver(beam, problem, mesh, scheme, dt, Needs{true, true, true});
     double before = std::numeric_limits<double>::infinity();

@@ -1,10 +1,11 @@
 #pragma once
 
-#include "core/solve_record.hpp"
+#include "core/certify/solve_record.hpp"
 
 namespace tvbeam {
 
-/// The defects of contact (6)–(8) after a solve, in lengths over the scale of the tip:
+/// The defects of contact with rigid stops (6)–(8), as the beam has them, after a solve, in lengths
+/// over the scale of the tip:
 /// the size of the terms that u(1) = ∫ (1 − x) w dx is the sum of. A reaction λ counts with the
 /// length |λ| κ/3 by which it moves the tip of a beam without heat.
 struct ContactDefects {

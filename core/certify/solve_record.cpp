@@ -1,0 +1,142 @@
+#include "core/certify/solve_record.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+namespace tvbeam {
+
+namespace {
+
+double largest(const certify::BrokenLinear& p) {
+    return p.abs().maxCoeff();
+}
+
+/// to += factor · (later − earlier), and the sizes of what it is the sum of.
+void add_increment(RecordedState& to, double factor, const RecordedState& later,
+                   const RecordedState& earlier) {
+    to.theta += factor * (later.theta - earlier.theta);
+    to.w += factor * (later.w - earlier.w);
+    for (const auto size : {&RecordedState::temperature_size, &RecordedState::terms_size,
+                            &RecordedState::curvature_size})
+        to.*size = std::max({to.*size, later.*size, earlier.*size});
+}
+
+} // namespace
+
+SolveRecorder::SolveRecorder(const Beam& beam, const ProblemData& data, const Mesh& mesh,
+                             std::string scheme, double dt, const RecordOptions& options,
+                             const SolverState& initial)
+    : beam_(beam), data_(data), mesh_(mesh), scheme_(std::move(scheme)), options_(options) {
+    record_.dt = dt;
+    record_.unit = options.unit;
+    for (const auto& profile : data_.profiles)
+        loads_.push_back(certify::load_of(mesh_, profile));
+    RecordedState state = in_units(initial);
+    state.temperature_size = state.theta.cwiseAbs().maxCoeff();
+    state.terms_size = largest(state.w) * options_.amplification + options_.iteration_size;
+    state.curvature_size = state.terms_size;
+    levels_.push_back(std::move(state));
+}
+
+RecordedState SolveRecorder::in_units(const SolverState& state) const {
+    return {state.theta / options_.unit, state.w / options_.unit};
+}
+
+const RecordedState& SolveRecorder::before(std::size_t steps) const {
+    return levels_[steps - 1];
+}
+
+void SolveRecorder::read_loads(double t) {
+    record_.heat_load = Eigen::VectorXd::Zero(mesh_.elements() + 1);
+    record_.moment = certify::BrokenLinear::Zero(2, mesh_.elements());
+    Eigen::ArrayXXd amplitudes;
+    if (data_.amplitudes)
+        amplitudes = data_.amplitudes(Eigen::ArrayXd::Constant(1, t)) / options_.unit;
+    const auto load = [&](const Field::Term& term) -> const certify::Load& {
+        return loads_[static_cast<std::size_t>(term.profile)];
+    };
+    for (const auto& term : data_.heat_source.terms)
+        record_.heat_load += amplitudes(term.amplitude, 0) * load(term).hat;
+    for (const auto& term : data_.moment_load.terms)
+        record_.moment += amplitudes(term.amplitude, 0) * load(term).projection;
+    const auto load_of_rest = [&](const SpaceTimeFunction& rest) {
+        return certify::load_of(mesh_, [&](const Eigen::ArrayXd& x) -> Eigen::ArrayXd {
+            return rest(x, t) / options_.unit;
+        });
+    };
+    if (const auto& rest = data_.heat_source.rest)
+        record_.heat_load += load_of_rest(rest).hat;
+    if (const auto& rest = data_.moment_load.rest)
+        record_.moment += load_of_rest(rest).projection;
+}
+
+/// y* such that the rate of the stage is c (Y − y*): y^{n−1} + Δt Σ_{j < i} a_ij F_j with
+/// Δt F_j = (Y_j − y*_j)/a_jj, written in the increments Y_j − y^{n−1}; or (4y^{n−1} − y^{n−2})/3.
+void SolveRecorder::read_star() {
+    const StatedStep& step = record_.step;
+    const RecordedState& before = levels_.front();
+    record_.star = before;
+    if (step.two_step) {
+        add_increment(record_.star, 1.0 / 3.0, before, levels_[1]);
+        return;
+    }
+    // Rows of Δt F_j = Σ_k factors(j, k) (Y_k − y^{n−1}): the inverse of a.
+    const Eigen::MatrixXd factors = step.a.triangularView<Eigen::Lower>().solve(
+        Eigen::MatrixXd::Identity(step.solves(), step.solves()));
+    const Eigen::Index i = record_.stage;
+    for (Eigen::Index k = 0; k < i; ++k) {
+        double weight = 0.0;
+        for (Eigen::Index j = k; j < i; ++j)
+            weight += step.a(i, j) * factors(j, k);
+        add_increment(record_.star, weight, stages_[static_cast<std::size_t>(k)], before);
+    }
+}
+
+const SolveRecord& SolveRecorder::record(const SolverState& state) {
+    record_.step = stated_step(scheme_, n_);
+    record_.stage = std::min(static_cast<Eigen::Index>(stages_.size()), record_.step.solves() - 1);
+    record_.leading = record_.step.leading(record_.stage) / record_.dt;
+    record_.stress = state.stress / options_.unit;
+    read_star();
+    read_loads((static_cast<double>(n_ - 1) + record_.step.fraction(record_.stage)) * record_.dt);
+    record_.now = in_units(state);
+    const RecordedState& star = record_.star;
+    RecordedState& now = record_.now;
+    const double kappa = 1.0 / (1.0 + beam_.zeta * record_.leading);
+    now.temperature_size = now.theta.cwiseAbs().maxCoeff() +
+                           std::max(star.theta.cwiseAbs().maxCoeff(), star.temperature_size) +
+                           std::abs(record_.stress) * beam_.alpha * kappa * record_.leading /
+                               (record_.leading + std::numbers::pi * std::numbers::pi);
+    const double forces =
+        (beam_.alpha * (now.temperature_size + std::abs(beam_.theta_A / options_.unit)) +
+         largest(record_.moment) + std::abs(record_.stress)) *
+        options_.amplification;
+    now.terms_size = std::max((1.0 - kappa) * star.terms_size + kappa * forces,
+                              largest(now.w) * options_.amplification + options_.iteration_size);
+    now.curvature_size =
+        (1.0 - kappa) * star.curvature_size + star.terms_size + kappa * forces + now.terms_size;
+    stages_.push_back(now);
+    stages_.back().temperature_size = now.theta.cwiseAbs().maxCoeff();
+    return record_;
+}
+
+std::string SolveRecorder::end_step() {
+    constexpr std::size_t history = 2; // what BDF2 reads, which reads most
+    const auto made = static_cast<Eigen::Index>(stages_.size());
+    const Eigen::Index stated = stated_step(scheme_, n_).solves();
+    std::string difference;
+    if (made != stated)
+        difference = "step " + std::to_string(n_) + " made " + std::to_string(made) + " solves; " +
+                     scheme_ + " has " + std::to_string(stated) + " there";
+    if (made > 0)
+        levels_.insert(levels_.begin(), std::move(stages_.back()));
+    if (levels_.size() > history)
+        levels_.resize(history);
+    stages_.clear();
+    ++n_;
+    return difference;
+}
+
+} // namespace tvbeam
