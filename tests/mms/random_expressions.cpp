@@ -3,6 +3,7 @@
 #include "mms/expression/expression_parser.hpp"
 #include "mms/expression/symbols.hpp"
 #include "mms/expression/tape_compiler.hpp"
+#include "mms/problem_builder.hpp"
 #include "mms/separation.hpp"
 
 #include <boost/multiprecision/cpp_bin_float.hpp>
@@ -118,7 +119,10 @@ std::vector<ComputedValues> computed(const GiNaC::ex& formula, const ArrayXd& x,
     ComputedValues sum = ComputedValues::of(tape(parts.rest));
     sum.terms = sum.values.abs();
     for (const SeparatedProduct& product : parts.products) {
-        const ArrayXd term = tape(product.amplitude) * tape(product.profile);
+        const ScaledProfile profile = scaled_profile(product.profile);
+        if (!profile.function)
+            return {ComputedValues::of(tape(formula))};
+        const ArrayXd term = tape(product.amplitude * profile.size) * profile.function(x);
         sum.values += term;
         sum.terms += term.abs();
     }
