@@ -2,7 +2,6 @@
 // with what is there; it is then refused with a reason before anything runs.
 
 #include "mms/text/input_error.hpp"
-#include "reports/document/result_document.hpp"
 #include "reports/document/text_document.hpp"
 #include "reports/formats/report_format.hpp"
 #include "studies/gates/check.hpp"
@@ -176,12 +175,12 @@ std::string outcome_of(const std::string& problem, const std::vector<std::string
         const StudyResult result = run_study(scene, {.progress = &listener});
         BOOST_TEST(!result.failed(), result.ending().reason);
         check(result);
-        const Document document = result_document(result);
-        BOOST_TEST(!text_document(document).empty());
-        const auto plots = plots_of(result);
+        const Reported all = reported(result);
+        BOOST_TEST(!text_document(all.document).empty());
+        const auto plots = all.plots();
         const DrawnPlots none{std::vector<DrawnPlot>(plots.size()), "not drawn"};
         for (const auto& format : report_formats())
-            format->write({result, document, plots, none});
+            format->write({all, plots, none});
         return "ran";
     } catch (const InputError& error) {
         const std::string reason = error.what();
