@@ -45,7 +45,7 @@ std::int64_t read_elements(TableReader& table, bool richardson,
     return elements;
 }
 
-double read_dt(TableReader& table, bool richardson, const std::vector<Series>& measured) {
+double read_reference_dt(TableReader& table, bool richardson, const std::vector<Series>& measured) {
     const auto given = table.number("dt");
     if (!given)
         throw table.error("dt", " is missing; give a step that divides every dt of the studies");
@@ -158,7 +158,7 @@ ReferenceBlock read_reference(TableReader& table, const std::vector<Series>& mea
     ReferenceBlock reference;
     reference.richardson = table.flag("richardson").value_or(false);
     reference.elements = read_elements(table, reference.richardson, measured);
-    reference.dt = read_dt(table, reference.richardson, measured);
+    reference.dt = read_reference_dt(table, reference.richardson, measured);
     table.finish();
     require_memory(table, reference, measured);
     return reference;

@@ -26,7 +26,7 @@ std::string time_scheme_text(const TimeScheme& scheme) {
     return text;
 }
 
-std::vector<Count> named(const Counters& counters) {
+std::vector<Count> counts_of(const Counters& counters) {
     return {{"steps", counters.steps},
             {"sine_steps", counters.sine_steps},
             {"heat_solves", counters.heat_solves},
@@ -83,7 +83,7 @@ std::vector<Norm> norms_of(const std::vector<Measure>& measures) {
 }
 
 RungResult rung_result(const Rung& rung, const RunResult& run, double seconds) {
-    return {rung,       status_of(run.status), run.reason, seconds, named(run.counters),
+    return {rung,       status_of(run.status), run.reason, seconds, counts_of(run.counters),
             run.errors, run.uncertainties};
 }
 

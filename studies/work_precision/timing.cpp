@@ -10,7 +10,7 @@ namespace tvbeam {
 namespace {
 
 /// Below this, a difference is as likely the machine's as the scheme's.
-constexpr double least_ratio = 1.2;
+constexpr double least_time_ratio = 1.2;
 
 bool has_error(const TimedError& row) {
     return std::isfinite(row.error) && row.error > 0.0;
@@ -79,7 +79,7 @@ Comparison compare(const Timing& first, const Timing& second) {
     result.ratio = slow.median / fast.median;
     result.lowest = slow.q1 / fast.q3;
     result.highest = slow.q3 / fast.q1;
-    result.distinguishable = result.ratio > least_ratio && result.lowest > 1.0;
+    result.distinguishable = result.ratio > least_time_ratio && result.lowest > 1.0;
     return result;
 }
 
