@@ -30,7 +30,12 @@ StatedStep stated_step(const std::string& scheme, std::int64_t n) {
         a << gamma, 0.0, 1.0 - gamma, gamma;
         return {a};
     }
-    throw std::logic_error("the time scheme " + scheme + " is not stated for its certificates");
+    throw std::domain_error("the time scheme " + scheme +
+                            " is not stated apart from the one that runs, and not certified");
+}
+
+std::vector<std::string> stated_schemes() {
+    return {"euler", "bdf2", "sdirk2"};
 }
 
 int stated_order(const std::string& scheme) {

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 namespace tvbeam {
 
@@ -35,8 +36,11 @@ struct StatedStep {
 /// - "euler", a = 1;
 /// - "sdirk2", a = [γ, 0; 1 − γ, γ] with γ = 1 − 1/√2 (Alexander 1977);
 /// - "bdf2", whose first step is one of sdirk2: of order 2 from the start.
-/// Throws std::logic_error for another name.
+/// Throws std::domain_error for another name.
 StatedStep stated_step(const std::string& scheme, std::int64_t n);
+
+/// The names that it knows.
+std::vector<std::string> stated_schemes();
 
 /// The order in Δt that its authors claim.
 int stated_order(const std::string& scheme);

@@ -1,5 +1,6 @@
 #include "studies/stress/stress_block.hpp"
 
+#include "core/certify/stated_scheme.hpp"
 #include "core/gsl_errors.hpp"
 #include "mms/text/toml_reader.hpp"
 #include "studies/scene/study_keys.hpp"
@@ -144,7 +145,7 @@ std::vector<ThermalMass> read_mass(TableReader& table) {
 }
 
 std::vector<std::string> read_time(TableReader& table) {
-    return of_words(table, "time", TimeScheme::names(), TimeScheme::names());
+    return of_words(table, "time", stated_schemes(), stated_schemes());
 }
 
 Axis gap_axis(const std::vector<double>& gaps, const std::vector<std::size_t>& sides) {
@@ -240,8 +241,7 @@ std::vector<double> geometric(TableReader& table, const char* key) {
     return values;
 }
 
-std::string read_one_time(TableReader& table) {
-    const auto names = TimeScheme::names();
+std::string read_one_time(TableReader& table, const std::vector<std::string>& names) {
     return names[table.choice("time", names).value_or(0)];
 }
 
@@ -257,7 +257,7 @@ ContractionBlock read_contraction(TableReader table) {
     block.dt = geometric(table, "dt");
     block.zeta = single(table, "zeta", 0.1, false);
     block.elements = count(table, "elements", 20, 10'000);
-    block.time = read_one_time(table);
+    block.time = read_one_time(table, TimeScheme::names());
     block.thermal_mass = read_one_mass(table);
     table.finish();
     return block;
@@ -269,7 +269,7 @@ RoundOffBlock read_roundoff(TableReader table) {
     block.zeta = single(table, "zeta", 0.1, false);
     block.dt = single(table, "dt", 1e-3, true);
     block.steps = count(table, "steps", 3, 1'000'000);
-    block.time = read_one_time(table);
+    block.time = read_one_time(table, stated_schemes());
     block.thermal_mass = read_one_mass(table);
     block.elements = elements_or_ten(table);
     block.finest_hermite = count(table, "finest_hermite", 10'000, most_elements);

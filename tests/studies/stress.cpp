@@ -208,4 +208,43 @@ BOOST_AUTO_TEST_CASE(error_of_the_mode_is_the_predicted_one) {
     }
 }
 
+// Steps of a hundredth of the slowest time, 1/π²: the next term of the error is about as small a
+// part of it.
+BOOST_AUTO_TEST_CASE(order_in_time_is_seen_by_doubling_the_steps) {
+    StressParameters mode;
+    mode.alpha = 0.5;
+    mode.zeta = 0.1;
+    mode.dt = 1e-3;
+    mode.elements = 10;
+    mode.steps = 50;
+    mode.initial = InitialData::smooth;
+    for (const auto& time : TimeScheme::names()) {
+        mode.time = time;
+        const StressCase result = judge(mode);
+        BOOST_REQUIRE_MESSAGE(result.checks && result.checks->order_defect, time);
+        BOOST_TEST(std::abs(*result.checks->order_defect) < 0.03, time);
+    }
+    mode.dt = 10.0; // no step shows an order where the mode decays in one
+    BOOST_TEST(!judge(mode).checks->order_defect);
+}
+
+BOOST_AUTO_TEST_CASE(a_heated_end_is_certified_by_every_scheme) {
+    StressParameters heated;
+    heated.alpha = 0.5;
+    heated.zeta = 0.1;
+    heated.dt = 0.01;
+    heated.elements = 10;
+    heated.steps = 20;
+    heated.load = 1.0;
+    for (const auto& time : TimeScheme::names())
+        for (const double theta_A : {-0.7, 0.3})
+            for (const auto algorithm : {Algorithm::direct, Algorithm::fixed_point}) {
+                heated.time = time;
+                heated.theta_A = theta_A;
+                heated.algorithm = algorithm;
+                const StressCase result = judge(heated);
+                BOOST_TEST(name_of(result.outcome) == "certified", result.reason);
+            }
+}
+
 BOOST_AUTO_TEST_SUITE_END()
