@@ -37,7 +37,7 @@ double heat_residual(const Beam& beam, const Mesh& mesh, ThermalMass mass,
         c * h * temperature + 4.0 / mesh.lengths.minCoeff() * temperature +
         beam.alpha * c * h * (record.now.curvature_size + record.star.curvature_size + underflow) +
         record.heat_load.cwiseAbs().maxCoeff() + underflow;
-    return in_round_off(residual.cwiseAbs().maxCoeff(), size);
+    return in_round_off(residual.cwiseAbs().maxCoeff<Eigen::PropagateNaN>(), size);
 }
 
 double beam_residual(const Beam& beam, const Mesh& mesh, const SolveRecord& record,
@@ -51,7 +51,7 @@ double beam_residual(const Beam& beam, const Mesh& mesh, const SolveRecord& reco
     const double size = now + viscous * (now + record.star.curvature_size + underflow) +
                         beam.alpha * (record.now.temperature_size + std::abs(unit_theta_A)) +
                         record.moment.abs().maxCoeff() + std::abs(record.stress) + underflow;
-    return in_round_off(residual.abs().maxCoeff(), size);
+    return in_round_off(residual.abs().maxCoeff<Eigen::PropagateNaN>(), size);
 }
 
 } // namespace

@@ -260,7 +260,7 @@ struct AnalyseOptions {
     std::string json;
     std::string csv;
     std::string out;
-    std::string expect;
+    std::optional<std::string> expect;
     std::string junit;
     std::string record;
     std::string baseline;
@@ -272,8 +272,8 @@ int analyse_command(const AnalyseOptions& options) {
         options.baseline.empty() ? std::nullopt : std::optional<Baseline>(options.baseline);
     const DataAnalysis analysis = analyse(read_data(options.file, options.choice));
     CheckedScene checked{analysis.name, 0.0, {}, {}};
-    if (!options.expect.empty())
-        checked.expectations = check(analysis, options.expect);
+    if (options.expect)
+        checked.expectations = check(analysis, *options.expect);
     if (baseline) {
         const auto more = baseline->check(baseline_entry(analysis), options.tolerance);
         checked.expectations.insert(checked.expectations.end(), more.begin(), more.end());
@@ -297,7 +297,7 @@ int analyse_command(const AnalyseOptions& options) {
     if (record.wanted())
         record.write(baseline_of({baseline_entry(analysis)}));
     const Document document = analysis_document(analysis);
-    const bool gated = !options.expect.empty() || baseline;
+    const bool gated = options.expect || baseline;
     if (!json.standard_output() && !csv.standard_output() && !junit.standard_output() &&
         !record.standard_output())
         write_standard_output(text_document(document) +

@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <fstream>
+#include <filesystem>
 #include <map>
 #include <sstream>
 
@@ -50,7 +51,10 @@ BaselineEntry baseline_entry(const DataAnalysis& analysis) {
                 what += fmt::format(" {} = {}", width.name, width.numbers[row]);
             figures[what] = column.numbers[row];
         }
-    return {analysis.name, {analysis.name}, std::move(figures)};
+    // However the path of the table is spelled.
+    return {std::filesystem::path(analysis.name).lexically_normal().string(),
+            {analysis.name},
+            std::move(figures)};
 }
 
 std::string baseline_of(const std::vector<BaselineEntry>& entries) {

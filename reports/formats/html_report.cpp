@@ -239,7 +239,8 @@ std::string verdict_of(const HtmlContents& contents) {
                 ? "<p><strong>The study was interrupted; this is what had finished.</strong></p>\n"
             : contents.failed
                 ? "<p><strong>A run failed; the tables say which and why.</strong></p>\n"
-                : "<p>Every run finished.</p>\n";
+            : contents.scene_text.empty() ? "" // a table of data: nothing was run
+                                          : "<p>Every run finished.</p>\n";
     const auto findings = findings_of(contents.document);
     return html + (findings.empty() ? "" : html_of(findings)) + "</section>\n";
 }

@@ -42,6 +42,15 @@ std::string order_words(const std::string& width, const OrderInterval& order) {
                             : fmt::format("order in {} not determined: {}", width, order.status);
 }
 
+/// So many digits of a number that an interval of this half width shows two of its own.
+int digits_of(double value, double half) {
+    constexpr int fewest = 4, most = 17;
+    if (!(half > 0) || value == 0)
+        return 8;
+    const double more = std::log10(std::abs(value) / half) + 3;
+    return static_cast<int>(std::clamp(more, double{fewest}, double{most}));
+}
+
 /// Errors of one or two widths.
 void analyse_records(const DataAnalysis& data, const std::vector<std::size_t>& used,
                      const std::vector<double>& sigma, ColumnAnalysis& column) {
@@ -65,7 +74,13 @@ void analyse_records(const DataAnalysis& data, const std::vector<std::size_t>& u
     column.orders = std::move(found.orders);
     column.verdicts = std::move(found.verdict->rows);
     column.by_width[used.front()] = found.order;
-    if (used.size() > 1)
+    if (found.in_turns)
+        for (const auto i : used)
+            column.by_width[i].status = data.widths[used.front()].name + " and " +
+                                        data.widths[used.back()].name +
+                                        " are refined in turns; three of each in all pairs would "
+                                        "show both orders";
+    else if (used.size() > 1)
         column.by_width[used.back()].status =
             "it is refined with " + data.widths[used.front()].name;
     if (found.has_logarithm)
@@ -105,12 +120,14 @@ ColumnAnalysis analyse_errors(const DataAnalysis& data, const DataColumn& errors
     return column;
 }
 
-/// Whether finer rows by one width are nowhere coarser by another, so that one width stands for
-/// all.
-bool is_one_path(const std::vector<DataColumn>& widths) {
+/// Whether finer rows by the width `along` are nowhere coarser by another, and rows of one such
+/// width are of one width throughout, so that it stands for all.
+bool is_one_path(const std::vector<DataColumn>& widths, std::size_t along) {
+    const auto& own = widths[along].numbers;
     for (const auto& width : widths)
-        for (std::size_t r = 1; r < width.numbers.size(); ++r)
-            if (width.numbers[r] > width.numbers[r - 1])
+        for (std::size_t r = 1; r < own.size(); ++r)
+            if (width.numbers[r] > width.numbers[r - 1] ||
+                (own[r] == own[r - 1] && width.numbers[r] != width.numbers[r - 1]))
                 return false;
     return true;
 }
@@ -130,13 +147,12 @@ ColumnAnalysis analyse_values(const DataAnalysis& data, const DataColumn& values
         if (!sigma.empty())
             rows[r].sigma = sigma[r];
     }
-    if (is_one_path(data.widths)) {
+    if (is_one_path(data.widths, along)) {
         column.limit = estimate_limit(rows);
     } else {
         column.limit.emplace();
         column.limit->limit.status = column.limit->order.status =
-            "a limit is found along one way of refinement: " + data.widths[along].name +
-            " falls where another width grows";
+            "a limit is found along one way of refinement, and the widths are refined in turns";
     }
     const auto& [limit, order, uncertainty, basis, gci, celik, eca] = *column.limit;
     column.by_width[along] = order;
@@ -148,8 +164,11 @@ ColumnAnalysis analyse_values(const DataAnalysis& data, const DataColumn& values
     column.findings.push_back(
         column.name + ": " +
         (limit.determined
-             ? fmt::format("limit {:.8g}, 95 % from {:.8g} to {:.8g} ({}); the finest value ± {}; ",
-                           limit.value, limit.low, limit.high, basis, scientific(uncertainty, 2)) +
+             ? fmt::format("limit {0:.{3}g}, 95 % from {1:.{3}g} to {2:.{3}g} ({4}); the finest "
+                           "value ± {5}; ",
+                           limit.value, limit.low, limit.high,
+                           digits_of(limit.value, limit.half_width()), basis,
+                           scientific(uncertainty, 2)) +
                    order_words(data.widths[along].name, order)
              : "no limit: " + limit.status));
     return column;

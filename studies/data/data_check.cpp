@@ -118,6 +118,9 @@ std::vector<CheckedExpectation> check(const DataAnalysis& analysis,
         if (auto inner = table.table(column.name))
             ColumnCheck(analysis, column, *inner, checked).run();
     table.finish();
+    if (checked.empty())
+        throw InputError({document.file},
+                         "expects nothing; give a metric, as 'L2.order = [1.9, 2.1]'");
     return checked;
 }
 

@@ -166,6 +166,11 @@ double checked_number(const Lines& lines, const TextField& field, char separator
         throw InputError(lines.place(field.column), "'" + std::string(field.text.substr(0, 40)) +
                                                         "' in column " + name +
                                                         " is too large for a double");
+    const std::string_view mantissa = field.text.substr(0, field.text.find_first_of("eEdDqQ"));
+    if (*value == 0 && mantissa.find_first_of("123456789") != std::string_view::npos)
+        throw InputError(lines.place(field.column), "'" + std::string(field.text.substr(0, 40)) +
+                                                        "' in column " + name +
+                                                        " is too small for a double");
     return *value;
 }
 

@@ -86,16 +86,23 @@ RecordAnalysis analyse(std::vector<Refinement> records, const std::vector<double
         return analysis;
     analysis.is_in_dt = stays_in_h(analysis.records) && !std::isnan(analysis.records.front().dt);
     if (!analysis.is_in_dt && !is_one_path(analysis.records)) {
+        analysis.in_turns = true;
         analysis.order.status = "h and dt are refined in turns; three of each in all pairs would "
                                 "show both orders";
         return analysis;
     }
+    // Orders do not know the scale of the errors; squares of theirs must be in range.
+    double greatest = 0;
+    for (const auto& record : analysis.records)
+        if (record.is_resolved())
+            greatest = std::max(greatest, record.error);
+    const int exponent = is_positive(greatest) ? std::ilogb(greatest) : 0;
     for (const std::size_t i : order) {
         const auto& record = records[i];
         const double relative = sigma.empty() ? 0.0 : sigma[i] / record.error;
         if (record.is_resolved())
             rows.push_back({{analysis.is_in_dt ? record.dt : record.h},
-                            record.error,
+                            std::ldexp(record.error, -exponent),
                             is_positive(relative) ? 1 / (relative * relative) : 1.0});
     }
     const OrderEnsemble ensemble(rows);

@@ -21,6 +21,7 @@ struct RecordAnalysis {
     std::vector<std::optional<double>> orders; ///< of a ladder (LadderVerdict); empty for a grid
     std::optional<LadderVerdict> verdict;      ///< of a ladder
     OrderInterval order;                       ///< of a ladder, in h, or in Δt where h stays
+    bool in_turns = false;                     ///< of no ladder: h and Δt are refined in turns
     bool is_in_dt = false;                     ///< of a ladder: its order is one in Δt
     bool has_logarithm = false;                ///< of a ladder: its order stands with a factor ln
     std::optional<TwoTermFit> two_term;        ///< of a grid

@@ -187,14 +187,14 @@ std::optional<Mean> mean_of(const std::vector<Weighed>& all, double agreement) {
 
 /// All windows that end at the finest level, each compared with the one a level coarser.
 void weigh(const Rows& levels, const LimitModel& model, std::vector<Weighed>& limits,
-           std::vector<Weighed>& orders) {
+           std::vector<double>& orders) {
     const std::size_t n = levels.size();
     for (std::size_t length = static_cast<std::size_t>(model.parameters()); length <= n; ++length) {
         const std::span<const ValueRow> window(levels.data() + (n - length), length);
         const auto fit = fit_limit_model(window, weights_of(window), model);
         if (!fit)
             continue;
-        double change = 0, order_change = 0;
+        double change = 0;
         bool compared = false;
         // The same length one level coarser; where there is none, its rows but for the finest.
         const std::size_t shorter = length < n ? length : length - 1;
@@ -205,7 +205,6 @@ void weigh(const Rows& levels, const LimitModel& model, std::vector<Weighed>& li
             // the next term.
             const double rate = model.order ? std::sqrt(ratio) : ratio;
             change = std::abs(coarser->limit - fit->limit) / (rate - 1);
-            order_change = std::abs(coarser->order - fit->order);
             compared = true;
         }
         const double error = fit->dof > 0 ? fit->limit_error * student_over_normal(fit->dof) : 0.0;
@@ -213,7 +212,7 @@ void weigh(const Rows& levels, const LimitModel& model, std::vector<Weighed>& li
             continue;
         limits.push_back({fit->limit, std::hypot(change, error)});
         if (!model.order)
-            orders.push_back({fit->order, order_change});
+            orders.push_back(fit->order);
     }
 }
 
@@ -249,61 +248,110 @@ bool runs_apart(const Rows& levels) {
            roundings * std::numeric_limits<double>::epsilon() * std::abs(levels.back().value);
 }
 
+/// The levels less the finest value and over the greatest distance from it, so that no square of
+/// theirs leaves the range of doubles. The scale is zero where the values are all the same.
+struct ScaledRows {
+    Rows levels;
+    double origin = 0;
+    double scale = 0;
+};
+
+ScaledRows scaled(const Rows& levels) {
+    ScaledRows result{levels, levels.back().value};
+    for (auto& row : result.levels) {
+        row.value -= result.origin;
+        result.scale = std::max(result.scale, std::abs(row.value));
+    }
+    if (result.scale > 0)
+        for (auto& row : result.levels) {
+            row.value /= result.scale;
+            row.sigma /= result.scale;
+        }
+    return result;
+}
+
+/// The order of the differences between consecutive levels, as the engine of orders sees that of
+/// errors: f_k − f_{k+1} = C h_k^p (1 − r_k^{−p}) + … with the ratios r_k of the widths, which are
+/// divided out with the order found before; from_models: the first.
+OrderInterval order_of_differences(const Rows& levels, double from_models) {
+    OrderInterval order;
+    double p = from_models;
+    constexpr int rounds = 4;
+    for (int round = 0; round < rounds; ++round) {
+        std::vector<ErrorRow> differences;
+        for (std::size_t k = 0; k + 1 < levels.size(); ++k)
+            differences.push_back({{levels[k].h},
+                                   std::abs(levels[k].value - levels[k + 1].value) /
+                                       -std::expm1(-p * std::log(levels[k].h / levels[k + 1].h))});
+        order = estimate_orders(differences).front();
+        if (!(order.value > 0))
+            break;
+        p = order.value;
+    }
+    return order;
+}
+
 } // namespace
 
 LimitEstimate estimate_limit(std::span<const ValueRow> rows, const LimitTuning& tuning) {
-    const Rows levels = levels_of(rows);
+    const Rows given = levels_of(rows);
     LimitEstimate result;
-    if (levels.size() < 3) {
+    if (given.size() < 3) {
         result.limit.status = result.order.status =
             "a limit needs values at three different widths";
         return result;
     }
-    result.gci = gci_of(levels);
-    result.celik = celik_of(levels);
-    result.eca_hoekstra = eca_hoekstra_of(levels);
-    if (runs_apart(levels)) {
+    if (runs_apart(given)) {
         result.limit.status = result.order.status = "the values run apart";
         return result;
     }
-    std::vector<Weighed> limits, orders;
+    const auto [levels, origin, scale] = scaled(given);
+    const double rounding = roundings * std::numeric_limits<double>::epsilon() * std::abs(origin);
+    if (scale <= rounding) {
+        result.limit = {origin, origin - rounding, origin + rounding, true, 1, ""};
+        result.uncertainty = rounding;
+        result.basis = std::to_string(levels.size()) + " levels that are the same";
+        result.order.status = "the values stand still";
+        return result;
+    }
+    result.gci = gci_of(given);
+    result.celik = celik_of(given);
+    result.eca_hoekstra = eca_hoekstra_of(given);
+    if (result.gci && result.gci->order < least_order) {
+        result.limit.status = result.order.status = "the order of the finest values is below 0.2";
+        return result;
+    }
+    std::vector<Weighed> limits;
+    std::vector<double> orders;
     for (const auto& model : limit_models)
         if (!model.alternating || alternates(levels))
             weigh(levels, model, limits, orders);
     const double last_step = std::abs(levels[levels.size() - 2].value - levels.back().value);
     const auto spare = static_cast<double>(levels.size()) - 2;
     const double factor = tuning.factor * (1 + tuning.few_levels / (spare * spare));
-    if (const auto mean = mean_of(
-            limits, std::max(tuning.agreement * last_step, std::numeric_limits<double>::min()))) {
+    // What the doubles of the values do not know, in units of the scale.
+    const double unknown =
+        std::max(rounding / scale, roundings * std::numeric_limits<double>::epsilon());
+    if (const auto mean = mean_of(limits, tuning.agreement * last_step + unknown)) {
         const double half =
-            factor * mean->spread + tuning.narrowest * std::abs(mean->value - levels.back().value);
-        result.limit = {.value = mean->value,
-                        .low = mean->value - half,
-                        .high = mean->value + half,
+            scale * (factor * mean->spread + tuning.narrowest * std::abs(mean->value) + unknown);
+        const double limit = origin + scale * mean->value;
+        result.limit = {.value = limit,
+                        .low = limit - half,
+                        .high = limit + half,
                         .determined = true,
                         .share = 1,
                         .status = ""};
-        result.uncertainty = std::abs(mean->value - levels.back().value) + half;
+        result.uncertainty = scale * std::abs(mean->value) + half;
         result.basis =
             std::to_string(levels.size()) + " levels, " + std::to_string(limits.size()) + " fits";
     } else {
         result.limit.status = "no model fits";
     }
-    if (const auto mean = mean_of(orders, 1e-3)) {
-        const double rounding =
-            roundings * std::numeric_limits<double>::epsilon() * std::abs(levels.back().value);
-        const double half = factor * mean->spread +
-                            tuning.narrowest * std::abs(mean->value - levels.back().value) +
-                            rounding;
-        result.order = {.value = mean->value,
-                        .low = mean->value - half,
-                        .high = mean->value + half,
-                        .determined = half <= OrderTuning{}.widest && mean->value > half,
-                        .share = 1,
-                        .status = ""};
-    }
-    if (!result.order.determined)
-        result.order.status = "models and windows do not agree";
+    std::sort(orders.begin(), orders.end());
+    result.order = order_of_differences(levels, orders.empty() ? 1.0 : orders[orders.size() / 2]);
+    if (levels.size() < 4)
+        result.order.status = "an order of values with an interval needs four widths";
     return result;
 }
 
@@ -346,6 +394,9 @@ std::optional<MethodLimit> gci_of(std::span<const ValueRow> levels) {
         return std::nullopt;
     for (int k = 0; k < 60; ++k)
         (exceeds((low + high) / 2) ? high : low) = (low + high) / 2;
+    constexpr double no_order = 1e-3; // steps that stay the same, but for rounding
+    if (high < no_order)
+        return std::nullopt;
     const double gain = std::expm1(high * log_fine);
     constexpr double safety = 1.25; // of an order observed on three grids
     return MethodLimit{fine.value - step / gain, safety * std::abs(step) / gain, high,

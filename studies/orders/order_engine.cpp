@@ -335,7 +335,7 @@ double OrderEnsemble::greatest_share(Index width) const {
 
 /// The order in windows that leave out ever more of the coarse levels, over all members without
 /// next terms.
-std::string OrderEnsemble::motion(Index width) const {
+std::vector<double> OrderEnsemble::order_by_window(Index width) const {
     std::map<int, std::pair<double, int>> sums;
     for (const auto& member : members_)
         if (member.family == 0) {
@@ -347,6 +347,26 @@ std::string OrderEnsemble::motion(Index width) const {
     means.reserve(sums.size());
     for (const auto& [place, sum] : sums)
         means.push_back(sum.first / sum.second);
+    return means;
+}
+
+/// Of a sequence: whether the order moves one way, and from each window to the next by more. What
+/// it goes to is then beyond what any window shows.
+bool OrderEnsemble::runs_away(Index width) const {
+    const auto means = order_by_window(width);
+    if (rows_.widths() != 1 || means.size() < 3)
+        return false;
+    for (std::size_t i = 2; i < means.size(); ++i) {
+        const double step = means[i] - means[i - 1];
+        if (step * (means[i - 1] - means[i - 2]) <= 0 ||
+            std::abs(step) <= std::abs(means[i - 1] - means[i - 2]))
+            return false;
+    }
+    return std::abs(means.back() - means[means.size() - 2]) > tuning_.narrowest;
+}
+
+std::string OrderEnsemble::motion(Index width) const {
+    const auto means = order_by_window(width);
     if (means.size() < 2)
         return {};
     const double last = means.back();
@@ -381,7 +401,7 @@ std::vector<OrderInterval> OrderEnsemble::orders() const {
             order.high = mixture->value + mixture->half;
         }
         order.determined = mixture && order.share >= tuning_.least_share && order.low > 0 &&
-                           mixture->half <= tuning_.widest;
+                           mixture->half <= tuning_.widest && !runs_away(width);
         if (!order.determined)
             order.status = status_of(width, order);
     }

@@ -134,6 +134,8 @@ private:
     std::string status_of(Eigen::Index width, const OrderInterval& order) const;
     double sequence_factor() const;
     double greatest_share(Eigen::Index width) const;
+    std::vector<double> order_by_window(Eigen::Index width) const;
+    bool runs_away(Eigen::Index width) const;
     std::string motion(Eigen::Index width) const;
 
     OrderTuning tuning_;

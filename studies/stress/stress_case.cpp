@@ -126,7 +126,7 @@ public:
 private:
     /// NaN is worse than every number.
     static void take(double& worst, double value) {
-        if (!(value <= worst))
+        if (!std::isnan(worst) && !(value <= worst))
             worst = value;
     }
 
