@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <set>
 #include <sstream>
@@ -259,6 +260,34 @@ BOOST_AUTO_TEST_CASE(json_keeps_to_its_schema) {
     // And a schema that nothing breaks would be of no use.
     auto json = nlohmann::json::parse(directory.read("ladder.json"));
     json.at("ladder").at("rungs")[0].erase("errors");
+    const std::string broken = directory.write("broken.json", json.dump());
+    BOOST_TEST(std::system((validate + " -i " + broken + " >/dev/null 2>&1").c_str()) != 0);
+}
+
+BOOST_AUTO_TEST_CASE(json_of_an_analysis_keeps_to_its_schema) {
+    if (!installed("python3 -c 'import jsonschema'"))
+        return;
+    const TemporaryDirectory directory;
+    std::string instances;
+    for (const auto& [name, table, options] : std::vector<std::array<std::string, 3>>{
+             {"errors",
+              "h,L2,drag\n1,1,3\n0.5,0.25,2.25\n0.25,0.0625,2.0625\n0.125,0.015625,2.015625\n",
+              " --error L2 --value drag"},
+             {"grid", "h,dt,error\n1,1,2\n1,0.5,1.5\n0.5,1,1.25\n0.5,0.5,0.75\n", ""},
+             {"value_grid", "h,dt,drag\n1,1,2\n1,0.5,1.5\n0.5,1,1.25\n0.5,0.5,0.75\n",
+              " --value drag"},
+             {"few", "h,error\n1,0.5\n", ""},
+             {"apart", "h,error,value\n1,1,1\n0.5,2,2\n0.25,inf,nan\n0.125,0,9\n", ""}}) {
+        const std::string file = (directory.path() / (name + ".json")).string();
+        const Called called = call(directory, "analyse " + directory.write(name + ".csv", table) +
+                                                  options + " --json " + file);
+        BOOST_TEST(called.exit == 0, name << called.errors);
+        instances += " -i " + file;
+    }
+    const std::string validate = "python3 -W ignore -m jsonschema " TVBEAM_ANALYSIS_SCHEMA;
+    BOOST_TEST(std::system((validate + instances).c_str()) == 0);
+    auto json = nlohmann::json::parse(directory.read("errors.json"));
+    json.at("columns")[0].at("orders").at("h").erase("low");
     const std::string broken = directory.write("broken.json", json.dump());
     BOOST_TEST(std::system((validate + " -i " + broken + " >/dev/null 2>&1").c_str()) != 0);
 }
