@@ -16,7 +16,6 @@ namespace tvbeam {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 /// A search that has an end takes about ten. Where it has none (ρ at its bound, a term that is not
 /// there), more of them only bend the model towards what is out of line.
 constexpr int most_trials = 100;

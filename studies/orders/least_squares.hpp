@@ -13,10 +13,14 @@
 #include <Eigen/Core>
 
 #include <functional>
+#include <limits>
 #include <optional>
 #include <span>
 
 namespace tvbeam {
+
+/// What is not determined has an interval that covers everything.
+inline constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Sets the values f(θ), and the Jacobian ∂f_i/∂θ_k where it is not null. A NaN among the values
 /// marks θ as inadmissible; the search turns back from there.

@@ -12,7 +12,6 @@ namespace tvbeam {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double least_order = 0.2;
 constexpr double greatest_order = 8;
 /// An interval is no narrower than this many roundings of the finest value.

@@ -1,8 +1,9 @@
 #include "studies/orders/order_engine.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <map>
 #include <utility>
 
@@ -10,19 +11,12 @@ namespace tvbeam {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t fewest_levels = 3;
 constexpr int logarithmic_family = 3; // among the shapes of a sequence
 /// Rows where the others are finest: all, and those of this many finest levels.
 constexpr int finest_levels[] = {3, 2, 1};
 
 using Index = Eigen::Index;
-
-std::string with_number(const char* format, double number) {
-    char text[160];
-    std::snprintf(text, sizeof text, format, number);
-    return text;
-}
 
 /// Rows with a logarithm; those of one cell are one row of their mean, and of their number's
 /// weight. A cell is one point of the widths, or, where there are too many rows, of a lattice.
@@ -376,8 +370,8 @@ std::string OrderEnsemble::motion(Index width) const {
     for (std::size_t i = 1; i < means.size(); ++i)
         if ((means[i] - means[i - 1]) * step <= 0)
             return {};
-    return step > 0 ? with_number("rising past %.2f", last)
-                    : with_number("falling below %.2f", last);
+    return step > 0 ? fmt::format("rising past {:.2f}", last)
+                    : fmt::format("falling below {:.2f}", last);
 }
 
 std::vector<OrderInterval> OrderEnsemble::orders() const {
@@ -414,7 +408,7 @@ std::string OrderEnsemble::status_of(Index width, const OrderInterval& order) co
     if (std::abs(order.value) <= 2 * tuning_.narrowest && order.half_width() <= tuning_.widest)
         return "the error stands still";
     if (order.high <= 0)
-        return with_number("the error grows under refinement, order %.2f", order.value);
+        return fmt::format("the error grows under refinement, order {:.2f}", order.value);
     const std::string moves = motion(width);
     return moves.empty() ? "models and windows do not agree" : moves;
 }

@@ -11,7 +11,6 @@ namespace tvbeam {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 /// Cauchy's function with this is 95 % efficient under normal scatter.
 constexpr double cauchy = 2.385;
 /// The median of |z| over the standard deviation of a normal z.

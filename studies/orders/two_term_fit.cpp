@@ -1,8 +1,9 @@
 #include "studies/orders/two_term_fit.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <stdexcept>
 
 namespace tvbeam {
@@ -13,12 +14,6 @@ constexpr std::size_t fewest_records = 7;
 /// A row is out of line where it is further off than this many times the scatter, and than what no
 /// model shows (OrderTuning::narrowest).
 constexpr double out_of_line = 6;
-
-std::string with_number(const char* format, double number) {
-    char text[160];
-    std::snprintf(text, sizeof text, format, number);
-    return text;
-}
 
 /// Why a record has no logarithm that a fit may use; none where it has.
 std::optional<RejectedRecord> unusable(const Refinement& record, std::size_t i) {
@@ -31,7 +26,7 @@ std::optional<RejectedRecord> unusable(const Refinement& record, std::size_t i) 
     if (!record.is_resolved())
         return RejectedRecord{
             i, Rejection::unresolved,
-            with_number("the error is uncertain by %.1e of itself", record.uncertainty)};
+            fmt::format("the error is uncertain by {:.1e} of itself", record.uncertainty)};
     return std::nullopt;
 }
 
@@ -57,13 +52,14 @@ void sort_records(std::span<const Refinement> records, const std::vector<std::si
         if (!fit.ensemble->holds(steadiest, {records[i].h, records[i].dt}))
             fit.rejected.push_back(
                 {i, Rejection::pre_asymptotic,
-                 with_number("too coarse for the model: the error is %.3g times the model's",
+                 fmt::format("too coarse for the model: the error is {:.3g} times the model's",
                              std::exp(off))});
         else if (!(std::abs(off) <= limit))
             fit.rejected.push_back(
                 {i, Rejection::outlier,
-                 with_number("out of line with its neighbours: the error is %.3g times the model's",
-                             std::exp(off))});
+                 fmt::format(
+                     "out of line with its neighbours: the error is {:.3g} times the model's",
+                     std::exp(off))});
         else
             fit.used.push_back(i);
     }

@@ -2,9 +2,10 @@
 
 #include "studies/orders/order_engine.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <utility>
 
 namespace tvbeam {
@@ -26,12 +27,6 @@ constexpr double model_tolerance = 0.2;
 /// The orders of the window already run towards that of the finest row, by this part of the step
 /// that is left: a drift, and no kink that one row shows.
 constexpr double drift_part = 0.1;
-
-std::string text(const char* format, double first = 0, double second = 0) {
-    char result[200];
-    std::snprintf(result, sizeof result, format, first, second);
-    return result;
-}
 
 /// Rows of one level, and the means of their logarithms.
 struct Level {
@@ -172,27 +167,29 @@ private:
             least = std::min(least, levels_[i].error);
             if (i >= run.first && i <= run.last)
                 verdicts_[i] = {Verdict::asymptotic,
-                                text("order %.2f over the rows that agree", run.order)};
+                                fmt::format("order {:.2f} over the rows that agree", run.order)};
             else if (is_dip(i, run))
-                verdicts_[i] = {
-                    Verdict::cancellation,
-                    text("the error dips, order %.2f and then %.2f", *orders_[i], *orders_[i + 1])};
+                verdicts_[i] = {Verdict::cancellation,
+                                fmt::format("the error dips, order {:.2f} and then {:.2f}",
+                                            *orders_[i], *orders_[i + 1])};
             else if (i > 0 && verdicts_[i - 1].verdict == Verdict::cancellation)
                 verdicts_[i] = {Verdict::cancellation,
-                                text("order %.2f out of the dip before", *orders_[i])};
+                                fmt::format("order {:.2f} out of the dip before", *orders_[i])};
             else if (i > run.last)
                 verdicts_[i] = past_the_window(i, run, least);
             else
-                verdicts_[i] = {Verdict::pre_asymptotic,
-                                text("coarser than the rows that show order %.2f", run.order)};
+                verdicts_[i] = {
+                    Verdict::pre_asymptotic,
+                    fmt::format("coarser than the rows that show order {:.2f}", run.order)};
         }
         // On its way into a floor the order falls through all values in between.
         for (std::size_t i = size() - 1; i-- > run.last + 1;)
             if (verdicts_[i + 1].verdict == Verdict::floor &&
                 verdicts_[i].verdict == Verdict::pre_asymptotic && orders_[i] &&
                 *orders_[i] < (1 - options_.tolerance) * run.order)
-                verdicts_[i] = {Verdict::floor, text("a floor begins to show, order %.2f of %.2f",
-                                                     *orders_[i], run.order)};
+                verdicts_[i] = {Verdict::floor,
+                                fmt::format("a floor begins to show, order {:.2f} of {:.2f}",
+                                            *orders_[i], run.order)};
     }
 
     RowVerdict past_the_window(std::size_t i, const Run& run, double least) const {
@@ -200,15 +197,18 @@ private:
             return {Verdict::pre_asymptotic, "nothing is refined against the row before"};
         const double order = *orders_[i];
         if (order < 0 && levels_[i].error > floor_scatter * least)
-            return {Verdict::diverging,
-                    text("the error grows again, order %.2f after %.2f", order, run.order)};
+            return {
+                Verdict::diverging,
+                fmt::format("the error grows again, order {:.2f} after {:.2f}", order, run.order)};
         if (order < floor_part * run.order)
-            return {Verdict::floor, text("the error stands still near %.1e", levels_[i].error)};
+            return {Verdict::floor,
+                    fmt::format("the error stands still near {:.1e}", levels_[i].error)};
         if (agree(order, run.order))
             return {Verdict::pre_asymptotic,
-                    text("order %.2f, but no longer with its neighbours", order)};
+                    fmt::format("order {:.2f}, but no longer with its neighbours", order)};
         return {Verdict::pre_asymptotic,
-                text("order %.2f departs from the %.2f of the rows before", order, run.order)};
+                fmt::format("order {:.2f} departs from the {:.2f} of the rows before", order,
+                            run.order)};
     }
 
     /// Do finer levels contradict the window? A floor, a dip and a divergence past it are events of
@@ -232,15 +232,15 @@ private:
     RowVerdict alone(double order, bool only_order) const {
         if (order < -standstill)
             return {Verdict::diverging,
-                    text("the error grows under refinement, order %.2f", order)};
+                    fmt::format("the error grows under refinement, order {:.2f}", order)};
         if (order <= standstill)
-            return {Verdict::floor, text("the error does not change, order %.2f", order)};
+            return {Verdict::floor, fmt::format("the error does not change, order {:.2f}", order)};
         if (options_.expected_order)
-            return {Verdict::pre_asymptotic,
-                    text("order %.2f, expected is %.2f", order, *options_.expected_order)};
+            return {Verdict::pre_asymptotic, fmt::format("order {:.2f}, expected is {:.2f}", order,
+                                                         *options_.expected_order)};
         if (only_order)
             return {Verdict::pre_asymptotic,
-                    text("order %.2f, which no other row confirms", order)};
+                    fmt::format("order {:.2f}, which no other row confirms", order)};
         return {Verdict::pre_asymptotic, "the orders do not agree"};
     }
 
@@ -302,16 +302,17 @@ std::string dominant(const ForecastRow& row) {
 RowVerdict by_model(const LadderForecast& view, std::size_t i, std::size_t rows) {
     const auto& row = view.rows[i];
     if (row.ruling == Ruling::cancellation)
-        return {Verdict::cancellation, text("the h term %.1e and the dt term %.1e cancel in part",
-                                            row.spatial, row.temporal)};
+        return {Verdict::cancellation,
+                fmt::format("the h term {:.1e} and the dt term {:.1e} cancel in part", row.spatial,
+                            row.temporal)};
     if (view.asymptotic_from && i >= view.asymptotic_from->row)
         return {Verdict::asymptotic,
-                dominant(row) + text(", order %.2f to the end", view.asymptotic_order)};
+                dominant(row) + fmt::format(", order {:.2f} to the end", view.asymptotic_order)};
     std::string reason =
-        dominant(row) + text(" here; in the end the order is %.2f", view.asymptotic_order);
+        dominant(row) + fmt::format(" here; in the end the order is {:.2f}", view.asymptotic_order);
     if (view.asymptotic_from && view.asymptotic_from->row >= rows)
-        reason += text(", from h = %.1e, dt = %.1e on", view.asymptotic_from->h,
-                       view.asymptotic_from->dt);
+        reason += fmt::format(", from h = {:.1e}, dt = {:.1e} on", view.asymptotic_from->h,
+                              view.asymptotic_from->dt);
     return {Verdict::pre_asymptotic, reason};
 }
 
@@ -330,7 +331,8 @@ void prefer_model(std::span<const Refinement> levels, const VerdictOptions& opti
 RowVerdict unusable(const Refinement& record) {
     const double error = record.error;
     if (!std::isnan(error) && !record.is_resolved())
-        return {Verdict::unresolved, text("uncertain by %.1e of itself", record.uncertainty)};
+        return {Verdict::unresolved,
+                fmt::format("uncertain by {:.1e} of itself", record.uncertainty)};
     if (error == 0)
         return {Verdict::exact, "the error is zero"};
     if (std::isnan(error))
