@@ -275,7 +275,14 @@ ScaledRows scaled(const Rows& levels) {
 OrderInterval order_of_differences(const Rows& levels, double from_models) {
     OrderInterval order;
     double p = from_models;
-    constexpr int rounds = 4;
+    double least = infinity, greatest = 0;
+    for (std::size_t k = 0; k + 1 < levels.size(); ++k) {
+        least = std::min(least, levels[k].h / levels[k + 1].h);
+        greatest = std::max(greatest, levels[k].h / levels[k + 1].h);
+    }
+    // Of one ratio, the factor is a constant whatever the order.
+    constexpr double same = 1 + 1e-6;
+    const int rounds = greatest <= same * least ? 1 : 4;
     for (int round = 0; round < rounds; ++round) {
         std::vector<ErrorRow> differences;
         for (std::size_t k = 0; k + 1 < levels.size(); ++k)
