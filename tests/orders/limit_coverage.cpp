@@ -128,8 +128,10 @@ BOOST_AUTO_TEST_CASE(
             BOOST_TEST_MESSAGE(family << ", " << name << ": answers " << score.answered << " of "
                                       << score.asked << ", holds " << 100 * score.share()
                                       << " %, median width " << score.width());
-        // Few levels far from the limit may run apart.
-        BOOST_TEST(row["engine"].answered >= 0.97 * row["engine"].asked);
+        // Few levels far from the limit may run apart: 3 %, up to three deviations of a sample so
+        // large.
+        const double asked = row["engine"].asked;
+        BOOST_TEST(row["engine"].answered >= 0.97 * asked - 3 * std::sqrt(0.03 * 0.97 * asked));
         BOOST_TEST(row["engine"].share() >= (family == "all" ? 0.95 : 0.9),
                    family << " holds " << row["engine"].share());
     }
