@@ -193,6 +193,7 @@ bool coloured() {
 
 std::vector<BaselineEntry> entries_of(const std::vector<StudyResult>& results) {
     std::vector<BaselineEntry> entries;
+    entries.reserve(results.size());
     for (const auto& result : results)
         entries.push_back(baseline_entry(result));
     return entries;

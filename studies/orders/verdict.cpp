@@ -375,6 +375,7 @@ LadderVerdict judge(std::span<const Refinement> ladder, const VerdictOptions& op
     if (levels.empty())
         return result;
     std::vector<Refinement> means;
+    means.reserve(levels.size());
     for (const auto& level : levels)
         means.push_back(level.mean);
     const auto orders = observed_orders(means);
