@@ -120,6 +120,13 @@ struct ProblemData {
     std::shared_ptr<const Resolution> resolution = nullptr;
 };
 
+/// The sum of two functions of the same profiles and amplitudes.
+Field sum(const Field& a, const Field& b);
+
+/// The problem with the sources and initial data of another added, times the factor. Exact solution
+/// and ends of phases stay those of the first; the resolution is left to run().
+ProblemData sum(const ProblemData& problem, const ProblemData& added, double factor = 1.0);
+
 /// The values of a field of the problem at the points x and the time t.
 Eigen::ArrayXd values(const ProblemData& data, const Field& field, const Eigen::ArrayXd& x,
                       double t);

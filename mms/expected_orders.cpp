@@ -140,8 +140,8 @@ public:
             row("u_LinfH2", u_in_space(2.0), u),
             row("u_LinfH2semi", u_in_space(2.0), u),
             row("u_L2H2", u_in_space(2.0), u),
-            row("u_LinfH1", u_in_space(coupled_ ? 2.0 : 3.0), u),
-            row("u_LinfL2", u_in_space(coupled_ ? 2.0 : 4.0), u),
+            row("u_LinfH1", u_in_space(3.0), u),
+            row("u_LinfL2", u_in_space(4.0), u),
             row("corollary", corollary, both),
         };
         if (beam_.stops.exist())

@@ -57,9 +57,9 @@ struct ExpectedOrders {
 /// Orders by theory, for a solution that is smooth within its phases:
 ///
 /// - in h: 2 for θ̃ in L² and for u in H² (u_xx is projected on P1disc), 1 for θ̃ in H¹. The coupling
-///   brings the error of α θ̃ into u_xx, so that u has 2 in every norm; with α = 0 it has 3 in H¹
-///   and 4 in L². A linear θ̃ has no error in h, and neither has a cubic u if α = 0 or θ̃ is linear,
-///   too: what is left is a part of the time error that changes with h.
+///   brings the error of α θ̃ into u_xx, so that u has 2 in every norm; with α = 0, or a linear θ̃,
+///   it has 3 in H¹ and 4 in L². A linear θ̃ has no error in h, and neither has a cubic u if α = 0
+///   or θ̃ is linear, too: what is left is a part of the time error that changes with h.
 /// - in dt: that of the scheme; none where what is differenced is linear in time, for every scheme
 ///   is exact then: θ̃ and u_xx in the heat equation, where α = 0 θ̃ alone; in the beam equation
 ///   u_xx, and where ζ = 0 nothing. The coupling passes the errors on. Where θ̃_t or u_xxt jumps

@@ -3,8 +3,10 @@
 #include "core/space/resolution.hpp"
 #include "core/space/tail_moment.hpp"
 #include "mms/admissible/admissibility.hpp"
+#include "mms/derivation.hpp"
 #include "mms/expression/algebra.hpp"
 #include "mms/expression/expression_parser.hpp"
+#include "mms/expression/number_expression.hpp"
 #include "mms/expression/symbols.hpp"
 #include "mms/expression/tape_compiler.hpp"
 #include "mms/plain_solution.hpp"
@@ -14,11 +16,13 @@
 #include "mms/separation.hpp"
 #include "mms/text/error_text.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace tvbeam {
@@ -33,49 +37,145 @@ ArrayXd values(const ex& formula, const ArrayXd& x, double t) {
     return compile_tape({formula}).evaluate(x, ArrayXd::Constant(1, t)).row(0);
 }
 
-/// One of the given expressions with the beam's values in it, or zero if it is left out. plain: as
-/// it is written.
-ex given(const std::optional<SourceText>& source, const Beam& beam, bool at_start,
-         const std::string& what, PlainExpression& plain) {
-    if (!source)
-        return 0;
+/// What expressions may name, and what that is in each phase of time.
+struct Names {
     SymbolTable symbols = model_symbol_table();
-    if (at_start)
-        symbols.erase("t");
-    const ex expression = parse_expression(*source, symbols, &plain);
-    require_stops_in_use(*source, beam);
-    return located(*source, what, [&] { return substituted(expression, beam_values(beam)); });
-}
+    std::vector<TimePhase> phases{{0.0, std::numeric_limits<double>::infinity()}};
+    std::vector<GiNaC::exmap> values; ///< one a phase
+    std::map<std::string, BoundedJet<long double>> constants;
+    std::vector<std::string> fields; ///< of a solution, which texts are not evaluated with
 
-void require_finite(const ex& formula, const SourceText& source, double final_time,
-                    const std::string& what) {
-    const ArrayXd x = sample_points(0.0, 1.0);
-    const Tape tape = located(source, what, [&] { return compile_tape({formula}); });
-    for (const double t : sample_points(0.0, final_time)) {
-        const ArrayXd sampled = tape.evaluate(x, ArrayXd::Constant(1, t)).row(0);
-        for (Index k = 0; k < x.size(); ++k)
-            if (!std::isfinite(sampled(k)))
-                throw InputError(source.begin(), what + " is not finite at x = " +
-                                                     number_text(x(k)) + ", t = " + number_text(t));
+    explicit Names(const Beam& beam)
+        : values{beam_values(beam)}, constants(plain_constants(beam)) {}
+
+    void add(const std::string& name, double value) {
+        const ex symbol = symbols[name] = GiNaC::realsymbol(name);
+        for (GiNaC::exmap& phase : values)
+            phase[symbol] = exact_rational(value);
+        constants[name] = BoundedJet<long double>(written(value));
+    }
+};
+
+/// The parts of a solution that a defect may name.
+constexpr std::pair<const char*, ex DerivedPhase::*> named_fields[] = {
+    {"theta", &DerivedPhase::theta},
+    {"theta_x", &DerivedPhase::theta_x},
+    {"theta_t", &DerivedPhase::theta_t},
+    {"theta_xx", &DerivedPhase::theta_xx},
+    {"u", &DerivedPhase::u},
+    {"u_x", &DerivedPhase::u_x},
+    {"u_xx", &DerivedPhase::u_xx},
+    {"u_xxx", &DerivedPhase::u_xxx},
+    {"u_xxt", &DerivedPhase::u_xxt},
+    {"u_xxxt", &DerivedPhase::u_xxxt},
+    {"sigma", &DerivedPhase::sigma}};
+
+void add_solution(Names& names, const Solution& solution, const Beam& beam) {
+    const DerivedSolution derived = derive_on(solution, beam);
+    names.phases.clear();
+    for (const PhaseExpressions& phase : derived.phases)
+        names.phases.push_back({phase.begin_value, phase.end_value});
+    names.values.resize(names.phases.size(), names.values.front());
+    for (const auto& [name, field] : named_fields) {
+        const ex symbol = names.symbols[name] = GiNaC::realsymbol(name);
+        for (std::size_t i = 0; i < derived.derived.size(); ++i) {
+            const DerivedPhase& phase = derived.derived[i];
+            // The one that derive leaves out where ζ = 0.
+            names.values[i][symbol] = field == &DerivedPhase::u_xxxt
+                                          ? derivative(phase.u_xxt, model_symbols().x)
+                                          : phase.*field;
+        }
+        names.fields.emplace_back(name);
+    }
+    for (const auto& [name, value] : solution.parameters) {
+        if (names.symbols.contains(name))
+            throw InputError(value.begin(), "the parameter '" + name +
+                                                "' has a name that [defect] has a meaning for; "
+                                                "call it something else");
+        names.add(name, number_from_expression(value));
     }
 }
 
-/// u(0) = u'(0) = 0 (5), and where stops are rigid g1 ≤ u(1) ≤ g2 (6).
-void require_admissible_start(const ex& u, const ex& u_x, const SourceText& source,
-                              const Beam& beam) {
+/// One of the given expressions with the values of all names in it.
+struct Given {
+    const SourceText* source; ///< null: it is left out
+    std::string what;
+    std::vector<ex> formulas;   ///< one a phase; zero if it is left out
+    PlainExpression plain = {}; ///< as it is written; empty where a field is in it
+
+    explicit operator bool() const { return source != nullptr; }
+
+    /// Something made of every formula.
+    template <typename Operation>
+    [[nodiscard]] std::vector<ex> each(const Operation& operation) const {
+        std::vector<ex> result;
+        for (const ex& formula : formulas)
+            result.push_back(source == nullptr ? ex(0) : located(*source, what, [&] {
+                return operation(formula);
+            }));
+        return result;
+    }
+};
+
+Given given(const std::optional<SourceText>& source, const Names& names, const Beam& beam,
+            bool at_start, const std::string& what) {
+    Given result{source ? &*source : nullptr, what, std::vector<ex>(names.phases.size(), 0)};
+    if (!source)
+        return result;
+    SymbolTable symbols = names.symbols;
+    if (at_start)
+        symbols.erase("t");
+    const ex expression = parse_expression(*source, symbols, &result.plain);
+    require_stops_in_use(*source, beam);
+    for (std::size_t i = 0; i < result.formulas.size(); ++i)
+        result.formulas[i] = located(*source, what, [&] {
+            const ex value = substituted(expression, names.values[at_start ? 0 : i]);
+            return at_start ? substituted(value, {{model_symbols().t, 0}}) : value;
+        });
+    for (const auto& field : names.fields)
+        if (first_use(*source, field))
+            result.plain.clear();
+    return result;
+}
+
+void require_finite(const Names& names, const std::vector<ex>& formulas, const SourceText& source,
+                    double final_time, const std::string& what) {
+    const ArrayXd x = sample_points(0.0, 1.0);
+    for (std::size_t i = 0; i < formulas.size(); ++i) {
+        const auto [begin, end] = names.phases[i];
+        if (!(begin < final_time))
+            break;
+        const Tape tape = located(source, what, [&] { return compile_tape({formulas[i]}); });
+        for (const double t : sample_points(begin, std::min(end, final_time))) {
+            const ArrayXd sampled = tape.evaluate(x, ArrayXd::Constant(1, t)).row(0);
+            for (Index k = 0; k < x.size(); ++k)
+                if (!std::isfinite(sampled(k)))
+                    throw InputError(source.begin(),
+                                     what + " is not finite at x = " + number_text(x(k)) +
+                                         ", t = " + number_text(t));
+        }
+    }
+}
+
+void require_clamped(const ex& u, const ex& u_x, const SourceText& source) {
     const ArrayXd points = sample_points(0.0, 1.0);
     const ArrayXd deflection = values(u, points, 0.0);
     const ArrayXd slope = values(u_x, points, 0.0);
-    const double tolerance = 1e-12 * deflection.abs().maxCoeff();
-    const double tip = deflection(points.size() - 1);
-    if (std::abs(deflection(0)) > tolerance)
+    if (std::abs(deflection(0)) > 1e-12 * deflection.abs().maxCoeff())
         throw InputError(source.begin(), "(5): u0(0) is " + number_text(deflection(0)) +
                                              "; it must be 0; a factor x^2 makes it so");
     if (std::abs(slope(0)) > 1e-12 * slope.abs().maxCoeff())
         throw InputError(source.begin(), "(5): the slope of u0 at x = 0 is " +
                                              number_text(slope(0)) +
                                              "; it must be 0; a factor x^2 makes it so");
-    const bool rigid = beam.stops.epsilon == 0.0; // penalised stops yield
+}
+
+/// Where stops are rigid g1 ≤ u(1) ≤ g2 (6); penalised ones yield.
+void require_between_stops(const ex& u, const SourceText& source, const Beam& beam) {
+    const ArrayXd deflection = values(u, sample_points(0.0, 1.0), 0.0);
+    const double tolerance = 1e-12 * deflection.abs().maxCoeff();
+    const double tip = deflection(deflection.size() - 1);
+    const bool rigid = beam.stops.epsilon == 0.0;
     if (rigid && (tip < beam.stops.lower - tolerance || tip > beam.stops.upper + tolerance))
         throw InputError(source.begin(), "(6): u0(1) is " + number_text(tip) +
                                              "; it must be between the stops " +
@@ -125,62 +225,72 @@ SpaceTimeFunction moment_in_time(const ex& q, double final_time) {
 }
 
 /// The moment of the body force: closed where q is polynomial in x, integrated where not.
-Field moment_of(const ex& q, double final_time, ProblemBuilder& builder) {
+Field moment_of(const std::vector<ex>& q, double final_time, ProblemBuilder& builder) {
     const GiNaC::realsymbol& x = model_symbols().x;
-    const Separation parts = separated(q);
-    ex closed = 0;
-    ex rest = parts.rest;
+    std::vector<ex> closed(q.size(), 0);
+    std::vector<SpaceTimeFunction> rests(q.size());
     std::vector<Field::Term> integrated;
-    for (const SeparatedProduct& product : parts.products) {
-        if (product.profile.is_polynomial(x) && product.profile.degree(x) <= 16) {
-            closed += product.amplitude * moment_of_polynomial(product.profile);
-            continue;
+    for (std::size_t i = 0; i < q.size(); ++i) {
+        const Separation parts = separated(q[i]);
+        ex rest = parts.rest;
+        for (const SeparatedProduct& product : parts.products) {
+            if (product.profile.is_polynomial(x) && product.profile.degree(x) <= 16) {
+                closed[i] += product.amplitude * moment_of_polynomial(product.profile);
+                continue;
+            }
+            const ScaledProfile scaled = scaled_profile(product.profile);
+            if (scaled.function) {
+                std::vector<ex> amplitude(q.size(), 0);
+                amplitude[i] = product.amplitude * scaled.size;
+                integrated.push_back(builder.term(amplitude, moment_of_profile(scaled.function)));
+            } else {
+                rest += product.amplitude * product.profile;
+            }
         }
-        const ScaledProfile scaled = scaled_profile(product.profile);
-        if (scaled.function)
-            integrated.push_back(
-                builder.term(product.amplitude * scaled.size, moment_of_profile(scaled.function)));
-        else
-            rest += product.amplitude * product.profile;
+        if (!rest.is_zero())
+            rests[i] = moment_in_time(rest, final_time);
     }
-    Field result = builder.field({closed});
+    Field result = builder.field(closed);
     result.terms.insert(result.terms.end(), integrated.begin(), integrated.end());
-    if (!rest.is_zero())
-        result.rest = moment_in_time(rest, final_time);
+    result.rest = builder.in_phases(std::move(rests));
     return result;
 }
 
 /// Holds computed values against what the data's texts say at sampled points.
 class GivenTexts {
 public:
-    GivenTexts(const Beam& beam, double final_time)
-        : constants_(plain_constants(beam)), points_(sample_points(0.0, final_time, true)) {}
+    GivenTexts(const Names& names, double final_time)
+        : constants_(names.constants), points_(sample_points(0.0, final_time, true)) {}
 
     [[nodiscard]] const SamplePoints& points() const { return points_; }
 
     /// Throws InputError where the values are not those of ∂_x^order of the expression.
-    void require(const std::optional<SourceText>& source, const PlainExpression& plain, int order,
-                 const std::string& what, const ComputedValues& computed) const {
-        if (!source)
+    void require(const Given& data, int order, const std::string& what,
+                 const ComputedValues& computed) const {
+        if (data.plain.empty())
             return;
         auto names = constants_;
         std::vector<Bounded<long double>> text;
         for (Index k = 0; k < points_.x.size(); ++k) {
             names["x"] = BoundedJet<long double>::x(points_.x(k), order);
             names["t"] = BoundedJet<long double>::t(points_.t(k), 0);
-            text.push_back(evaluated(plain, names).derivative(order, 0));
+            text.push_back(evaluated(data.plain, names).derivative(order, 0));
         }
         if (const auto k = first_disagreement(text, computed))
-            throw InputError(source->begin(),
+            throw InputError(data.source->begin(),
                              disagreement_text(what, points_.x(*k), points_.t(*k),
                                                computed.values(*k),
                                                text[static_cast<std::size_t>(*k)].value));
     }
 
-    void require(const std::optional<SourceText>& source, const PlainExpression& plain, int order,
-                 const std::string& what, const ex& formula) const {
-        const ArrayXd computed = compile_tape({formula}).evaluate(points_.x, points_.t).row(0);
-        require(source, plain, order, what, ComputedValues::of(computed));
+    /// Of formulas, which are the same in every phase where there is a text to evaluate.
+    void require(const Given& data, int order, const std::string& what,
+                 const std::vector<ex>& formulas) const {
+        if (data.plain.empty())
+            return;
+        const ArrayXd computed =
+            compile_tape({formulas.front()}).evaluate(points_.x, points_.t).row(0);
+        require(data, order, what, ComputedValues::of(computed));
     }
 
 private:
@@ -188,51 +298,86 @@ private:
     SamplePoints points_;
 };
 
+/// defect: what is given is added to another problem.
+ProblemData problem_with(const GivenData& data, const Names& names, const Beam& beam,
+                         double final_time, bool defect) {
+    const Given theta = given(data.theta0, names, beam, true, "theta0");
+    const Given u = given(data.u0, names, beam, true, "u0");
+    const Given heat_source = given(data.heat_source, names, beam, false, "heat_source");
+    const Given body_force = given(data.body_force, names, beam, false, "body_force");
+    const Given moment_load = given(data.moment_load, names, beam, false, "moment_load");
+    const GivenTexts texts(names, final_time);
+    for (const Given* one : {&theta, &u, &heat_source, &body_force, &moment_load})
+        if (*one)
+            require_finite(names, one->formulas, *one->source, final_time, one->what);
+
+    const GiNaC::realsymbol& x = model_symbols().x;
+    const auto slope = [&](const ex& formula) { return derivative(formula, x); };
+    const auto curvature = u.each([&](const ex& formula) { return slope(slope(formula)); });
+    if (u) {
+        const auto u_x = u.each(slope);
+        require_finite(names, u_x, *data.u0, final_time, "u0'");
+        require_finite(names, curvature, *data.u0, final_time, "u0''");
+        texts.require(u, 0, "u0", u.formulas);
+        texts.require(u, 1, "u0'", u_x);
+        require_clamped(u.formulas.front(), u_x.front(), *data.u0);
+        if (!defect)
+            require_between_stops(u.formulas.front(), *data.u0, beam);
+    }
+    const auto shear = moment_load.each([&](const ex& formula) { return -slope(formula); });
+    if (moment_load)
+        require_finite(names, shear, *data.moment_load, final_time, "the slope of moment_load");
+
+    ProblemBuilder builder(names.phases, final_time);
+    ProblemData problem;
+    problem.theta_initial = builder.field(theta.formulas);
+    problem.curvature_initial = builder.field(curvature);
+    problem.heat_source = builder.field(heat_source.formulas);
+    problem.body_force = builder.field(body_force.formulas);
+    const Field moment = builder.field(moment_load.formulas);
+    problem.moment_load = sum(moment_of(body_force.formulas, final_time, builder), moment);
+    problem.couple_load = builder.field(shear);
+    problem.end_moment = builder.amplitude(moment_load.each([&](const ex& formula) {
+        return -substituted(formula, {{x, 1}});
+    }));
+    builder.finish(problem);
+    const SampledFields sampled(problem, texts.points().x, texts.points().t);
+    texts.require(theta, 0, "theta0", sampled.of(problem.theta_initial));
+    texts.require(u, 2, "u0''", sampled.of(problem.curvature_initial));
+    texts.require(heat_source, 0, "heat_source", sampled.of(problem.heat_source));
+    texts.require(body_force, 0, "body_force", sampled.of(problem.body_force));
+    texts.require(moment_load, 0, "moment_load", sampled.of(moment));
+    return problem;
+}
+
 } // namespace
+
+std::vector<std::pair<std::string, std::string>> named_parts(const GivenData& data) {
+    std::vector<std::pair<std::string, std::string>> parts;
+    for (const auto& [name, source] : {std::pair("theta0", &data.theta0),
+                                       {"u0", &data.u0},
+                                       {"heat_source", &data.heat_source},
+                                       {"moment_load", &data.moment_load},
+                                       {"body_force", &data.body_force}})
+        if (*source)
+            parts.emplace_back(name, (*source)->text());
+    return parts;
+}
 
 ProblemData given_problem(const GivenData& data, const Beam& beam, double final_time) {
     require_final_time(final_time);
-    PlainExpression plain_theta, plain_u, plain_source, plain_force;
-    const ex theta = given(data.theta0, beam, true, "theta0", plain_theta);
-    const ex u = given(data.u0, beam, true, "u0", plain_u);
-    const ex heat_source = given(data.heat_source, beam, false, "heat_source", plain_source);
-    const ex body_force = given(data.body_force, beam, false, "body_force", plain_force);
-    const GivenTexts texts(beam, final_time);
+    return problem_with(data, Names(beam), beam, final_time, false);
+}
 
-    const GiNaC::realsymbol& x = model_symbols().x;
-    ex curvature = 0;
-    if (data.theta0)
-        require_finite(theta, *data.theta0, final_time, "theta0");
-    if (data.u0) {
-        const ex u_x = located(*data.u0, "u0", [&] { return derivative(u, x); });
-        curvature = located(*data.u0, "u0", [&] { return derivative(u_x, x); });
-        require_finite(u, *data.u0, final_time, "u0");
-        require_finite(u_x, *data.u0, final_time, "u0'");
-        require_finite(curvature, *data.u0, final_time, "u0''");
-        texts.require(data.u0, plain_u, 0, "u0", u);
-        texts.require(data.u0, plain_u, 1, "u0'", u_x);
-        require_admissible_start(u, u_x, *data.u0, beam);
-    }
-    if (data.heat_source)
-        require_finite(heat_source, *data.heat_source, final_time, "heat_source");
-    if (data.body_force)
-        require_finite(body_force, *data.body_force, final_time, "body_force");
-
-    ProblemBuilder builder({{0.0, std::numeric_limits<double>::infinity()}}, final_time);
-    ProblemData problem;
-    problem.theta_initial = builder.field({theta});
-    problem.curvature_initial = builder.field({curvature});
-    problem.heat_source = builder.field({heat_source});
-    problem.body_force = builder.field({body_force});
-    problem.moment_load = moment_of(body_force, final_time, builder);
-    builder.finish(problem);
-    const SampledFields sampled(problem, texts.points().x, texts.points().t);
-    texts.require(data.theta0, plain_theta, 0, "theta0", sampled.of(problem.theta_initial));
-    texts.require(data.u0, plain_u, 2, "u0''", sampled.of(problem.curvature_initial));
-    texts.require(data.heat_source, plain_source, 0, "heat_source",
-                  sampled.of(problem.heat_source));
-    texts.require(data.body_force, plain_force, 0, "body_force", sampled.of(problem.body_force));
-    return problem;
+ProblemData given_defect(const GivenData& defect, const Solution* solution, const Beam& beam,
+                         double final_time, double h, double dt) {
+    require_final_time(final_time);
+    Names names(beam);
+    names.add("h", h);
+    names.add("dt", dt);
+    if (solution != nullptr && !solution->phases.empty())
+        add_solution(names, *solution, beam);
+    return problem_with(defect, names, beam, final_time, true);
 }
 
 } // namespace tvbeam

@@ -101,15 +101,11 @@ double sampled_size(const SpaceFunction& profile) {
                                    : std::numeric_limits<double>::infinity();
 }
 
-SpaceTimeFunction compiled_rest(const std::vector<ex>& formulas,
-                                const std::vector<TimePhase>& phases) {
-    std::vector<Tape> tapes;
-    tapes.reserve(formulas.size());
-    for (const ex& formula : formulas)
-        tapes.push_back(compile_tape({formula}));
-    return [tapes = std::move(tapes), times = PhaseTimes(phases)](const Eigen::ArrayXd& x,
-                                                                  double t) -> Eigen::ArrayXd {
-        const Tape& tape = tapes[times.phase_at(t)];
+/// Empty: zero.
+SpaceTimeFunction compiled_rest(const ex& formula) {
+    if (formula.is_zero())
+        return {};
+    return [tape = compile_tape({formula})](const Eigen::ArrayXd& x, double t) -> Eigen::ArrayXd {
         return tape.evaluate(x, Eigen::ArrayXd::Constant(1, t)).reshaped();
     };
 }
@@ -202,11 +198,13 @@ Separation ProblemBuilder::finite_separation(const ex& formula, const TimePhase&
 }
 
 Field ProblemBuilder::field(const std::vector<ex>& formulas) {
-    std::vector<ex> rests;
+    std::vector<SpaceTimeFunction> rests;
+    bool gentle = true;
     std::vector<std::pair<Eigen::Index, std::vector<ex>>> terms; // profile, amplitude by phase
     for (std::size_t phase = 0; phase < phases_.size(); ++phase) {
         const Separation parts = finite_separation(formulas[phase], phases_[phase]);
-        rests.push_back(parts.rest);
+        rests.push_back(compiled_rest(parts.rest));
+        gentle = gentle && is_gentle(parts.rest, final_time_);
         for (const SeparatedProduct& product : parts.products) {
             Profile& profile = known_profile(product.profile);
             const Eigen::Index index = index_of(profile);
@@ -220,11 +218,8 @@ Field ProblemBuilder::field(const std::vector<ex>& formulas) {
     Field result;
     for (const auto& [profile, amplitude] : terms)
         result.terms.push_back({amplitude_index(amplitude), profile});
-    if (!all_zero(rests)) {
-        result.rest = compiled_rest(rests, phases_);
-        result.gentle = std::all_of(rests.begin(), rests.end(),
-                                    [&](const ex& rest) { return is_gentle(rest, final_time_); });
-    }
+    result.rest = in_phases(std::move(rests));
+    result.gentle = result.rest && gentle;
     return result;
 }
 
@@ -234,10 +229,20 @@ std::optional<Eigen::Index> ProblemBuilder::amplitude(const std::vector<ex>& for
     return amplitude_index(formulas);
 }
 
-Field::Term ProblemBuilder::term(const ex& amplitude, SpaceFunction profile) {
+Field::Term ProblemBuilder::term(const std::vector<ex>& amplitude, SpaceFunction profile) {
     // No expression equals this one, so that the profile is shared with none.
     Profile& added = profiles_.emplace_back(Profile{GiNaC::symbol(), {std::move(profile)}});
-    return {amplitude_index(std::vector<ex>(phases_.size(), amplitude)), index_of(added)};
+    return {amplitude_index(amplitude), index_of(added)};
+}
+
+SpaceTimeFunction ProblemBuilder::in_phases(std::vector<SpaceTimeFunction> functions) const {
+    if (std::none_of(functions.begin(), functions.end(), [](const auto& one) { return !!one; }))
+        return {};
+    return [functions = std::move(functions),
+            times = PhaseTimes(phases_)](const Eigen::ArrayXd& x, double t) -> Eigen::ArrayXd {
+        const SpaceTimeFunction& function = functions[times.phase_at(t)];
+        return function ? function(x, t) : Eigen::ArrayXd::Zero(x.size());
+    };
 }
 
 ProblemBuilder::Profile& ProblemBuilder::known_profile(const ex& formula) {

@@ -42,7 +42,10 @@ public:
     std::optional<Eigen::Index> amplitude(const std::vector<GiNaC::ex>& formulas);
 
     /// A profile that is no symbolic expression, with its amplitude: a term for a field.
-    Field::Term term(const GiNaC::ex& amplitude, SpaceFunction profile);
+    Field::Term term(const std::vector<GiNaC::ex>& amplitude, SpaceFunction profile);
+
+    /// One function a phase, empty ones zero, as one; empty if all are.
+    [[nodiscard]] SpaceTimeFunction in_phases(std::vector<SpaceTimeFunction> functions) const;
 
     /// Puts the profiles and amplitudes into the problem; the last call.
     void finish(ProblemData& problem) const;

@@ -37,7 +37,7 @@ void require_free_name(const std::string& name, const Place& place) {
 std::vector<SolutionParameter> read_parameters(TableReader& root) {
     std::vector<SolutionParameter> result;
     auto table = root.table("parameters");
-    for (const auto& name : table ? table->keys() : std::vector<std::string>()) {
+    for (const auto& name : table ? table->unread() : std::vector<std::string>()) {
         require_free_name(name, table->place_of_key(name));
         result.push_back({name, *table->expression(name)});
     }

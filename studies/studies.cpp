@@ -6,7 +6,7 @@ namespace tvbeam {
 constexpr RowMaker<StudyKind> kinds[] = {
     make_row<StudyKind, struct LadderStudy>,        make_row<StudyKind, struct OrdersStudy>,
     make_row<StudyKind, struct WorkPrecisionStudy>, make_row<StudyKind, struct EvolutionStudy>,
-    make_row<StudyKind, struct StressStudy>,
+    make_row<StudyKind, struct StressStudy>,        make_row<StudyKind, struct SensitivityStudy>,
 };
 
 const RowsOf<StudyKind>& study_kinds() {

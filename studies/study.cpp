@@ -3,6 +3,7 @@
 #include "core/run.hpp"
 #include "studies/phase_remarks.hpp"
 #include "studies/runs/beam_runs.hpp"
+#include "studies/runs/defects.hpp"
 
 #include <algorithm>
 #include <memory>
@@ -84,6 +85,12 @@ std::vector<Algorithm> algorithms_of(const Scene& scene) {
 
 StudyResult run_study(const Scene& scene, const ProblemData& data, const Execution& execution) {
     require_runnable(scene, data);
+    return run_study(scene, data, scene.defect ? Defects(*scene.defect, scene) : Defects(),
+                     execution);
+}
+
+StudyResult run_study(const Scene& scene, const ProblemData& data, const Defects& defects,
+                      const Execution& execution) {
     execution.expect(work_of(scene));
     StudyResult result{.scene = scene, .law_distance = data.exact ? data.exact->law_distance : 0.0};
     const Method own = method_of(scene.scheme);
@@ -95,12 +102,13 @@ StudyResult run_study(const Scene& scene, const ProblemData& data, const Executi
     ProblemData measured = resolved;
     if (scene.reference && !scene.measures().empty())
         result.reference = measure_against_reference(scene, measured, execution);
-    const StudiedSolver solver = beam_runs(scene, resolved, measured);
+    const StudiedSolver solver = beam_runs(scene, resolved, measured, defects);
     if (scene.poses_problem()) {
-        result.left_out = left_out({scene, measured, solver, own, execution});
+        const ProblemData posed = defects.added_to(measured, scene.series().front().rungs.front());
+        result.left_out = left_out({scene, posed, solver, own, execution, defects});
         result.remarks = phase_remarks(scene, data);
     }
-    const StudyContext context{scene, resolved, solver, own, execution};
+    const StudyContext context{scene, resolved, solver, own, execution, defects};
     for (const auto* entry : in_running_order(scene, own))
         result.records.set(*entry->kind, entry->kind->run(entry->value, context));
     for (auto& [kind, record] : result.records.entries())

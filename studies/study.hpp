@@ -57,4 +57,8 @@ StudyResult run_study(const Scene& scene, const Execution& execution = {});
 /// together in code; throws InputError where it then cannot be run (require_runnable).
 StudyResult run_study(const Scene& scene, const ProblemData& data, const Execution& execution = {});
 
+/// The same with these defects in place of the scene's own.
+StudyResult run_study(const Scene& scene, const ProblemData& data, const Defects& defects,
+                      const Execution& execution);
+
 } // namespace tvbeam

@@ -15,6 +15,7 @@
 
 namespace tvbeam {
 
+class Defects;
 class TableReader;
 struct Needs;
 struct ProblemData;
@@ -28,6 +29,7 @@ struct StudyContext {
     const StudiedSolver& solver; ///< measured against the exact solution, or the reference
     const Method& method;        ///< the scene's own
     const Execution& execution;
+    const Defects& defects; ///< that runs add to the problem
 };
 
 /// How a study ended.
@@ -56,6 +58,8 @@ public:
     [[nodiscard]] virtual bool poses_problem() const { return true; }
     /// Whether its runs are measured, against the exact solution or a reference.
     [[nodiscard]] virtual bool measures() const { return false; }
+    /// Whether it is about the scene's expectations, which must then be there.
+    [[nodiscard]] virtual bool judges_expectations() const { return false; }
     /// Whether it is run after all others, alone, and against the exact solution only.
     [[nodiscard]] virtual bool timed() const { return false; }
 

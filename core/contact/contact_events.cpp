@@ -8,6 +8,14 @@ namespace tvbeam {
 using Kind = ContactEvent::Kind;
 using Stop = ContactEvent::Stop;
 
+std::string name_of(Kind kind) {
+    return kind == Kind::onset ? "onset" : "release";
+}
+
+std::string name_of(Stop stop) {
+    return stop == Stop::lower ? "g1" : "g2";
+}
+
 void ContactEvents::Levels::push(double time, double reading) {
     t = {time, t[0]};
     value = {reading, value[0]};
@@ -24,9 +32,15 @@ double ContactEvents::Levels::reaches(double target, double lowest, double highe
 }
 
 ContactEvents::ContactEvents(const Stops& stops, double tip, double round_off)
-    : stops_(stops), round_off_(round_off),
-      beyond_(stops.epsilon > 0.0 ? std::max({0.0, tip - stops.upper, stops.lower - tip}) : 0.0) {
+    : stops_(stops), round_off_(round_off) {
     free_.push(0.0, tip);
+    // A start on a rigid stop is one, whichever side of it the state's round-off puts the tip.
+    if (stops.epsilon > 0.0 || !(starts_on(Stop::lower) || starts_on(Stop::upper)))
+        beyond_ = beyond(tip);
+}
+
+double ContactEvents::beyond(double tip) const {
+    return std::max({0.0, tip - stops_.upper, stops_.lower - tip});
 }
 
 bool ContactEvents::starts_on(Stop stop) const {
@@ -39,8 +53,8 @@ bool ContactEvents::starts_on(Stop stop) const {
 }
 
 void ContactEvents::add(double t, double tip, double stress) {
-    const double beyond = std::max({0.0, tip - stops_.upper, stops_.lower - tip});
-    beyond_ = std::max(beyond_, beyond);
+    const double passed = beyond(tip);
+    beyond_ = std::max(beyond_, passed);
     const bool pressed = pressed_.count > 0;
     const bool presses = stress != 0.0;
     const bool changes_sides = pressed && presses && stress * pressed_.value[0] < 0.0;
@@ -53,7 +67,7 @@ void ContactEvents::add(double t, double tip, double stress) {
     if (presses) {
         if (pressed_.count == 0)
             begin_contact(t, stress > 0.0 ? Stop::lower : Stop::upper);
-        events_[onset_].beyond = std::max(events_[onset_].beyond, beyond);
+        events_[onset_].beyond = std::max(events_[onset_].beyond, passed);
         pressed_.push(t, stress);
     } else {
         free_.push(t, tip);

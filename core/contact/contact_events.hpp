@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstddef>
+#include <string>
 #include <vector>
 
 namespace tvbeam {
@@ -19,6 +20,9 @@ struct ContactEvent {
     /// that lasts to the end of the run, up to there. Unit: length.
     double beyond = 0.0;
 };
+
+std::string name_of(ContactEvent::Kind kind); ///< "onset", "release"
+std::string name_of(ContactEvent::Stop stop); ///< "g1", "g2"
 
 /// Finds the changes between free tip and contact along a run, and when they happened within their
 /// step:
@@ -58,6 +62,8 @@ private:
         [[nodiscard]] double reaches(double target, double lowest, double highest) const;
     };
 
+    /// By how far a tip is beyond a stop, 0 between them.
+    [[nodiscard]] double beyond(double tip) const;
     /// Whether the tip is on the stop, or in it, at t = 0 and no level came before this one.
     [[nodiscard]] bool starts_on(Stop stop) const;
     /// Notes an onset in the step that ends at t.

@@ -1,5 +1,7 @@
 #include "core/norms/norm_sums.hpp"
 
+#include "core/worse.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -41,8 +43,8 @@ void NormSums::add(double dt, const Squares& squares) {
             square += squares[q];
         if (!sum.greatest)
             sum.value += dt * square;
-        else if (!std::isnan(sum.value) && !(square <= sum.value)) // once NaN, always NaN
-            sum.value = square;
+        else
+            sum.value = worse(sum.value, square);
     }
 }
 

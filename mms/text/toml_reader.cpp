@@ -77,7 +77,7 @@ TomlDocument read_toml(const std::string& file) {
 
 TomlDocument parse_toml(std::string text, const std::string& file) {
     toml::table table = parse(text, file);
-    return {file, std::move(text), std::move(table)};
+    return {.file = file, .text = std::move(text), .table = std::move(table)};
 }
 
 namespace {
@@ -164,12 +164,17 @@ TableReader::TableReader(const TomlDocument& document, const toml::table& table,
     : document_(&document), table_(&table), path_(std::move(path)) {}
 
 std::string TableReader::full(std::string_view key) const {
-    return path_.empty() ? std::string(key) : path_ + "." + std::string(key);
+    if (path_.empty() || key.empty())
+        return path_ + std::string(key);
+    return path_ + "." + std::string(key);
 }
 
 const toml::node* TableReader::find(std::string_view key) {
     known_.emplace_back(key);
-    return table_->get(key);
+    const toml::node* node = table_->get(key);
+    if (document_->asked != nullptr)
+        (*document_->asked)[full(key)].given |= node != nullptr;
+    return node;
 }
 
 Place TableReader::place(std::string_view key) const {
@@ -357,6 +362,11 @@ std::optional<std::vector<TableReader::Band>> TableReader::bands(std::string_vie
 std::optional<std::size_t> TableReader::choice(std::string_view key,
                                                const std::vector<std::string>& choices) {
     const auto value = text(key);
+    if (document_->asked != nullptr) {
+        auto& asked = (*document_->asked)[full(key)];
+        asked.choices = choices;
+        asked.chosen = value.value_or("");
+    }
     if (!value)
         return std::nullopt;
     const auto found = std::find(choices.begin(), choices.end(), *value);
@@ -391,21 +401,20 @@ std::vector<TableReader> TableReader::tables(std::string_view key) {
     return tables;
 }
 
-std::vector<std::string> TableReader::keys() const {
+std::vector<std::string> TableReader::unread() const {
     std::vector<std::string> keys;
     for (const auto& [key, node] : *table_)
-        keys.emplace_back(key.str());
+        if (std::find(known_.begin(), known_.end(), key.str()) == known_.end())
+            keys.emplace_back(key.str());
     return keys;
 }
 
 void TableReader::finish() const {
-    for (const auto& [key, node] : *table_) {
-        if (std::find(known_.begin(), known_.end(), key.str()) != known_.end())
-            continue;
-        const std::string hint = did_you_mean(key.str(), known_);
+    for (const auto& key : unread()) {
+        const std::string hint = did_you_mean(key, known_);
         throw InputError(
-            place_of_key(key.str()),
-            "unknown key '" + full(key.str()) + "'" +
+            place_of_key(key),
+            "unknown key '" + full(key) + "'" +
                 (hint.empty() ? fmt::format("; known here: {}", fmt::join(known_, ", ")) : hint));
     }
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "mms/text/asked_keys.hpp"
 #include "mms/text/input_error.hpp"
 #include "mms/text/number_text.hpp"
 #include "mms/text/source_text.hpp"
@@ -19,6 +20,7 @@ struct TomlDocument {
     std::string file;
     std::string text;
     toml::table table;
+    AskedKeys* asked = nullptr; ///< where its readers note it; null: nowhere
 };
 
 /// Reads a file, or a text that is said to be one. Throws InputError when it is missing, too large
@@ -77,8 +79,8 @@ public:
     /// missing.
     std::vector<TableReader> tables(std::string_view key);
 
-    /// The keys of the table, in their order.
-    [[nodiscard]] std::vector<std::string> keys() const;
+    /// The keys of the table that no reader has asked for yet, in their order.
+    [[nodiscard]] std::vector<std::string> unread() const;
 
     [[nodiscard]] bool has(std::string_view key) const { return table_->contains(key); }
     [[nodiscard]] bool is_string(std::string_view key) const;
@@ -91,7 +93,7 @@ public:
     /// Where a key that is there stands itself.
     [[nodiscard]] Place place_of_key(std::string_view key) const;
 
-    /// The key with the path of its table: beam.zeta.
+    /// The key with the path of its table: beam.zeta; of the empty key the path.
     [[nodiscard]] std::string full(std::string_view key) const;
 
     /// What is wrong with a key's value, or its element: "full(key)text", at its place.

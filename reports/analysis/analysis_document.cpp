@@ -49,8 +49,9 @@ Table rows_table(const DataAnalysis& analysis, const ColumnAnalysis& column) {
                                                          : scientific(number, 4);
                        })}};
     if (!column.verdicts.empty()) {
-        group.columns.push_back(
-            rows.column("order", [&](std::size_t i) { return fixed(column.orders[i], 3); }));
+        if (!column.orders.empty())
+            group.columns.push_back(
+                rows.column("order", [&](std::size_t i) { return fixed(column.orders[i], 3); }));
         group.columns.push_back(rows.column("verdict", [&](std::size_t i) {
             return std::string(name_of(column.verdicts[i].verdict));
         }));
@@ -87,6 +88,17 @@ void add_limit(const ColumnAnalysis& column, std::vector<Block>& blocks) {
                             fixed((*method)->order, 3), (*method)->model)});
 }
 
+/// Whose names h and dt of the model are.
+std::string names_in_model(const DataAnalysis& analysis) {
+    std::vector<std::string> names;
+    for (const auto& width : analysis.widths)
+        if (width.numbers.front() != width.numbers.back())
+            names.push_back(width.name);
+    if (names.size() != 2 || (names[0] == "h" && names[1] == "dt"))
+        return {};
+    return fmt::format(", {} for h and {} for dt", names[0], names[1]);
+}
+
 Section section_of(const DataAnalysis& analysis, const ColumnAnalysis& column) {
     Section section{column.name, {rows_table(analysis, column), BlankLine{}}};
     auto& blocks = section.blocks;
@@ -97,13 +109,10 @@ Section section_of(const DataAnalysis& analysis, const ColumnAnalysis& column) {
     if (column.two_term) {
         blocks.emplace_back(
             Paragraph{fmt::format("a grid of {} runs: e^2 = a^2 h^2p + 2 rho a b h^p dt^q + b^2 "
-                                  "dt^2q",
-                                  analysis.rows())});
+                                  "dt^2q{}",
+                                  analysis.rows(), names_in_model(analysis))});
         if (column.two_term->holds())
             blocks.emplace_back(fit_table({{column.name, &*column.two_term}}, analysis.rows()));
-        for (const auto& rejected : column.two_term->rejected)
-            blocks.emplace_back(Paragraph{
-                fmt::format("not fitted: row {}: {}", rejected.record + 1, rejected.reason)});
     }
     for (const auto& finding : column.findings)
         blocks.emplace_back(Finding{finding});

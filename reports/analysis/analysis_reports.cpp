@@ -38,6 +38,11 @@ Json json_of(const std::optional<MethodLimit>& method) {
             {"model", method->model}};
 }
 
+/// Between this row and the one before; none in rows that do not follow each other.
+std::optional<double> order_of(const ColumnAnalysis& column, std::size_t row) {
+    return column.orders.empty() ? std::nullopt : column.orders[row];
+}
+
 Json json_of(const DataAnalysis& analysis, const ColumnAnalysis& column) {
     Json rows = Json::array();
     for (std::size_t i = 0; i < analysis.rows(); ++i) {
@@ -46,7 +51,7 @@ Json json_of(const DataAnalysis& analysis, const ColumnAnalysis& column) {
             row[width.name] = width.numbers[i];
         row[column.is_value ? "value" : "error"] = number_json(column.numbers[i]);
         if (!column.verdicts.empty()) {
-            row["order"] = number_json(column.orders[i]);
+            row["order"] = number_json(order_of(column, i));
             row["verdict"] = name_of(column.verdicts[i].verdict);
             row["reason"] = column.verdicts[i].reason;
         }
@@ -169,7 +174,8 @@ std::string analysis_csv(const DataAnalysis& analysis) {
         for (const auto& column : analysis.columns) {
             text += finite_field(column.numbers[i]);
             if (!column.verdicts.empty())
-                text += number_field(column.orders[i]) + "," + name_of(column.verdicts[i].verdict);
+                text +=
+                    number_field(order_of(column, i)) + "," + name_of(column.verdicts[i].verdict);
         }
         text += "\n";
     }

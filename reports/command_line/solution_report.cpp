@@ -4,6 +4,7 @@
 #include "mms/admissible/consistency.hpp"
 #include "mms/coverage.hpp"
 #include "mms/expected_orders.hpp"
+#include "mms/forecast/error_constants.hpp"
 #include "mms/text/input_error.hpp"
 #include "reports/document/text_table.hpp"
 #include "studies/text/number_text.hpp"
@@ -123,6 +124,36 @@ std::string orders_table(const ExpectedOrders& expected) {
     return text;
 }
 
+/// a of each heat mass matrix, b of each time scheme.
+std::string sizes_table(const SolutionSetting& setting) {
+    Table::Column norm{"norm", {}};
+    std::vector<Table::Column> columns;
+    const auto add = [&](const std::string& heading, const std::string& time, ThermalMass mass,
+                         std::optional<LeadingTerm> NormConstants::*term) {
+        const ErrorConstants sizes =
+            error_constants(setting.solution, setting.beam, setting.final_time, time, mass);
+        if (!sizes.unknown.empty())
+            return sizes.unknown;
+        columns.push_back({heading, {}});
+        norm.cells.clear();
+        for (const NormConstants& row : sizes.norms) {
+            norm.cells.push_back(row.norm);
+            columns.back().cells.push_back(row.*term ? scientific((row.*term)->constant, 3) : "-");
+        }
+        return std::string();
+    };
+    std::string unknown =
+        add("a: consistent", "euler", ThermalMass::consistent, &NormConstants::in_h);
+    if (!unknown.empty())
+        return wrapped("not known: " + unknown);
+    add("lumped", "euler", ThermalMass::lumped, &NormConstants::in_h);
+    for (const auto& time : TimeScheme::names())
+        unknown += add((time == "euler" ? "b: " : "") + time, time, ThermalMass::consistent,
+                       &NormConstants::in_dt);
+    return text_table({"", {"", {norm}}, {{"", columns}}}) +
+           (unknown.empty() ? "" : wrapped("not known: " + unknown));
+}
+
 } // namespace
 
 std::string solution_report(const SolutionSetting& setting) {
@@ -136,6 +167,9 @@ std::string solution_report(const SolutionSetting& setting) {
                 "\n" + space_table(setting) + "\n" + time_table(setting);
         text += "\nOrders to expect (-: no error of that kind):\n\n" +
                 orders_table(expected_orders(solution, beam, final_time));
+        text += "\nSizes a of h^p and b of dt^q to expect on uniform meshes, by modified "
+                "equations:\n\n" +
+                sizes_table(setting);
     } catch (const InputError& error) {
         text += wrapped(std::string("not admissible: ") + error.what());
     }

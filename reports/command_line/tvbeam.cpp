@@ -26,11 +26,13 @@
 #include "studies/data/data_analysis.hpp"
 #include "studies/data/data_check.hpp"
 #include "studies/data/data_file.hpp"
+#include "studies/gates/features.hpp"
 #include "studies/scene/shipped.hpp"
 #include "studies/scene/solution_setting.hpp"
 #include "studies/study.hpp"
 
 #include <CLI/CLI.hpp>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <chrono>
@@ -336,6 +338,10 @@ int names_command() {
 }
 
 int list_command() {
+    if (shipped_files(Shipped::scene).empty() && shipped_files(Shipped::solution).empty())
+        throw InputError({"tvbeam list"}, "the shipped scenes and solutions are not where this "
+                                          "program looks for them; name their directory, which "
+                                          "holds studies/scenes, in TVBEAM_DATA");
     std::string text = "Scenes (tvbeam run NAME):\n";
     for (const auto& file : shipped_files(Shipped::scene))
         text += wrapped("  " + file.name + ": " + read_scene(file.path.string()).title, 4);
@@ -346,6 +352,31 @@ int list_command() {
                             (solution.purpose.empty() ? solution.source : solution.purpose),
                         4);
     }
+    write_standard_output(text);
+    return done;
+}
+
+int features_command() {
+    const FeatureTable table = feature_table();
+    std::string text;
+    const auto add = [&](const std::string& what, const std::vector<Feature>& features) {
+        const auto used = std::count_if(features.begin(), features.end(),
+                                        [](const Feature& one) { return !one.scenes.empty(); });
+        text +=
+            fmt::format("{}, {} of {} in a scene with [expect]:\n", what, used, features.size());
+        for (const auto& [name, scenes] : features)
+            text += wrapped(fmt::format("{}: {}", name,
+                                        scenes.empty() ? "none"
+                                                       : fmt::format("{} scenes: {}", scenes.size(),
+                                                                     fmt::join(scenes, ", "))),
+                            4);
+        text += "\n";
+    };
+    add("Features", table.features);
+    add("Pairs of what a run consists of", table.pairs);
+    text += "Needed in no scene:\n";
+    for (const auto& [name, reason] : table.exceptions)
+        text += wrapped(fmt::format("{}: {}", name, reason), 4);
     write_standard_output(text);
     return done;
 }
@@ -374,6 +405,15 @@ const CLI::Validator no_stream(
         return name == "-" ? std::string("a directory is wanted, and - is none") : "";
     },
     "", "no stream");
+
+const CLI::Validator narrow(
+    [](std::string& text) {
+        double part = 0.0;
+        const bool holds =
+            CLI::detail::lexical_cast(text, part) && part > 0.0 && part <= widest_part;
+        return holds ? std::string() : text + " is no part > 0 and at most 0.5 of a figure";
+    },
+    "", "narrow");
 
 std::vector<std::string> names_of_commands(const CLI::App& app) {
     const auto all = app.get_subcommands([](const CLI::App*) { return true; });
@@ -410,12 +450,22 @@ void add_directory(CLI::App& command, std::string& directory, const std::string&
         ->type_name("DIR");
 }
 
+/// CLI11's own takes NaN for positive.
+CLI::Validator positive_number() {
+    return {[](const std::string& text) {
+                double value = 0;
+                const bool holds = CLI::detail::lexical_cast(text, value) && is_positive(value);
+                return holds ? std::string() : "'" + text + "' is no positive number";
+            },
+            "POSITIVE"};
+}
+
 void add_baseline(CLI::App& command, std::string& file, double& tolerance,
                   const std::string& figure) {
     command.add_option("--baseline", file, "hold every " + figure + " against a recorded baseline")
         ->type_name("FILE");
     command.add_option("--tolerance", tolerance, "relative, both sides, for --baseline")
-        ->check(CLI::PositiveNumber)
+        ->check(narrow)
         ->capture_default_str();
 }
 
@@ -486,7 +536,7 @@ void add_choice(CLI::App& analyse, DataChoice& choice) {
     analyse
         .add_option("--dimension", choice.dimension,
                     "sizes are numbers n of what fills a domain of this dimension: h = n^(-1/D)")
-        ->check(CLI::PositiveNumber)
+        ->check(positive_number())
         ->type_name("D");
     analyse.add_option("--step", choice.step, "the column of time steps; default: dt")
         ->type_name("NAME");
@@ -561,8 +611,14 @@ Command add_list(CLI::App& app) {
     auto* list =
         app.add_subcommand("list", "List the shipped scenes and solutions.\nExample: tvbeam list");
     const auto names = std::make_shared<bool>(false);
+    const auto features = std::make_shared<bool>(false);
     list->add_flag("--names", *names, "the names alone, one a line");
-    return {list, [names] { return *names ? names_command() : list_command(); }};
+    list->add_flag("--features", *features,
+                   "what scenes can use, and which of those with [expect] do, also in pairs")
+        ->excludes("--names");
+    return {list, [names, features] {
+                return *features ? features_command() : *names ? names_command() : list_command();
+            }};
 }
 
 Command add_completion(CLI::App& app) {

@@ -137,12 +137,4 @@ Section evolution_section(const EvolutionResult& result, const Scene& scene) {
     return section;
 }
 
-std::string name_of(ContactEvent::Kind kind) {
-    return kind == ContactEvent::Kind::onset ? "onset" : "release";
-}
-
-std::string name_of(ContactEvent::Stop stop) {
-    return stop == ContactEvent::Stop::lower ? "g1" : "g2";
-}
-
 } // namespace tvbeam

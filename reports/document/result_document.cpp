@@ -5,6 +5,8 @@
 #include "studies/runs/beam_runs.hpp"
 #include "studies/text/number_text.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -37,6 +39,13 @@ std::string problem_line(const Scene& scene, double law_distance) {
         line += "; nodes of every mesh: " + std::to_string(scene.mesh.nodes.size());
     else if (!scene.mesh.is_uniform())
         line += "; meshes graded by " + shortest(scene.mesh.grading);
+    return line;
+}
+
+std::string defect_line(const GivenData& defect) {
+    std::string line;
+    for (const auto& [name, source] : named_parts(defect))
+        line += fmt::format("{}{} + ({})", line.empty() ? "defect: " : "; ", name, source);
     return line;
 }
 
@@ -114,10 +123,16 @@ Rows provenance_rows(const Scene& scene) {
 
 Document result_document(const StudyResult& result) {
     const Scene& scene = result.scene;
-    Document document{scene.title,           {}, {}, result.left_out, norms_in_words(result),
+    Document document{scene.defect ? std::string(defect_words) + ": " + scene.title : scene.title,
+                      {},
+                      {},
+                      result.left_out,
+                      norms_in_words(result),
                       provenance_rows(scene)};
     if (result.interrupted())
         document.head.emplace_back("INTERRUPTED: what stands here is what had finished");
+    if (scene.defect)
+        document.head.push_back(defect_line(*scene.defect));
     // A stress study has problems of its own.
     if (scene.poses_problem())
         document.head.push_back(problem_line(scene, result.law_distance));

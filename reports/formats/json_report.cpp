@@ -1,5 +1,6 @@
 #include "reports/formats/json_report.hpp"
 
+#include "reports/document/result_document.hpp"
 #include "reports/files/provenance.hpp"
 #include "reports/formats/report_format.hpp"
 #include "reports/studies/study_report.hpp"
@@ -21,6 +22,10 @@ Json json_of(const ReferenceResult& reference, const ReferenceBlock& block) {
               {"seconds", reference.seconds}};
     if (!reference.failure.empty())
         json["reason"] = reference.failure;
+    json["runs"] = Json::array();
+    for (const auto& run : reference.runs)
+        json["runs"].push_back({{"elements", run.elements}, {"dt", run.dt}, {"steps", run.steps}});
+    json["levels"] = reference.times.size();
     return json;
 }
 
@@ -35,12 +40,15 @@ Json json_of(const Provenance& p) {
 } // namespace
 
 std::string json_report(const StudyResult& result) {
-    Json json{{"schema", "tvbeam-result/1"},
-              {"scene", Json::parse(result.scene.json)},
-              {"provenance", json_of(provenance_of(result.scene))},
-              {"left_out", result.left_out},
-              {"remarks", result.remarks},
-              {"interrupted", result.interrupted()}};
+    Json json = Json::object();
+    if (result.scene.defect)
+        json["defect"] = defect_words;
+    json.update({{"schema", "tvbeam-result/1"},
+                 {"scene", Json::parse(result.scene.json)},
+                 {"provenance", json_of(provenance_of(result.scene))},
+                 {"left_out", result.left_out},
+                 {"remarks", result.remarks},
+                 {"interrupted", result.interrupted()}});
     if (result.law_distance > 0.0)
         json["law_distance"] = result.law_distance;
     if (result.reference)

@@ -65,7 +65,7 @@ Json json_of(const LadderResult& ladder, const LadderBlock& block) {
     return json;
 }
 
-std::string ladder_csv(const LadderResult& ladder, const std::optional<PrintedFigures>& printed) {
+std::string ladder_csv(const LadderResult& ladder, const std::optional<PublishedFigures>& printed) {
     const auto has_figures = [&](const std::string& norm) {
         return printed && printed->figures.contains(norm);
     };

@@ -10,6 +10,7 @@ constexpr RowMaker<StudyReport> reports[] = {
     make_row<StudyReport, struct WorkPrecisionReport>,
     make_row<StudyReport, struct EvolutionReport>,
     make_row<StudyReport, struct StressReport>,
+    make_row<StudyReport, struct SensitivityReport>,
 };
 
 const RowsOf<StudyReport>& study_reports() {

@@ -51,6 +51,18 @@ int digits_of(double value, double half) {
     return static_cast<int>(std::clamp(more, double{fewest}, double{most}));
 }
 
+/// The rows of a grid by what the fit says of them.
+std::vector<RowVerdict> verdicts_of(const TwoTermFit& fit, std::size_t rows) {
+    const bool known = fit.predicts();
+    std::vector<RowVerdict> verdicts(rows, {known ? Verdict::asymptotic : Verdict::pre_asymptotic,
+                                            known         ? "in the window where both orders stand"
+                                            : fit.holds() ? "an order is not determined"
+                                                          : fit.failure});
+    for (const auto& [row, why, reason] : fit.rejected)
+        verdicts[row] = {verdict_of(why), reason};
+    return verdicts;
+}
+
 /// Errors of one or two widths.
 void analyse_records(const DataAnalysis& data, const std::vector<std::size_t>& used,
                      const std::vector<double>& sigma, ColumnAnalysis& column) {
@@ -68,6 +80,7 @@ void analyse_records(const DataAnalysis& data, const std::vector<std::size_t>& u
         if (!found.two_term->holds())
             for (const auto i : used)
                 column.by_width[i].status = found.two_term->failure;
+        column.verdicts = verdicts_of(*found.two_term, data.rows());
         column.two_term = std::move(found.two_term);
         return;
     }
@@ -108,6 +121,8 @@ ColumnAnalysis analyse_errors(const DataAnalysis& data, const DataColumn& errors
             for (const auto i : used)
                 rows[r].widths.push_back(data.widths[i].numbers[r]);
             rows[r].error = column.numbers[r];
+            if (!sigma.empty())
+                rows[r].sigma = sigma[r] / rows[r].error;
         }
         const auto orders = estimate_orders(rows);
         for (std::size_t k = 0; k < used.size(); ++k)

@@ -18,7 +18,7 @@ struct ColumnAnalysis {
     std::vector<double> numbers; ///< one a row
     /// One a row; empty where several widths are refined independently, and for values.
     std::vector<std::optional<double>> orders;
-    std::vector<RowVerdict> verdicts;
+    std::vector<RowVerdict> verdicts;    ///< one a row; empty with three widths, and for values
     std::vector<OrderInterval> by_width; ///< one a width
     std::optional<TwoTermFit> two_term;  ///< of errors on a grid of two widths
     std::optional<LimitEstimate> limit;  ///< of values

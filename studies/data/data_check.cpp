@@ -26,17 +26,18 @@ public:
         : analysis_(analysis), column_(column), table_(table), checked_(checked) {}
 
     void run() {
+        const std::size_t before = checked_.size();
         check_order();
         check_rows();
         check_errors();
-        if (column_.limit) {
-            const auto& limit = column_.limit->limit;
-            hold(table_, "limit", {{"limit", known(limit.determined, limit.value), limit.status}});
-            hold(table_, "uncertainty",
-                 {{"uncertainty", known(limit.determined, column_.limit->uncertainty),
-                   limit.status}});
-        }
+        expect_verdicts(table_, analysis_.rows(), "row", [&](const JudgeVerdicts& judge) {
+            checked_.push_back(judge(column_.name, column_.verdicts));
+        });
+        if (column_.limit)
+            check_limit(*column_.limit);
         table_.finish();
+        if (checked_.size() == before)
+            throw table_.error("", " expects nothing; give it a bound, or remove it");
     }
 
 private:
@@ -60,14 +61,59 @@ private:
                 "not determined: " + order.status};
     }
 
+    void hold_interval(TableReader& table, const std::string& key, const std::string& what,
+                       const OrderInterval& interval) {
+        expect_interval(table, key, [&](const JudgeInterval& judge) {
+            checked_.push_back(judge(column_.name + ": " + what, interval));
+        });
+    }
+
+    void hold_order(TableReader& table, const std::string& key, std::size_t width) {
+        const Metric metric = order_in(width);
+        hold(table, key, {metric});
+        hold_interval(table, key, metric.what, column_.by_width[width]);
+    }
+
     void check_order() {
         if (auto inner = table_.is_table("order") ? table_.table("order") : std::nullopt) {
             for (std::size_t i = 0; i < analysis_.widths.size(); ++i)
-                hold(*inner, analysis_.widths[i].name, {order_in(i)});
+                hold_order(*inner, analysis_.widths[i].name, i);
             inner->finish();
         } else {
-            hold(table_, "order", {order_in(0)});
+            // Of widths that are refined together one order speaks for all.
+            for (const char* key : {"order", "order_holds", "order_determined", "order_half_width"})
+                if (table_.has(key) && !column_.is_value && column_.orders.empty())
+                    throw table_.error(key, " is of one width, and several are refined apart; say "
+                                            "which, as " +
+                                                column_.name + ".order." +
+                                                analysis_.widths.front().name +
+                                                std::string(key).substr(5));
+            hold_order(table_, "order", 0);
         }
+    }
+
+    void check_limit(const LimitEstimate& estimate) {
+        const auto& limit = estimate.limit;
+        hold(table_, "limit", {{"limit", known(limit.determined, limit.value), limit.status}});
+        hold_interval(table_, "limit", "limit", limit);
+        hold(table_, "uncertainty",
+             {{"uncertainty", known(limit.determined, estimate.uncertainty), limit.status}});
+        for (const auto& named :
+             {std::pair("gci", estimate.gci), std::pair("celik", estimate.celik),
+              std::pair("eca_hoekstra", estimate.eca_hoekstra)})
+            if (auto inner = table_.table(named.first)) {
+                const auto& method = named.second;
+                const auto number = [&](const std::string& key, double MethodLimit::*figure) {
+                    hold(*inner, key,
+                         {{named.first + (", " + key),
+                           method ? std::optional(*method.*figure) : std::nullopt,
+                           "the method says nothing of these values"}});
+                };
+                number("limit", &MethodLimit::limit);
+                number("uncertainty", &MethodLimit::uncertainty);
+                number("order", &MethodLimit::order);
+                inner->finish();
+            }
     }
 
     void check_rows() {
@@ -82,19 +128,13 @@ private:
     }
 
     void check_errors() {
-        const double within = table_.number("within").value_or(1e-3);
-        const auto errors = table_.numbers("errors");
-        if (!errors)
-            return;
-        if (errors->size() != analysis_.rows())
-            throw table_.error("errors", " has " + std::to_string(errors->size()) + " values for " +
-                                             std::to_string(analysis_.rows()) +
-                                             " rows; give one a row");
-        for (std::size_t row = 0; row < errors->size(); ++row)
-            checked_.push_back(held(
-                {column_.name + ": error" + row_text(analysis_, row), column_.numbers[row], ""},
-                (*errors)[row] * (1 - within), (*errors)[row] * (1 + within),
-                table_.place("errors", row)));
+        read_error_bands(
+            table_, analysis_.rows(), "row",
+            [&](std::size_t row, double lowest, double highest, const Place& place) {
+                checked_.push_back(held(
+                    {column_.name + ": error" + row_text(analysis_, row), column_.numbers[row], ""},
+                    lowest, highest, place));
+            });
     }
 
     const DataAnalysis& analysis_;

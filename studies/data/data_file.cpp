@@ -5,6 +5,7 @@
 #include "studies/text/number_text.hpp"
 
 #include <boost/algorithm/string/join.hpp>
+#include <boost/algorithm/string/predicate.hpp>
 
 #include <algorithm>
 #include <array>
@@ -178,13 +179,20 @@ struct Names {
     std::vector<std::string> all;
     Place place;
 
+    /// As it is written, or else in other cases of letters.
     std::optional<std::size_t> find(const std::string& name) const {
-        const auto at = std::find(all.begin(), all.end(), name);
-        if (at == all.end())
-            return std::nullopt;
-        if (std::find(at + 1, all.end(), name) != all.end())
-            throw InputError(place, "names the column " + name + " twice; which is meant?");
-        return static_cast<std::size_t>(at - all.begin());
+        for (const bool exactly : {true, false}) {
+            const auto is_it = [&](const std::string& one) {
+                return exactly ? one == name : boost::algorithm::iequals(one, name);
+            };
+            const auto at = std::find_if(all.begin(), all.end(), is_it);
+            if (at == all.end())
+                continue;
+            if (std::find_if(at + 1, all.end(), is_it) != all.end())
+                throw InputError(place, "names the column " + name + " twice; which is meant?");
+            return static_cast<std::size_t>(at - all.begin());
+        }
+        return std::nullopt;
     }
     std::size_t need(const std::string& name, const std::string& option) const {
         if (const auto found = find(name))
@@ -204,14 +212,28 @@ struct Use {
     std::vector<double>* plain = nullptr;
 };
 
+bool is_among(std::initializer_list<const char*> names, const std::string& name) {
+    return std::any_of(names.begin(), names.end(),
+                       [&](const char* one) { return boost::algorithm::iequals(one, name); });
+}
+
 /// Names that counts of things go by; h = n^(-1/d) of them.
-bool is_count(std::string name) {
-    std::transform(name.begin(), name.end(), name.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    constexpr std::array<std::string_view, 15> counts{
-        "elements", "cells", "ndofs", "ndof",   "dofs",     "dof",    "n",   "nx",
-        "nodes",    "nelem", "ncell", "ncells", "unknowns", "points", "size"};
-    return std::find(counts.begin(), counts.end(), name) != counts.end();
+bool is_count(const std::string& name) {
+    return is_among({"elements", "cells", "ndofs", "ndof", "dofs", "dof", "n", "nx", "nodes",
+                     "nelem", "ncell", "ncells", "unknowns", "points", "size"},
+                    name);
+}
+
+/// Names of widths, which no dimension turns into others.
+bool is_width(const std::string& name) {
+    return is_among({"h", "hx", "hy", "hz", "hmax", "hmin", "h_max", "h_min", "dx", "dy", "dz",
+                     "width", "spacing"},
+                    name);
+}
+
+/// Names of numbers of time steps; Δt = 1/n of them.
+bool is_step_count(const std::string& name) {
+    return is_among({"steps", "nsteps", "n_steps", "timesteps", "nt"}, name);
 }
 
 /// The widths that a choice names, or those that need no name.
@@ -224,6 +246,10 @@ void choose_widths(const Names& names, const DataChoice& choice, DataFile& data,
                 sizes.emplace_back(name);
     for (const auto& size : sizes) {
         Use use{names.need(size, "--size"), true};
+        if (choice.dimension && is_width(size))
+            throw InputError(names.place, "column " + size +
+                                              " is a width already; --dimension is for numbers of "
+                                              "cells or unknowns");
         const bool counts = choice.dimension || is_count(size);
         if (counts) {
             const double dimension = choice.dimension.value_or(1.0);
@@ -242,8 +268,12 @@ void choose_widths(const Names& names, const DataChoice& choice, DataFile& data,
         choice.step ? std::optional(names.need(*choice.step, "--step")) : names.find("dt");
     if (step && std::none_of(uses.begin(), uses.end(),
                              [&](const Use& use) { return use.column == *step; })) {
-        data.widths.push_back({choice.step.value_or("dt"), {}});
-        uses.push_back({*step, true});
+        const std::string name = choice.step.value_or("dt");
+        const bool counts = is_step_count(name);
+        if (counts)
+            data.remarks.push_back("dt = 1/" + name + ": the time 1 was assumed");
+        data.widths.push_back({counts ? "dt" : name, {}});
+        uses.push_back({*step, true, counts ? -1.0 : 1.0});
     }
     if (uses.empty())
         throw InputError(names.place, "no column h, elements or dt among " +
@@ -276,6 +306,9 @@ void choose_figures(const Names& names, const DataChoice& choice, DataFile& data
             uses[first + i].target = &(*columns)[i];
     }
     if (choice.sigma) {
+        if (errors.size() + values.size() > 1)
+            throw InputError(names.place, "--sigma is of one column; analyse the columns one by "
+                                          "one, each with its own");
         uses.push_back({names.need(*choice.sigma, "--sigma")});
         uses.back().plain = &data.sigma;
     }
@@ -355,6 +388,7 @@ Head head_of(Lines& lines) {
 
 void read_record(const Lines& lines, const std::vector<TextField>& fields, const Head& head,
                  const std::vector<Use>& uses) {
+    bool found = false; // an error or a value; deviations come behind them
     for (const auto& use : uses) {
         const TextField& field = fields[use.column];
         const std::string& name = head.names[use.column];
@@ -363,10 +397,19 @@ void read_record(const Lines& lines, const std::vector<TextField>& fields, const
             throw InputError(lines.place(field.column), "'" + std::string(field.text) +
                                                             "' in column " + name +
                                                             " must be a positive number");
+        if (use.is_width && use.power < 0 && number < 1)
+            throw InputError(lines.place(field.column),
+                             "'" + std::string(field.text) + "' in column " + name +
+                                 " counts nothing; it must be 1 or more");
         auto& target = use.plain != nullptr ? *use.plain : use.target->numbers;
         target.push_back(use.power == 1    ? number
                          : use.power == -1 ? 1 / number
                                            : std::pow(number, use.power));
+        found = found || (!use.is_width && use.plain == nullptr && std::isfinite(number));
+        if (use.plain != nullptr && found && !(number > 0 && std::isfinite(number)))
+            throw InputError(lines.place(field.column),
+                             "'" + std::string(field.text) + "' in column " + name +
+                                 " is no deviation; a row that has a number needs one > 0");
     }
 }
 

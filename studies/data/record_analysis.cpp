@@ -1,5 +1,7 @@
 #include "studies/data/record_analysis.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -67,12 +69,32 @@ bool is_one_path(const std::vector<Refinement>& sorted) {
     return true;
 }
 
+/// The words of rows claim no more than the interval of the order does.
+void temper(LadderVerdict& verdict, const OrderInterval& order) {
+    constexpr double slack = 0.1; // of the order: that within which verdicts take orders for one
+    if (!verdict.window)
+        return;
+    const double window = verdict.window->order;
+    const double off = slack * order.value;
+    if (order.determined && window >= order.low - off && window <= order.high + off)
+        return;
+    const std::string reason =
+        order.determined
+            ? fmt::format("order {:.2f} here; in the end {:.2f} ± {:.2f}", window, order.value,
+                          order.half_width())
+            : fmt::format("order {:.2f} here, and that of the end is not determined: {}", window,
+                          order.status);
+    for (auto& row : verdict.rows)
+        if (row.verdict == Verdict::asymptotic)
+            row = {Verdict::pre_asymptotic, reason};
+}
+
 } // namespace
 
 RecordAnalysis analyse(std::vector<Refinement> records, const std::vector<double>& sigma) {
     RecordAnalysis analysis;
     if (is_grid(records)) {
-        analysis.two_term = fit_two_term(records);
+        analysis.two_term = fit_two_term(records, {}, sigma);
         analysis.records = std::move(records);
         return analysis;
     }
@@ -99,14 +121,16 @@ RecordAnalysis analyse(std::vector<Refinement> records, const std::vector<double
     const int exponent = is_positive(greatest) ? std::ilogb(greatest) : 0;
     for (const std::size_t i : order) {
         const auto& record = records[i];
-        const double relative = sigma.empty() ? 0.0 : sigma[i] / record.error;
-        if (record.is_resolved())
-            rows.push_back({{analysis.is_in_dt ? record.dt : record.h},
-                            std::ldexp(record.error, -exponent),
-                            is_positive(relative) ? 1 / (relative * relative) : 1.0});
+        if (!record.is_resolved())
+            continue;
+        rows.push_back(
+            {{analysis.is_in_dt ? record.dt : record.h}, std::ldexp(record.error, -exponent)});
+        if (!sigma.empty())
+            rows.back().sigma = sigma[i] / record.error;
     }
     const OrderEnsemble ensemble(rows);
     analysis.order = ensemble.orders().front();
+    temper(*analysis.verdict, analysis.order);
     analysis.has_logarithm = analysis.order.determined && ensemble.has_logarithm();
     return analysis;
 }

@@ -2,12 +2,14 @@
 
 #include "core/round_off.hpp"
 #include "core/run.hpp"
+#include "core/worse.hpp"
 #include "studies/runs/beam_runs.hpp"
 #include "studies/scene/scene.hpp"
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <numeric>
 
 namespace tvbeam {
 
@@ -53,7 +55,7 @@ std::vector<PeriodChange> changes_of(const std::vector<double>& t,
         for (const auto& probe : probes) {
             double greatest = 0.0;
             for (std::size_t i = end - period + 1; i <= end; ++i)
-                greatest = std::max(greatest, std::abs(probe.values[i] - probe.values[i - period]));
+                greatest = worse(greatest, std::abs(probe.values[i] - probe.values[i - period]));
             change.changes.push_back(greatest);
         }
         periods.push_back(std::move(change));
@@ -84,12 +86,8 @@ std::optional<double> ProbeHistory::greatest_error() const {
         return std::nullopt;
     double greatest = 0.0;
     for (std::size_t i = 0; i < values.size(); ++i)
-        if (!std::isnan(values[i])) {
-            const double error = std::abs(values[i] - exact[i]);
-            if (std::isnan(error))
-                return error;
-            greatest = std::max(greatest, error);
-        }
+        if (!std::isnan(values[i]))
+            greatest = worse(greatest, std::abs(values[i] - exact[i]));
     return greatest;
 }
 
@@ -106,8 +104,8 @@ std::map<std::string, double> EvolutionResult::figures() const {
             figures[probe.name + ".error"] = *error;
     }
     if (!periods.empty())
-        figures["period_change"] =
-            *std::max_element(periods.back().changes.begin(), periods.back().changes.end());
+        figures["period_change"] = std::accumulate(periods.back().changes.begin(),
+                                                   periods.back().changes.end(), 0.0, worse);
     int onsets = 0;
     int releases = 0;
     for (const auto& event : events)

@@ -1,7 +1,8 @@
 #include "mms/text/toml_reader.hpp"
 #include "studies/evolution/evolution.hpp"
+#include "studies/runs/defects.hpp"
 #include "studies/scene/scene.hpp"
-#include "studies/study_kind.hpp"
+#include "studies/study.hpp"
 #include "studies/table_row.hpp"
 
 namespace tvbeam {
@@ -20,7 +21,9 @@ struct EvolutionStudy final : KindOf<EvolutionBlock, EvolutionResult> {
         return needs_of(block_in(block), context.scene.beam.stops);
     }
     std::any run(const std::any& block, const StudyContext& context) const override {
-        return run_evolution(context.scene, block_in(block), context.data, context.execution);
+        return run_evolution(context.scene, block_in(block),
+                             context.defects.added_to(context.data, block_in(block).rung),
+                             context.execution);
     }
     Ending ending(const std::any& record) const override {
         return {.failed = record_in(record).run.status != RungStatus::ok,
@@ -29,6 +32,16 @@ struct EvolutionStudy final : KindOf<EvolutionBlock, EvolutionResult> {
     }
     std::map<std::string, double> figures(const std::any& record) const override {
         return record_in(record).figures();
+    }
+    void expect(TableReader& table, const std::any& block,
+                std::vector<Expectation>& expectations) const override {
+        expect_words(table, "events", expectations, [](const StudyResult& result) {
+            std::vector<std::string> events;
+            for (const auto& event : result.get<EvolutionResult>()->events)
+                events.push_back(name_of(event.kind) + " " + name_of(event.stop));
+            return events;
+        });
+        StudyKind::expect(table, block, expectations);
     }
 };
 

@@ -2,14 +2,19 @@
 
 #include "mms/text/nearest_name.hpp"
 #include "mms/text/toml_reader.hpp"
+#include "studies/orders/order_engine.hpp"
+#include "studies/orders/verdict.hpp"
 #include "studies/study.hpp"
 
 #include <boost/algorithm/string/join.hpp>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <sstream>
 
 namespace tvbeam {
+
+using boost::algorithm::join;
 
 namespace {
 
@@ -21,7 +26,55 @@ const std::vector<RungResult>& runs_of(const StudyResult& result, const std::str
             })->results;
 }
 
+std::vector<std::string> texts_of(const std::vector<double>& numbers) {
+    std::vector<std::string> texts;
+    texts.reserve(numbers.size());
+    for (const double number : numbers)
+        texts.push_back(metric_text(number));
+    return texts;
+}
+
+/// Words held against those that are expected, all of them.
+CheckedExpectation same(const std::string& what, const std::vector<std::string>& wanted,
+                        const std::vector<std::string>& found, const Place& place) {
+    const auto text = [](const auto& all) { return all.empty() ? "nothing" : join(all, ", "); };
+    return {what, text(wanted), text(found), place, found == wanted};
+}
+
+Expectation all_of(const TableReader& table, const std::string& key,
+                   const std::vector<std::string>& wanted, const Words& found) {
+    // "expect.left_out" is left_out of the result.
+    return [what = table.full(key).substr(std::string("expect.").size()), wanted,
+            place = table.place(key), found](const StudyResult& result) {
+        return std::vector{same(what, wanted, found(result), place)};
+    };
+}
+
+std::vector<std::string> all_verdicts() {
+    std::vector<std::string> names;
+    for (auto verdict = 0; verdict <= static_cast<int>(Verdict::failed); ++verdict)
+        names.emplace_back(name_of(static_cast<Verdict>(verdict)));
+    return names;
+}
+
+/// As many values as there are rows.
+void require_count(const TableReader& table, const std::string& key, std::size_t values,
+                   std::size_t count, const std::string& rows) {
+    if (values != count)
+        throw table.error(key, " has " + std::to_string(values) + " values for " +
+                                   std::to_string(count) + " " + rows + "s; give one a " + rows);
+}
+
 } // namespace
+
+CheckedExpectation held(const Metric& metric, double lowest, double highest, const Place& place) {
+    return {.what = metric.what,
+            .expected = metric_text(lowest) + " to " + metric_text(highest),
+            .found = metric.value ? metric_text(*metric.value) : metric.absence,
+            .place = place,
+            // A figure that is not a number lies in no band.
+            .holds = metric.value && *metric.value >= lowest && *metric.value <= highest};
+}
 
 std::string metric_text(double value) {
     std::ostringstream text;
@@ -42,10 +95,90 @@ Metric row_metric(const Series& series, const RungResult& run, std::size_t k,
             value, run.reason.empty() ? otherwise : "no error: " + run.reason};
 }
 
+Expectation in_band(double lowest, double highest, const Place& place, Metrics metrics) {
+    return [lowest, highest, place, metrics = std::move(metrics)](const StudyResult& result) {
+        std::vector<CheckedExpectation> checked;
+        for (const auto& metric : metrics(result))
+            checked.push_back(held(metric, lowest, highest, place));
+        return checked;
+    };
+}
+
 void expect_band(TableReader& table, const std::string& key, std::vector<Expectation>& expectations,
                  Metrics metrics) {
     if (const auto band = table.band(key))
-        expectations.push_back({band->lowest, band->highest, table.place(key), std::move(metrics)});
+        expectations.push_back(
+            in_band(band->lowest, band->highest, table.place(key), std::move(metrics)));
+}
+
+void expect_verdicts(TableReader& table, std::size_t count, const std::string& rows,
+                     const std::function<void(JudgeVerdicts)>& add) {
+    const auto wanted = table.texts("verdicts");
+    if (!wanted)
+        return;
+    require_count(table, "verdicts", wanted->size(), count, rows);
+    const auto known = all_verdicts();
+    for (std::size_t row = 0; row < count; ++row)
+        if (const auto& word = (*wanted)[row];
+            std::find(known.begin(), known.end(), word) == known.end())
+            throw table.error("verdicts",
+                              " holds '" + word + "', which is no verdict" +
+                                  did_you_mean(word, known) + "; they are " + join(known, ", "),
+                              row);
+    add([wanted = *wanted, place = table.place("verdicts")](
+            const std::string& what, const std::vector<RowVerdict>& verdicts) {
+        std::vector<std::string> found;
+        found.reserve(verdicts.size());
+        for (const auto& verdict : verdicts)
+            found.emplace_back(name_of(verdict.verdict));
+        return same(what + ": verdicts", wanted, found, place);
+    });
+}
+
+void expect_words(TableReader& table, const std::string& key,
+                  std::vector<Expectation>& expectations, const Words& found) {
+    if (const auto wanted = table.texts(key))
+        expectations.push_back(all_of(table, key, *wanted, found));
+}
+
+void expect_numbers(TableReader& table, const std::string& key,
+                    std::vector<Expectation>& expectations, const Numbers& found) {
+    if (const auto wanted = table.numbers(key))
+        expectations.push_back(
+            all_of(table, key, texts_of(*wanted),
+                   [found](const StudyResult& result) { return texts_of(found(result)); }));
+}
+
+void expect_interval(TableReader& table, const std::string& key,
+                     const std::function<void(JudgeInterval)>& add) {
+    const auto unknown = [](const OrderInterval& interval) {
+        return "not determined: " + interval.status;
+    };
+    if (const auto wanted = table.flag(key + "_determined"))
+        add([unknown, wanted, place = table.place(key + "_determined")](
+                const std::string& what, const OrderInterval& interval) -> CheckedExpectation {
+            return {what, *wanted ? "determined" : "not determined",
+                    interval.determined ? "determined" : unknown(interval), place,
+                    interval.determined == *wanted};
+        });
+    if (const auto number = table.number(key + "_holds"))
+        add([unknown, number, place = table.place(key + "_holds")](
+                const std::string& what, const OrderInterval& interval) -> CheckedExpectation {
+            return {what + ", interval", "one that holds " + metric_text(*number),
+                    interval.determined
+                        ? metric_text(interval.low) + " to " + metric_text(interval.high)
+                        : unknown(interval),
+                    place,
+                    interval.determined && interval.low <= *number && *number <= interval.high};
+        });
+    if (const auto band = table.band(key + "_half_width"))
+        add([unknown, band, place = table.place(key + "_half_width")](
+                const std::string& what, const OrderInterval& interval) {
+            return held({what + ", half of its interval",
+                         interval.determined ? std::optional(interval.half_width()) : std::nullopt,
+                         unknown(interval)},
+                        band->lowest, band->highest, place);
+        });
 }
 
 void expect_orders(TableReader& table, const Series& series, std::size_t k,
@@ -63,30 +196,45 @@ void expect_orders(TableReader& table, const Series& series, std::size_t k,
     });
 }
 
+void read_error_bands(TableReader& table, std::size_t count, const std::string& rows,
+                      const std::function<void(std::size_t, double, double, const Place&)>& add) {
+    const auto given = table.number("within");
+    const double within = given.value_or(1e-3);
+    if (!(within > 0.0 && within <= widest_part))
+        throw table.error("within", " is " + message_text(within) +
+                                        "; it must be > 0 and at most 0.5: a part of each error");
+    const auto errors = table.numbers("errors");
+    if (!errors) {
+        if (given)
+            throw table.error("within", " is how near the errors must come: give errors = […]");
+        return;
+    }
+    require_count(table, "errors", errors->size(), count, rows);
+    for (std::size_t row = 0; row < count; ++row) {
+        const double error = (*errors)[row];
+        if (error < 0.0)
+            throw table.error("errors",
+                              " holds " + message_text(error) + "; errors are not below 0", row);
+        add(row, error * (1.0 - within), error * (1.0 + within), table.place("errors", row));
+    }
+}
+
 void expect_errors(TableReader& table, const Series& series, std::size_t k,
                    std::vector<Expectation>& expectations) {
-    const double within = table.number("within").value_or(1e-3);
-    if (!(within > 0.0 && within < 1.0))
-        throw table.error("within", " must be a part between 0 and 1");
-    const auto errors = table.numbers("errors");
-    if (!errors)
-        return;
-    if (errors->size() != series.rungs.size())
-        throw table.error("errors", " has " + std::to_string(errors->size()) + " values for " +
-                                        std::to_string(series.rungs.size()) +
-                                        " rungs; give one a rung");
-    for (std::size_t row = 0; row < errors->size(); ++row)
-        expectations.push_back(
-            {(*errors)[row] * (1.0 - within), (*errors)[row] * (1.0 + within),
-             table.place("errors", row), [series, k, row](const StudyResult& result) {
-                 const RungResult& run = runs_of(result, series.study)[row];
-                 return std::vector{row_metric(series, run, k, "error", error_of(run, k))};
-             }});
+    read_error_bands(
+        table, series.rungs.size(), "rung",
+        [&](std::size_t row, double lowest, double highest, const Place& place) {
+            expectations.push_back(
+                in_band(lowest, highest, place, [series, k, row](const StudyResult& result) {
+                    const RungResult& run = runs_of(result, series.study)[row];
+                    return std::vector{row_metric(series, run, k, "error", error_of(run, k))};
+                }));
+        });
 }
 
 void expect_figures(TableReader& table, const std::string& study,
                     std::vector<Expectation>& expectations) {
-    for (const auto& name : table.keys())
+    for (const auto& name : table.unread())
         expect_band(table, name, expectations, [study, name](const StudyResult& result) {
             const auto figures = result.figures(study);
             std::vector<std::string> names;
@@ -95,19 +243,28 @@ void expect_figures(TableReader& table, const std::string& study,
                 names.push_back(known);
             const auto found = figures.find(name);
             return std::vector{
-                Metric{study + "." + name,
+                Metric{fmt::format("{}.{}", study, name),
                        found == figures.end() ? std::nullopt : std::optional(found->second),
                        "no figure of this name" + did_you_mean(name, names) + "; the study has " +
-                           boost::algorithm::join(names, ", ")}};
+                           join(names, ", ")}};
         });
 }
 
+void finish_expecting(const TableReader& table, std::size_t before,
+                      const std::vector<Expectation>& expectations) {
+    table.finish();
+    if (expectations.size() == before)
+        throw table.error("", " expects nothing; give it a bound, or remove it");
+}
+
 void for_each_measure(TableReader& table, const std::vector<Measure>& measures,
+                      std::vector<Expectation>& expectations,
                       const std::function<void(TableReader&, std::size_t k)>& read) {
     for (std::size_t k = 0; k < measures.size(); ++k)
         if (auto inner = table.table(measures[k].name)) {
+            const std::size_t before = expectations.size();
             read(*inner, k);
-            inner->finish();
+            finish_expecting(*inner, before, expectations);
         }
 }
 

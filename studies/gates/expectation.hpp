@@ -11,6 +11,8 @@
 
 namespace tvbeam {
 
+struct OrderInterval;
+struct RowVerdict;
 struct StudyResult;
 class TableReader;
 
@@ -21,34 +23,76 @@ struct Metric {
     std::string absence; ///< said where there is no value
 };
 
-/// A two-sided band that metrics of the result must lie in.
-struct Expectation {
-    double lowest = 0.0;
-    double highest = 0.0;
-    Place place; ///< where the scene says so
-    std::function<std::vector<Metric>(const StudyResult&)> metrics;
+/// One expectation held against a result.
+struct CheckedExpectation {
+    std::string what;     ///< of a Metric, or of what else the result says
+    std::string expected; ///< e.g. "0.9 to 1.1"
+    std::string found;    ///< the figure, or why there is none
+    Place place;          ///< where the scene says so
+    bool holds = false;
 };
 
-/// What a table of [expect] holds, key by key: each reads a band and adds an expectation, where the
+/// A metric held against a band. One that has no value does not meet any.
+CheckedExpectation held(const Metric& metric, double lowest, double highest, const Place& place);
+
+/// What a scene expects of its result, held against it.
+using Expectation = std::function<std::vector<CheckedExpectation>(const StudyResult&)>;
+
+/// What a table of [expect] holds, key by key: each reads what is expected and adds it, where the
 /// key is there.
 using Metrics = std::function<std::vector<Metric>(const StudyResult&)>;
 void expect_band(TableReader& table, const std::string& key, std::vector<Expectation>& expectations,
                  Metrics metrics);
+Expectation in_band(double lowest, double highest, const Place& place, Metrics metrics);
 
-/// orders = [lo, hi], for every observed order of measure k along the series; errors = one a rung,
-/// with within = the relative half-width of their bands, default 1e-3.
+/// verdicts = one a row (name_of(Verdict)). count: of the rows, which are called so.
+using JudgeVerdicts =
+    std::function<CheckedExpectation(const std::string&, const std::vector<RowVerdict>&)>;
+void expect_verdicts(TableReader& table, std::size_t count, const std::string& rows,
+                     const std::function<void(JudgeVerdicts)>& add);
+
+/// KEY = [ … ]: all that the result says, word by word or number by number, to six digits.
+using Words = std::function<std::vector<std::string>(const StudyResult&)>;
+using Numbers = std::function<std::vector<double>(const StudyResult&)>;
+void expect_words(TableReader& table, const std::string& key,
+                  std::vector<Expectation>& expectations, const Words& found);
+void expect_numbers(TableReader& table, const std::string& key,
+                    std::vector<Expectation>& expectations, const Numbers& found);
+
+/// Of an order or a limit with its 95 % interval: KEY_determined = true or false, KEY_holds = a
+/// number that the interval must hold, KEY_half_width = [lo, hi]. add(judge): for each that the
+/// table has. One that is not determined holds nothing and has no width.
+using JudgeInterval = std::function<CheckedExpectation(const std::string&, const OrderInterval&)>;
+void expect_interval(TableReader& table, const std::string& key,
+                     const std::function<void(JudgeInterval)>& add);
+
+/// orders = [lo, hi], for every observed order of measure k along the series; errors = one a rung.
 void expect_orders(TableReader& table, const Series& series, std::size_t k,
                    std::vector<Expectation>& expectations);
 void expect_errors(TableReader& table, const Series& series, std::size_t k,
                    std::vector<Expectation>& expectations);
 
-/// A band for any of the figures of a study.
+/// Relative bands that are wider hold nearly anything.
+inline constexpr double widest_part = 0.5;
+
+/// errors = one a row, within = the relative half-width of their bands (widest_part), default 1e-3:
+/// add(row, lowest, highest, place) for each. rows: what they are called.
+void read_error_bands(TableReader& table, std::size_t count, const std::string& rows,
+                      const std::function<void(std::size_t, double, double, const Place&)>& add);
+
+/// A band for any of the figures of a study, by every key that nobody has read.
 void expect_figures(TableReader& table, const std::string& study,
                     std::vector<Expectation>& expectations);
 
 /// Reads a table for each measure that is there, by its name, with read(table, k).
 void for_each_measure(TableReader& table, const std::vector<Measure>& measures,
+                      std::vector<Expectation>& expectations,
                       const std::function<void(TableReader&, std::size_t k)>& read);
+
+/// Ends the reading of a table, and refuses one that has added nothing to the `before` expectations
+/// that there were.
+void finish_expecting(const TableReader& table, std::size_t before,
+                      const std::vector<Expectation>& expectations);
 
 /// The metric of one row of a series: its value, or what the run or `otherwise` says instead.
 Metric row_metric(const Series& series, const RungResult& run, std::size_t k,

@@ -1,5 +1,7 @@
+#include "mms/forecast/error_constants.hpp"
 #include "mms/text/toml_reader.hpp"
 #include "studies/grid/grid.hpp"
+#include "studies/orders/known_orders.hpp"
 #include "studies/study.hpp"
 #include "studies/table_row.hpp"
 
@@ -38,6 +40,53 @@ Metric metric_of(const FitMetric& metric, const NormOrders& orders) {
             absence.empty() ? std::optional(fit.model.*metric.value) : std::nullopt, absence};
 }
 
+CheckedExpectation judged(const JudgeInterval& judge, bool in_h, const OrdersResult& result,
+                          std::size_t k) {
+    const NormOrders& orders = result.norms[k];
+    OrderInterval order = in_h ? orders.fit.p : orders.fit.q;
+    if (!orders.fit.holds())
+        order = {.status = orders.fit.failure};
+    return judge("orders." + orders.norm + (in_h ? ": p" : ": q"), order);
+}
+
+/// Sizes that the grid gives to terms of the forecast orders, over the forecast ones.
+std::vector<Metric> forecast_metrics(std::size_t k, double within, const StudyResult& result) {
+    const OrdersBlock& block = *result.scene.get<OrdersBlock>();
+    const Measure& measure = block.norms[k];
+    const auto metric = [&](const std::string& size, std::optional<double> value,
+                            const std::string& absence) {
+        return Metric{"orders." + measure.root() + ": " + size + " over its forecast", value,
+                      absence};
+    };
+    const ErrorConstants forecast = forecast_constants(result.scene, block.final_time);
+    const NormConstants* norm = forecast.of(measure.root());
+    if (norm == nullptr)
+        return {metric("a, b", std::nullopt, "no forecast: " + forecast.unknown)};
+    const auto order = [](const auto& term) {
+        return term ? std::optional(term->order) : std::nullopt;
+    };
+    const auto sizes =
+        fit_known_orders(root_records_of(result.get<OrdersResult>()->runs, k, measure),
+                         order(norm->in_h), order(norm->in_dt));
+    std::vector<Metric> metrics;
+    const auto add = [&](const std::string& size, const std::optional<LeadingTerm>& term,
+                         const std::optional<FittedSize>& fitted) {
+        if (!term)
+            return;
+        const bool known = fitted && 2.0 * fitted->se <= within * fitted->value;
+        metrics.push_back(metric(
+            size, known ? std::optional(fitted->value / term->constant) : std::nullopt,
+            sizes.failure.empty()
+                ? "the grid does not determine it: a forecast of " + metric_text(term->constant)
+                : sizes.failure));
+    };
+    add("a", norm->in_h, sizes.a);
+    add("b", norm->in_dt, sizes.b);
+    if (metrics.empty())
+        metrics.push_back(metric("a, b", std::nullopt, "no error is forecast"));
+    return metrics;
+}
+
 std::vector<Metric> constant_metrics(const std::string& norm, const StudyResult& result) {
     const auto& constants = result.get<OrdersResult>()->corollary;
     return {{"orders." + norm + ": greatest constant C",
@@ -65,12 +114,27 @@ struct OrdersStudy final : KindOf<OrdersBlock, OrdersResult> {
 
     void expect(TableReader& table, const std::any& block,
                 std::vector<Expectation>& expectations) const override {
-        for_each_measure(table, block_in(block).norms, [&](TableReader& norm, std::size_t k) {
+        const auto read = [&](TableReader& norm, std::size_t k) {
             for (const auto& metric : fit_metrics) {
                 expect_band(
                     norm, metric.key, expectations, [&metric, k](const StudyResult& result) {
                         return std::vector{metric_of(metric, result.get<OrdersResult>()->norms[k])};
                     });
+            }
+            for (const bool in_h : {true, false})
+                expect_interval(norm, in_h ? "p" : "q", [&](const JudgeInterval& judge) {
+                    expectations.push_back([k, in_h, judge](const StudyResult& result) {
+                        return std::vector{judged(judge, in_h, *result.get<OrdersResult>(), k)};
+                    });
+                });
+            if (const auto within = norm.number("forecast")) {
+                if (!(*within > 0.0 && *within < 0.5))
+                    throw norm.error("forecast", " must be a part between 0 and 0.5: by how much a "
+                                                 "and b may differ from their forecasts");
+                expectations.push_back(in_band(1.0 - *within, 1.0 + *within, norm.place("forecast"),
+                                               [k, within = *within](const StudyResult& result) {
+                                                   return forecast_metrics(k, within, result);
+                                               }));
             }
             const Measure& measure = block_in(block).norms[k];
             if (!measure.theorem.empty())
@@ -78,7 +142,8 @@ struct OrdersStudy final : KindOf<OrdersBlock, OrdersResult> {
                             [name = measure.name](const StudyResult& result) {
                                 return constant_metrics(name, result);
                             });
-        });
+        };
+        for_each_measure(table, block_in(block).norms, expectations, read);
     }
 };
 

@@ -6,8 +6,9 @@ namespace tvbeam {
 
 namespace {
 
-PrintedFigures read_printed(TableReader table, const LadderBlock& ladder, const SolverKeys& keys) {
-    PrintedFigures printed;
+PublishedFigures read_printed(TableReader table, const LadderBlock& ladder,
+                              const SolverKeys& keys) {
+    PublishedFigures printed;
     printed.source = table.text("source").value_or("published");
     printed.figures = read_by_measure(
         table, keys, ladder.norms, [&](const std::string& name, const std::vector<double>& list) {

@@ -10,7 +10,7 @@
 namespace tvbeam {
 
 /// Figures to compare with, a list of one figure a rung for each norm.
-struct PrintedFigures {
+struct PublishedFigures {
     std::string source; ///< where they were printed
     std::map<std::string, std::vector<double>> figures;
 };
@@ -20,7 +20,7 @@ struct LadderBlock {
     double final_time = 0.0;
     std::vector<Rung> rungs;
     std::vector<Measure> norms;
-    std::optional<PrintedFigures> printed;
+    std::optional<PublishedFigures> printed;
 };
 
 /// Reads the block:

@@ -27,7 +27,7 @@ bool beyond(const Rung& rung, const std::vector<RungResult>& grid) {
 
 /// ratios = [lo, hi], or one such pair a rung: of the errors to the printed figures.
 void expect_ratios(TableReader& table, const Series& series, std::size_t k,
-                   const std::optional<PrintedFigures>& printed,
+                   const std::optional<PublishedFigures>& printed,
                    std::vector<Expectation>& expectations) {
     const auto bands = table.bands("ratios");
     if (!bands)
@@ -45,20 +45,21 @@ void expect_ratios(TableReader& table, const Series& series, std::size_t k,
     for (std::size_t row = 0; row < rungs; ++row) {
         const auto& band = (*bands)[bands->size() == 1 ? 0 : row];
         const double figure = printed->figures.at(norm)[row];
-        expectations.push_back({band.lowest, band.highest, table.place("ratios"),
-                                [series, k, row, figure](const StudyResult& result) {
-                                    const auto& run = result.get<LadderResult>()->rungs[row];
-                                    const auto error = error_of(run, k);
-                                    return std::vector{row_metric(
-                                        series, run, k, "ratio to the published value",
-                                        error ? std::optional(*error / figure) : std::nullopt)};
-                                }});
+        expectations.push_back(
+            in_band(band.lowest, band.highest, table.place("ratios"),
+                    [series, k, row, figure](const StudyResult& result) {
+                        const auto& run = result.get<LadderResult>()->rungs[row];
+                        const auto error = error_of(run, k);
+                        return std::vector{
+                            row_metric(series, run, k, "ratio to the published value",
+                                       error ? std::optional(*error / figure) : std::nullopt)};
+                    }));
     }
 }
 
 /// Error over prediction of the two-term model, both of the norm itself, of every rung finer than
-/// the grid.
-std::vector<Metric> predicted_metrics(const Series& series, std::size_t k,
+/// the grid; or over where in the predicted interval it lies: 0 at its low end, 1 at its high one.
+std::vector<Metric> predicted_metrics(const Series& series, std::size_t k, bool in_interval,
                                       const StudyResult& result) {
     const LadderResult& ladder = *result.get<LadderResult>();
     const LadderNorm& norm = ladder.norms[k];
@@ -67,13 +68,17 @@ std::vector<Metric> predicted_metrics(const Series& series, std::size_t k,
         const RungResult& run = ladder.rungs[row];
         if (!beyond(run.rung, result.get<OrdersResult>()->runs))
             continue;
+        const OrderInterval& predicted = norm.predictions[row];
         auto ratio = error_of(run, k);
-        if (ratio)
-            *ratio /= norm.predictions[row].value;
-        if (ratio && norm.norm.squared)
-            ratio = std::sqrt(*ratio);
-        metrics.push_back(
-            row_metric(series, run, k, "ratio to the two-term model's prediction", ratio));
+        if (ratio && in_interval)
+            ratio = (*ratio - predicted.low) / (predicted.high - predicted.low);
+        else if (ratio)
+            ratio =
+                norm.norm.squared ? std::sqrt(*ratio / predicted.value) : *ratio / predicted.value;
+        metrics.push_back(row_metric(series, run, k,
+                                     in_interval ? "place in the predicted interval"
+                                                 : "ratio to the two-term model's prediction",
+                                     ratio));
     }
     if (metrics.empty())
         metrics.push_back({"ladder." + norm.norm.name + ": prediction", std::nullopt,
@@ -114,14 +119,23 @@ struct LadderStudy final : KindOf<LadderBlock, LadderResult> {
     void expect(TableReader& table, const std::any& block,
                 std::vector<Expectation>& expectations) const override {
         const Series series = series_of(block_in(block), {});
-        for_each_measure(table, block_in(block).norms, [&](TableReader& norm, std::size_t k) {
+        const auto read = [&](TableReader& norm, std::size_t k) {
             expect_orders(norm, series, k, expectations);
             expect_ratios(norm, series, k, block_in(block).printed, expectations);
             expect_errors(norm, series, k, expectations);
-            expect_band(norm, "predicted", expectations, [series, k](const StudyResult& result) {
-                return predicted_metrics(series, k, result);
+            for (const bool in_interval : {false, true})
+                expect_band(norm, in_interval ? "predicted_place" : "predicted", expectations,
+                            [series, k, in_interval](const StudyResult& result) {
+                                return predicted_metrics(series, k, in_interval, result);
+                            });
+            expect_verdicts(norm, series.rungs.size(), "rung", [&](const JudgeVerdicts& judge) {
+                expectations.push_back([series, k, judge](const StudyResult& result) {
+                    return std::vector{judge("ladder." + series.measures[k].name,
+                                             result.get<LadderResult>()->norms[k].verdicts)};
+                });
             });
-        });
+        };
+        for_each_measure(table, block_in(block).norms, expectations, read);
     }
 };
 

@@ -73,10 +73,11 @@ std::string departure(const Measure& norm, std::span<const Refinement> roots,
     if (dips(orders, settles ? last.order : before))
         return text + ", as where two terms of the error cancel.";
     if (settles && std::abs(last.order - extreme.order) <= steady)
-        return text + (rises ? ", where it settles: the levels before it are too coarse to show it."
-                             : ", as where a term of lower order takes over.");
-    return text +
-           "; why is not known: " + (settles ? "it settles elsewhere." : "it has not settled.");
+        return text +
+               (rises ? ", where the last two orders agree, as where coarse levels do not show it."
+                      : ", as where a term of lower order takes over.");
+    return text + "; why is not known: " +
+           (settles ? "the last two orders agree." : "it has not settled.");
 }
 
 /// What the orders do. Why they do it is guessed where no model says it.
@@ -158,7 +159,7 @@ std::string from_model(const Measure& norm, std::span<const Refinement> roots,
                 rung_name(roots, {.h = view.cancellation->h, .dt = view.cancellation->dt}) + ".";
     if (view.asymptotic_from && at_first < 1.0)
         text += " The order that remains, " + order(slow_order) + ", shows " +
-                (view.asymptotic_from->row < roots.size() ? "from " : "only from ") +
+                (view.asymptotic_from->row < roots.size() ? "from " : "only from about ") +
                 rung_name(roots, {.h = view.asymptotic_from->h, .dt = view.asymptotic_from->dt}) +
                 " on.";
     return text;

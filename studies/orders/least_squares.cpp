@@ -36,11 +36,11 @@ struct Place {
 };
 
 /// s² (JᵀJ)⁻¹
-Eigen::MatrixXd covariance(const Eigen::MatrixXd& jacobian, double s2, int dof) {
+Eigen::MatrixXd covariance(const Eigen::MatrixXd& jacobian, double s2) {
     const Eigen::Index size = jacobian.cols();
     Eigen::MatrixXd undetermined = Eigen::MatrixXd::Zero(size, size);
     undetermined.diagonal().setConstant(infinity);
-    if (dof < 1)
+    if (std::isinf(s2))
         return undetermined;
     const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(jacobian);
     const Eigen::MatrixXd r = qr.matrixR().topRows(size).triangularView<Eigen::Upper>();
@@ -60,8 +60,8 @@ Eigen::MatrixXd covariance(const Eigen::MatrixXd& jacobian, double s2, int dof) 
 class Search {
 public:
     Search(const ModelFunction& model, const Eigen::VectorXd& y, const Eigen::VectorXd& weights,
-           Eigen::Index size)
-        : model_(model), y_(y),
+           Eigen::Index size, double scatter)
+        : model_(model), y_(y), scatter_(scatter),
           root_weights_(weights.cwiseSqrt()), here_{Eigen::VectorXd(size),
                                                     Eigen::VectorXd(y.size()),
                                                     Eigen::MatrixXd(y.size(), size), infinity},
@@ -119,8 +119,9 @@ public:
         result.residuals = -best_.residuals.cwiseQuotient(root_weights_);
         result.chi2 = best_.chi2;
         result.dof = static_cast<int>(y_.size() - best_.theta.size());
-        const double s = result.scale();
-        result.covariance = covariance(best_.jacobian, s * s, result.dof);
+        const double s = std::max(result.scale(), scatter_);
+        result.covariance =
+            covariance(best_.jacobian, result.dof < 1 && !(scatter_ > 0) ? infinity : s * s);
         return result;
     }
 
@@ -154,6 +155,7 @@ private:
 
     const ModelFunction& model_;
     const Eigen::VectorXd& y_;
+    double scatter_;
     Eigen::VectorXd root_weights_;
     Place here_;
     Place trial_;
@@ -174,12 +176,12 @@ double LeastSquares::standard_error(int k) const {
 
 std::optional<LeastSquares> least_squares(const ModelFunction& model, const Eigen::VectorXd& y,
                                           const Eigen::VectorXd& weights,
-                                          std::span<const Eigen::VectorXd> starts) {
+                                          std::span<const Eigen::VectorXd> starts, double scatter) {
     if (starts.empty() || y.size() < starts.front().size())
         return std::nullopt;
     if (starts.front().size() > most_parameters)
         throw std::invalid_argument("no model has so many parameters");
-    Search search(model, y, weights, starts.front().size());
+    Search search(model, y, weights, starts.front().size(), scatter);
     for (const auto& start : starts)
         search.descend_from(start);
     return search.best();

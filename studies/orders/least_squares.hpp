@@ -1,13 +1,14 @@
 /// Weighted nonlinear least squares, with what an honest interval needs.
 ///
-/// Minimises χ² = Σ_i w_i (y_i − f_i(θ))². The weights are relative: the variance of the data is
-/// estimated from the residuals, s² = χ² / dof with dof = observations − parameters, and
+/// Minimises χ² = Σ_i w_i (y_i − f_i(θ))². The weights are relative: the variance of the data at
+/// weight one is estimated from the residuals, s² = χ² / dof with dof = observations − parameters,
+/// or known beforehand, where s² is no less than that; and
 ///
 ///     cov θ = s² (Jᵀ W J)⁻¹,      a 95 % interval is θ_k ± t_{0.975, dof} sqrt(cov_kk).
 ///
-/// Without a degree of freedom, or where J does not determine θ to working precision, the
-/// covariance is infinite on its diagonal: an interval then covers everything, and nothing passes
-/// by accident.
+/// Without a degree of freedom and a known variance, or where J does not determine θ to working
+/// precision, the covariance is infinite on its diagonal: an interval then covers everything, and
+/// nothing passes by accident.
 #pragma once
 
 #include <Eigen/Core>
@@ -40,10 +41,12 @@ struct LeastSquares {
 };
 
 /// The best of what the starts lead to; all are of one length, of at most 12. None
-/// where there are fewer observations than parameters, or no start is admissible.
+/// where there are fewer observations than parameters, or no start is admissible. scatter: the
+/// known standard deviation of y at weight one; 0 where it is not known.
 std::optional<LeastSquares> least_squares(const ModelFunction& model, const Eigen::VectorXd& y,
                                           const Eigen::VectorXd& weights,
-                                          std::span<const Eigen::VectorXd> starts);
+                                          std::span<const Eigen::VectorXd> starts,
+                                          double scatter = 0);
 
 /// Student's quantile of 97.5 % over the normal one: what few degrees of freedom add to an
 /// interval. Infinite where dof < 1.

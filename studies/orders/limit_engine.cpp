@@ -31,7 +31,7 @@ const LimitModel limit_models[] = {{std::nullopt, false}, {1.0, false},
 
 struct LinearFit {
     double limit = 0;
-    double limit_error = infinity;
+    double limit_error = 0; ///< over 1.96 it is an interval's half; 0 without residuals and σ
     double order = 0;
     double square = infinity; ///< sum of weighted squares
     double finest = 0;        ///< the model's value at the finest level
@@ -40,8 +40,21 @@ struct LinearFit {
 
 using Rows = std::vector<ValueRow>;
 
+/// 1/σ² over its mean, and the standard deviation at weight one, 0 where it is not known.
+struct Weights {
+    Eigen::VectorXd relative;
+    double scatter = 0;
+};
+
+/// The standard deviation at weight one: from the residuals, with Student's factor, or known.
+double deviation_of(const LinearFit& fit, const Weights& weights) {
+    return std::max(fit.dof > 0 ? std::sqrt(fit.square / fit.dof) * student_over_normal(fit.dof)
+                                : 0.0,
+                    weights.scatter);
+}
+
 /// For a given order all else is linear.
-LinearFit fit_at(std::span<const ValueRow> rows, const Eigen::VectorXd& weights, double order,
+LinearFit fit_at(std::span<const ValueRow> rows, const Weights& weights, double order,
                  const LimitModel& model) {
     const auto n = static_cast<Eigen::Index>(rows.size());
     const int columns = model.next ? 3 : 2;
@@ -51,7 +64,7 @@ LinearFit fit_at(std::span<const ValueRow> rows, const Eigen::VectorXd& weights,
     for (Eigen::Index i = 0; i < n; ++i) {
         const auto& row = rows[static_cast<std::size_t>(i)];
         const double x = row.h / unit;
-        const double w = std::sqrt(weights[i]);
+        const double w = std::sqrt(weights.relative[i]);
         design(i, 0) = w;
         design(i, 1) = w * std::pow(x, order);
         if (model.alternating && i % 2 == 1)
@@ -66,19 +79,19 @@ LinearFit fit_at(std::span<const ValueRow> rows, const Eigen::VectorXd& weights,
                   .order = order,
                   .square = (right - design * x).squaredNorm(),
                   .dof = static_cast<int>(n) - model.parameters()};
-    fit.finest = rows.back().value + design.row(n - 1).dot(x) / std::sqrt(weights[n - 1]);
-    if (fit.dof > 0) {
+    fit.finest = rows.back().value + design.row(n - 1).dot(x) / std::sqrt(weights.relative[n - 1]);
+    if (const double deviation = deviation_of(fit, weights); deviation > 0) {
         const Eigen::MatrixXd root =
             qr.matrixQR().topRows(columns).template triangularView<Eigen::Upper>().solve(
                 Eigen::MatrixXd::Identity(columns, columns));
-        fit.limit_error = std::sqrt(fit.square / fit.dof) * root.row(0).norm();
+        fit.limit_error = deviation * root.row(0).norm();
     }
     return fit;
 }
 
 /// The best order within the bounds; none at a bound.
-std::optional<LinearFit> fit_limit_model(std::span<const ValueRow> rows,
-                                         const Eigen::VectorXd& weights, const LimitModel& model) {
+std::optional<LinearFit> fit_limit_model(std::span<const ValueRow> rows, const Weights& weights,
+                                         const LimitModel& model) {
     if (static_cast<int>(rows.size()) < model.parameters())
         return std::nullopt;
     const auto at = [&](double p) { return fit_at(rows, weights, p, model); };
@@ -107,20 +120,20 @@ std::optional<LinearFit> fit_limit_model(std::span<const ValueRow> rows,
     auto fit = at((low + high) / 2);
     // The standard error at the best order knows nothing of the order's own: that of the linearised
     // model does.
-    if (fit.dof > 0) {
+    if (const double deviation = deviation_of(fit, weights); deviation > 0) {
         const double d = 1e-3 * fit.order;
         const auto above = at(fit.order + d), below = at(fit.order - d);
         const double curvature = (above.square + below.square - 2 * fit.square) / (d * d) / 2;
         const double slope = (above.limit - below.limit) / (2 * d);
-        const double variance = fit.square / fit.dof;
         if (curvature > 0)
             fit.limit_error =
-                std::hypot(fit.limit_error, std::abs(slope) * std::sqrt(variance / curvature));
+                std::hypot(fit.limit_error, std::abs(slope) * deviation / std::sqrt(curvature));
     }
     return fit;
 }
 
-/// Coarse to fine, finite, one row a width; of very many widths, one row a cell of ln h.
+/// Coarse to fine, finite, one row a width; of very many widths, one row a cell of ln h. Where no
+/// σ is stated, it is that of values of equal widths, with Student's factor for their number.
 Rows levels_of(std::span<const ValueRow> given) {
     constexpr std::size_t most_levels = 48; // less than the designs of fit_at hold
     Rows rows;
@@ -135,28 +148,39 @@ Rows levels_of(std::span<const ValueRow> given) {
     const double cell =
         widths > most_levels ? std::log(rows.front().h / rows.back().h) / (most_levels - 1) : 0.0;
     Rows levels;
+    std::vector<double> counts;
+    double squares = 0;
     for (std::size_t i = 0, next = 0; i < rows.size(); i = next) {
         ValueRow mean{0, 0, 0};
+        double square = 0;
         for (next = i; next < rows.size() && rows[next].h >= rows[i].h * std::exp(-cell); ++next) {
+            const double off = rows[next].value - rows[i].value;
             mean.h += rows[next].h;
-            mean.value += rows[next].value - rows[i].value;
+            mean.value += off;
             mean.sigma += rows[next].sigma * rows[next].sigma;
+            square += off * off;
         }
-        const auto n = static_cast<double>(next - i);
+        const auto n = counts.emplace_back(static_cast<double>(next - i));
+        squares += square - mean.value * mean.value / n;
         levels.push_back({mean.h / n, rows[i].value + mean.value / n, std::sqrt(mean.sigma) / n});
     }
+    const auto dof = static_cast<int>(rows.size() - levels.size());
+    const double pooled = std::sqrt(squares / dof) * student_over_normal(dof);
+    for (std::size_t i = 0; i < levels.size() && dof > 0 && cell == 0; ++i)
+        if (std::isnan(levels[i].sigma))
+            levels[i].sigma = pooled / std::sqrt(counts[i]);
     return levels;
 }
 
-Eigen::VectorXd weights_of(std::span<const ValueRow> rows) {
+Weights weights_of(std::span<const ValueRow> rows) {
     Eigen::VectorXd weights(static_cast<Eigen::Index>(rows.size()));
     for (Eigen::Index i = 0; i < weights.size(); ++i) {
         const double sigma = rows[static_cast<std::size_t>(i)].sigma;
-        if (!(sigma > 0) || !std::isfinite(sigma))
-            return Eigen::VectorXd::Ones(weights.size());
+        if (!is_positive(sigma))
+            return {Eigen::VectorXd::Ones(weights.size())};
         weights[i] = 1 / (sigma * sigma);
     }
-    return weights / weights.mean();
+    return {weights / weights.mean(), 1 / std::sqrt(weights.mean())};
 }
 
 struct Weighed {
@@ -206,10 +230,9 @@ void weigh(const Rows& levels, const LimitModel& model, std::vector<Weighed>& li
             change = std::abs(coarser->limit - fit->limit) / (rate - 1);
             compared = true;
         }
-        const double error = fit->dof > 0 ? fit->limit_error * student_over_normal(fit->dof) : 0.0;
-        if (!compared || !std::isfinite(error))
+        if (!compared || !std::isfinite(fit->limit_error))
             continue;
-        limits.push_back({fit->limit, std::hypot(change, error)});
+        limits.push_back({fit->limit, std::hypot(change, fit->limit_error)});
         if (!model.order)
             orders.push_back(fit->order);
     }
@@ -222,6 +245,15 @@ bool alternates(const Rows& levels) {
         return levels[n - back].value - levels[n - back - 1].value;
     };
     return step(1) * step(2) < 0 && (n < 4 || step(2) * step(3) < 0);
+}
+
+/// Is the finest step more than what the known deviations make of no step at all?
+bool is_significant(const Rows& levels) {
+    constexpr double deviations = 3;
+    const auto& fine = levels.back();
+    const auto& coarse = levels[levels.size() - 2];
+    const double sigma = std::hypot(fine.sigma, coarse.sigma);
+    return !(std::abs(fine.value - coarse.value) <= deviations * sigma);
 }
 
 /// Do the values go one way, or to and fro throughout, and the steps between levels, each over the
@@ -285,10 +317,12 @@ OrderInterval order_of_differences(const Rows& levels, double from_models) {
     const int rounds = greatest <= same * least ? 1 : 4;
     for (int round = 0; round < rounds; ++round) {
         std::vector<ErrorRow> differences;
-        for (std::size_t k = 0; k + 1 < levels.size(); ++k)
+        for (std::size_t k = 0; k + 1 < levels.size(); ++k) {
+            const double step = std::abs(levels[k].value - levels[k + 1].value);
             differences.push_back({{levels[k].h},
-                                   std::abs(levels[k].value - levels[k + 1].value) /
-                                       -std::expm1(-p * std::log(levels[k].h / levels[k + 1].h))});
+                                   step / -std::expm1(-p * std::log(levels[k].h / levels[k + 1].h)),
+                                   std::hypot(levels[k].sigma, levels[k + 1].sigma) / step});
+        }
         order = estimate_orders(differences).front();
         if (!(order.value > 0))
             break;
@@ -307,7 +341,7 @@ LimitEstimate estimate_limit(std::span<const ValueRow> rows, const LimitTuning& 
             "a limit needs values at three different widths";
         return result;
     }
-    if (runs_apart(given)) {
+    if (is_significant(given) && runs_apart(given)) {
         result.limit.status = result.order.status = "the values run apart";
         return result;
     }
@@ -323,7 +357,7 @@ LimitEstimate estimate_limit(std::span<const ValueRow> rows, const LimitTuning& 
     result.gci = gci_of(given);
     result.celik = celik_of(given);
     result.eca_hoekstra = eca_hoekstra_of(given);
-    if (result.gci && result.gci->order < least_order) {
+    if (is_significant(given) && result.gci && result.gci->order < least_order) {
         result.limit.status = result.order.status = "the order of the finest values is below 0.2";
         return result;
     }
@@ -404,6 +438,13 @@ std::optional<MethodLimit> gci_of(std::span<const ValueRow> levels) {
     if (high < no_order)
         return std::nullopt;
     const double gain = std::expm1(high * log_fine);
+    // Three grids whose order no common method has are not in the asymptotic range: the factor of
+    // two grids, and no order above that (Oberkampf and Roy 2010, 8.6).
+    constexpr double greatest_believed = 4;
+    if (high > 1.1 * greatest_believed)
+        return MethodLimit{fine.value - step / gain,
+                           3 * std::abs(step) / std::expm1(greatest_believed * log_fine), high,
+                           "f0 + C h^p; order above 4: factor 3, order 4 in the uncertainty"};
     constexpr double safety = 1.25; // of an order observed on three grids
     return MethodLimit{fine.value - step / gain, safety * std::abs(step) / gain, high,
                        "f0 + C h^p"};
@@ -449,7 +490,7 @@ std::optional<Candidate> eca_hoekstra_fit(std::span<const ValueRow> levels,
     const auto n = static_cast<double>(levels.size());
     const auto candidate = [&](const LimitModel& model,
                                const char* name) -> std::optional<Candidate> {
-        const auto fit = fit_limit_model(levels, weights, model);
+        const auto fit = fit_limit_model(levels, {weights}, model);
         if (!fit || fit->dof < 1)
             return std::nullopt;
         return Candidate{*fit, std::sqrt(fit->square * n / fit->dof), name};

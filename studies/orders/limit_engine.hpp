@@ -7,7 +7,10 @@
 /// standard error allows, and as far as the change would still grow if the sequence went on (with δ
 /// from one window to the next, r their ratio of widths):
 ///
-///     u_m² = (t_{dof} s_m / 1.96)² + (δ_m / (r − 1))²        (√r for models with a given p).
+///     u_m² = max(t_{dof} s_m / 1.96, σ_m)² + (δ_m / (r − 1))²        (√r for models with a given
+///     p),
+///
+/// with s_m from the residuals and σ_m from a stated deviation or that of replicates.
 ///
 /// The limit is the mean with weights 1 / u_m², its interval their spread, as in order_engine.hpp.
 #pragma once
@@ -24,7 +27,8 @@ namespace tvbeam {
 struct ValueRow {
     double h = 0;
     double value = 0;
-    double sigma = std::numeric_limits<double>::quiet_NaN(); ///< standard deviation; NaN: unknown
+    /// Standard deviation; NaN: unknown. Counts where all rows have one.
+    double sigma = std::numeric_limits<double>::quiet_NaN();
 };
 
 /// A named method's own figure: the limit it goes to and its uncertainty of the finest value.
@@ -48,7 +52,7 @@ struct LimitEstimate {
     double uncertainty =
         std::numeric_limits<double>::infinity(); ///< of the finest value, 95 %, half width
     std::string basis;                           ///< what it rests on: "5 levels, 21 fits"
-    std::optional<MethodLimit> gci;              ///< Roache 1994, 1997
+    std::optional<MethodLimit> gci;              ///< Roache 1994, 1997; above order 4 with factor 3
     std::optional<MethodLimit> celik;            ///< Celik et al. 2008
     std::optional<MethodLimit> eca_hoekstra;     ///< Eça and Hoekstra 2014
 };

@@ -18,21 +18,28 @@ constexpr int finest_levels[] = {3, 2, 1};
 
 using Index = Eigen::Index;
 
-/// Rows with a logarithm; those of one cell are one row of their mean, and of their number's
-/// weight. A cell is one point of the widths, or, where there are too many rows, of a lattice.
+/// Rows with a logarithm; those of one cell are one row of their mean, and of the sum of their
+/// weights 1/σ². A cell is one point of the widths, or, where there are too many rows, of a
+/// lattice. Without σ it is taken from rows of one point, with Student's factor for their number.
 TermRows usable_rows(std::span<const ErrorRow> given, const OrderTuning& tuning) {
     const auto d = given.empty() ? Index{0} : static_cast<Index>(given.front().widths.size());
+    const auto usable = [](const ErrorRow& row) {
+        return is_positive(row.error) &&
+               std::all_of(row.widths.begin(), row.widths.end(), is_positive);
+    };
+    const bool stated = std::all_of(given.begin(), given.end(), [&](const ErrorRow& row) {
+        return !usable(row) || is_positive(row.sigma);
+    });
     std::vector<Eigen::VectorXd> points; // ln of the widths and the error, and the weight
     Eigen::VectorXd least = Eigen::VectorXd::Constant(d, infinity);
     Eigen::VectorXd greatest = -least;
     for (const auto& row : given)
-        if (is_positive(row.error) &&
-            std::all_of(row.widths.begin(), row.widths.end(), is_positive)) {
+        if (usable(row)) {
             Eigen::VectorXd point(d + 2);
             for (Index i = 0; i < d; ++i)
                 point[i] = std::log(row.widths[static_cast<std::size_t>(i)]);
             point[d] = std::log(row.error);
-            point[d + 1] = row.weight;
+            point[d + 1] = stated ? 1 / (row.sigma * row.sigma) : 1.0;
             least = least.cwiseMin(point.head(d));
             greatest = greatest.cwiseMax(point.head(d));
             points.push_back(std::move(point));
@@ -43,30 +50,44 @@ TermRows usable_rows(std::span<const ErrorRow> given, const OrderTuning& tuning)
     struct Sum {
         Eigen::VectorXd sum;
         double weight = 0;
+        int count = 0;
+        double mean = 0, squares = 0; ///< of ln e, by Welford's recurrence
     };
     std::map<std::vector<double>, Sum> cells;
     std::vector<double> key(static_cast<std::size_t>(d));
+    const bool lattice = points.size() > tuning.most_rows;
     for (const auto& point : points) {
         for (Index i = 0; i < d; ++i)
-            key[static_cast<std::size_t>(i)] = points.size() > tuning.most_rows && cell[i] > 0
-                                                   ? std::floor((point[i] - least[i]) / cell[i])
-                                                   : point[i];
-        auto& [sum, weight] = cells[key];
-        if (weight == 0)
+            key[static_cast<std::size_t>(i)] =
+                lattice && cell[i] > 0 ? std::floor((point[i] - least[i]) / cell[i]) : point[i];
+        auto& [sum, weight, count, mean, squares] = cells[key];
+        if (count++ == 0)
             sum = Eigen::VectorXd::Zero(d + 1);
         sum += point[d + 1] * point.head(d + 1);
         weight += point[d + 1];
+        const double off = point[d] - mean;
+        mean += off / count;
+        squares += off * (point[d] - mean);
     }
     const auto n = static_cast<Index>(cells.size());
     TermRows rows{Eigen::MatrixXd(n, d), Eigen::VectorXd(n), Eigen::VectorXd(n)};
     Index r = 0;
+    double squares = 0;
     for (const auto& [at, one] : cells) {
+        squares += one.squares;
         rows.log_widths.row(r) = one.sum.head(d).transpose() / one.weight;
         rows.log_errors[r] = one.sum[d] / one.weight;
         rows.weights[r++] = one.weight;
     }
-    if (n > 0)
-        rows.weights /= rows.weights.mean();
+    if (n == 0)
+        return rows;
+    const double mean_weight = rows.weights.mean();
+    rows.weights /= mean_weight;
+    if (stated)
+        rows.scatter = 1 / std::sqrt(mean_weight);
+    else if (const auto dof = static_cast<int>(points.size()) - static_cast<int>(n);
+             dof > 0 && squares > 0 && !lattice)
+        rows.scatter = std::sqrt(squares / dof / mean_weight) * student_over_normal(dof);
     return rows;
 }
 
@@ -158,7 +179,8 @@ OrderEnsemble::OrderEnsemble(std::span<const ErrorRow> rows, std::vector<double>
 /// the window has levels.
 void OrderEnsemble::fit_sequence(const TermRows& rows) {
     const std::vector<TermShape> shapes{
-        {{TermShape::none}}, {{1.0}}, {{2.0}}, {{TermShape::logarithm}}, {{TermShape::none}, true}};
+        {{TermShape::none}},       {{1.0}}, {{2.0}}, {{TermShape::logarithm}},
+        {{TermShape::none}, true}, {{0.5}}};
     const auto& levels = levels_.front();
     constexpr std::size_t most_windows = 24;
     const auto step = static_cast<int>(1 + levels.size() / most_windows);
@@ -277,37 +299,50 @@ OrderEnsemble::Numbers OrderEnsemble::numbers_of(const Functional& number) const
         if (const auto one = number(member); one && std::isfinite(one->value))
             numbers[{member.family, member.place}] = {
                 one->value,
-                // A sequence's shortest windows are exact: all that is known of them is their
-                // drift.
-                member.fit.dof == 0 && levels_.size() == 1
+                // A sequence's shortest windows are exact: where no scatter is known, all that is
+                // known of them is their drift.
+                member.fit.dof == 0 && levels_.size() == 1 && !(rows_.scatter > 0)
                     ? 0.0
-                    : one->error * student_over_normal(member.fit.dof)};
+                    : one->error * member.fit.student()};
     return numbers;
 }
 
 std::optional<OrderEnsemble::Mixture> OrderEnsemble::mix(const Functional& number) const {
     const Numbers numbers = numbers_of(number);
+    struct Weighed {
+        double value, error, change, weight;
+    };
+    std::vector<Weighed> all;
     double weights = 0;
     double mean = 0;
-    double square = 0;
     for (const auto& [where, one] : numbers) {
         auto change = change_of(numbers, where.first, where.second);
-        if (!change)
+        if (!change || !std::isfinite(std::hypot(one.error, *change)))
             continue;
-        const double unit = std::hypot(one.error, *change);
-        if (!std::isfinite(unit))
-            continue;
-        const double weight = 1 / ((unit + tuning_.agreement) * (unit + tuning_.agreement));
-        weights += weight;
-        mean += weight * one.value;
-        square += weight * (one.value * one.value + unit * unit);
+        // What known scatter makes of two windows is no drift between them.
+        if (rows_.scatter > 0)
+            change = std::sqrt(std::max(0.0, *change * *change - 2 * one.error * one.error));
+        const double unit = std::hypot(one.error, *change) + tuning_.agreement;
+        all.push_back({one.value, one.error, *change, 1 / (unit * unit)});
+        weights += all.back().weight;
+        mean += all.back().weight * one.value;
     }
     if (!(weights > 0))
         return std::nullopt;
     mean /= weights;
-    const double spread = std::sqrt(std::max(0.0, square / weights - mean * mean));
+    double scatter = 0; // known, so that it needs no factor but that of 95 %
+    double spread = 0;
+    for (const auto& [value, error, change, weight] : all) {
+        const double off = (value - mean) * (value - mean);
+        const double own = error * error;
+        scatter += rows_.scatter > 0 ? weight * own : 0;
+        spread +=
+            weight * (change * change + (rows_.scatter > 0 ? std::max(0.0, off - own) : off + own));
+    }
     const double factor = levels_.size() == 1 ? sequence_factor() : tuning_.grid;
-    return Mixture{mean, factor * spread + tuning_.narrowest};
+    return Mixture{mean, std::hypot(1.96 * std::sqrt(scatter / weights),
+                                    factor * std::sqrt(spread / weights)) +
+                             tuning_.narrowest};
 }
 
 double OrderEnsemble::sequence_factor() const {
@@ -344,19 +379,49 @@ std::vector<double> OrderEnsemble::order_by_window(Index width) const {
     return means;
 }
 
-/// Of a sequence: whether the order moves one way, and from each window to the next by more. What
-/// it goes to is then beyond what any window shows.
+/// Of a sequence: whether one model's order stands still over its windows, all but one, while that
+/// of the leading term alone moves: then that model says what it moves to.
+bool OrderEnsemble::is_explained() const {
+    constexpr double still = 0.05; // over how far the leading term's order moves
+    std::map<int, std::vector<double>> orders;
+    for (const auto& member : members_)
+        orders[member.family].push_back(member.fit.order(0).value);
+    const auto range = [](std::vector<double> values, bool without_one) {
+        std::sort(values.begin(), values.end());
+        const std::size_t n = values.size();
+        const double all = values.back() - values.front();
+        return without_one ? std::min(values[n - 2] - values.front(), values.back() - values[1])
+                           : all;
+    };
+    const double moved = range(orders[0], false);
+    return std::any_of(orders.begin(), orders.end(), [&](const auto& family) {
+        return family.first != 0 && family.second.size() > 2 &&
+               range(family.second, true) < still * moved;
+    });
+}
+
+/// Of a sequence: whether the order moves one way, and from each window to the next by more, or,
+/// over five levels or more, by hardly less: a next term of h^½ has steps of 0.71 on halved widths.
+/// What it goes to is then beyond what any window shows.
 bool OrderEnsemble::runs_away(Index width) const {
+    constexpr double hardly_less = 0.75;
+    constexpr double least_of_many = 0.25; // of `narrowest`, where many steps go one way
     const auto means = order_by_window(width);
     if (rows_.widths() != 1 || means.size() < 3)
         return false;
-    for (std::size_t i = 2; i < means.size(); ++i) {
-        const double step = means[i] - means[i - 1];
-        if (step * (means[i - 1] - means[i - 2]) <= 0 ||
-            std::abs(step) <= std::abs(means[i - 1] - means[i - 2]))
-            return false;
-    }
-    return std::abs(means.back() - means[means.size() - 2]) > tuning_.narrowest;
+    std::vector<double> ratios; // of consecutive steps
+    for (std::size_t i = 2; i < means.size(); ++i)
+        ratios.push_back((means[i] - means[i - 1]) / (means[i - 1] - means[i - 2]));
+    const double least = *std::min_element(ratios.begin(), ratios.end());
+    if (!(least > 0))
+        return false;
+    const double last = std::abs(means.back() - means[means.size() - 2]);
+    if (is_explained())
+        return false;
+    const bool slows_down = ratios.size() < 2 ||
+                            std::min(ratios.back(), ratios[ratios.size() - 2]) <= hardly_less ||
+                            last <= least_of_many * tuning_.narrowest;
+    return (least > 1 && last > tuning_.narrowest) || !slows_down;
 }
 
 std::string OrderEnsemble::motion(Index width) const {
@@ -394,8 +459,9 @@ std::vector<OrderInterval> OrderEnsemble::orders() const {
             order.low = mixture->value - mixture->half;
             order.high = mixture->value + mixture->half;
         }
-        order.determined = mixture && order.share >= tuning_.least_share && order.low > 0 &&
-                           mixture->half <= tuning_.widest && !runs_away(width);
+        order.determined = mixture && order.share >= tuning_.least_share &&
+                           order.low > tuning_.narrowest && mixture->half <= tuning_.widest &&
+                           !runs_away(width);
         if (!order.determined)
             order.status = status_of(width, order);
     }

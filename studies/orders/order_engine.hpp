@@ -7,16 +7,17 @@
 /// is believed as far as it stays the same when its window changes by one level, and as its
 /// standard error allows:
 ///
-///     u_m² = (t_{dof} s_m / 1.96)² + (greatest change to a neighbouring window)²,
+///     u_m² = max(t_{dof} s_m / 1.96, σ_m)² + (greatest change to a neighbouring window)²,
 ///     p = Σ p_m / u_m² / Σ 1 / u_m²,      half² = mean of (p_m − p)² + u_m², with the same
 ///     weights.
 ///
-/// So the interval knows scatter (s_m), the drift of the order along its width (the neighbours),
-/// and what extrapolation gives (the models with next terms, where they are steadier than those
-/// without). Where all of that is wide the order is not determined, and the status says how it
-/// moves. Constants: OrderTuning. Ideas of others: model averaging by stability and the spread over
-/// models as uncertainty (Rider et al. 2016; Eça and Hoekstra 2014), many models times many windows
-/// (StREEQ, Sandia).
+/// with the standard errors s_m from the residuals and σ_m from a known scatter of the rows: a
+/// stated one, or that of rows at equal widths (replicates). So the interval knows scatter, the
+/// drift of the order along its width (the neighbours), and what extrapolation gives (the models
+/// with next terms, where they are steadier than those without). Where all of that is wide the
+/// order is not determined, and the status says how it moves. Constants: OrderTuning. Ideas of
+/// others: model averaging by stability and the spread over models as uncertainty (Rider et al.
+/// 2016; Eça and Hoekstra 2014), many models times many windows (StREEQ, Sandia).
 #pragma once
 
 #include "studies/orders/observed_order.hpp"
@@ -67,7 +68,9 @@ struct OrderTuning {
 struct ErrorRow {
     std::vector<double> widths;                              ///< as many in every row; positive
     double error = std::numeric_limits<double>::quiet_NaN(); ///< a norm, not its square
-    double weight = 1;                                       ///< relative: 1 / variance of ln e
+    /// Standard deviation of ln e, that is of the error over itself. NaN: unknown; counts only
+    /// where all rows with an error have one.
+    double sigma = std::numeric_limits<double>::quiet_NaN();
 };
 
 struct OrderInterval {
@@ -96,7 +99,8 @@ public:
     /// A number that a member leads to; none where it does not.
     using Functional = std::function<std::optional<FittedNumber>(const EnsembleMember&)>;
 
-    /// Rows that are not positive and finite are passed over; rows of equal widths are averaged.
+    /// Rows that are not positive and finite are passed over; rows of equal widths are averaged,
+    /// and their differences, where there are any, are the scatter of all.
     /// reference: the widths of a run that stands in for the exact solution, NaN where it is exact.
     explicit OrderEnsemble(std::span<const ErrorRow> rows, std::vector<double> reference = {},
                            const OrderTuning& tuning = {});
@@ -135,6 +139,7 @@ private:
     double sequence_factor() const;
     double greatest_share(Eigen::Index width) const;
     std::vector<double> order_by_window(Eigen::Index width) const;
+    bool is_explained() const;
     bool runs_away(Eigen::Index width) const;
     std::string motion(Eigen::Index width) const;
 

@@ -234,7 +234,7 @@ LeastSquares reweighted(const ModelFunction& model, const TermRows& rows, LeastS
         const Eigen::VectorXd weights =
             rows.weights.array() / (1 + (distance / (cauchy * scatter)).square());
         const std::vector<Eigen::VectorXd> from{fit.theta};
-        auto next = least_squares(model, rows.log_errors, weights, from);
+        auto next = least_squares(model, rows.log_errors, weights, from, rows.scatter);
         if (!next)
             break;
         constexpr double close = 1e-5;
@@ -267,7 +267,7 @@ LeastSquares with_rho_held_at_its_bound(const ModelFunction& model, const Layout
             *jacobian = by_all(Eigen::all, free);
     };
     const std::vector<Eigen::VectorXd> start{fit.theta(free)};
-    auto rest = least_squares(held, rows.log_errors, rows.weights, start);
+    auto rest = least_squares(held, rows.log_errors, rows.weights, start, rows.scatter);
     if (!rest)
         return fit;
     rest = reweighted(held, rows, std::move(*rest));
@@ -284,11 +284,12 @@ LeastSquares with_rho_held_at_its_bound(const ModelFunction& model, const Layout
 } // namespace
 
 TermRows TermRows::subset(const std::vector<Eigen::Index>& chosen) const {
-    return {log_widths(chosen, Eigen::all), log_errors(chosen), weights(chosen), log_reference};
+    return {log_widths(chosen, Eigen::all), log_errors(chosen), weights(chosen), scatter,
+            log_reference};
 }
 
 TermRows TermRows::along(Eigen::Index width) const {
-    TermRows result{log_widths.col(width), log_errors, weights};
+    TermRows result{log_widths.col(width), log_errors, weights, scatter};
     if (log_reference.size() > 0)
         result.log_reference = log_reference.segment(width, 1);
     return result;
@@ -296,6 +297,12 @@ TermRows TermRows::along(Eigen::Index width) const {
 
 int TermShape::parameters() const {
     return static_cast<int>(Layout(*this, static_cast<Eigen::Index>(next.size())).size());
+}
+
+double TermFit::student() const {
+    const double own = dof > 0 ? scale * student_over_normal(dof) : 0.0;
+    const double greater = std::max(own, scatter);
+    return greater > 0 ? greater / std::max(scale, scatter) : student_over_normal(dof);
 }
 
 FittedNumber TermFit::order(Eigen::Index width) const {
@@ -342,7 +349,7 @@ std::optional<TermFit> fit_terms(const TermRows& given, const TermShape& shape,
     const ModelFunction model = model_of(layout, rows);
     const auto starts = simpler != nullptr ? std::vector{lengthened(layout, rows, *simpler)}
                                            : starts_of(layout, rows);
-    auto best = least_squares(model, rows.log_errors, rows.weights, starts);
+    auto best = least_squares(model, rows.log_errors, rows.weights, starts, rows.scatter);
     if (!best)
         return std::nullopt;
     *best = reweighted(model, rows, std::move(*best));
@@ -357,6 +364,7 @@ std::optional<TermFit> fit_terms(const TermRows& given, const TermShape& shape,
                    .log_reference = given.log_reference,
                    .residuals = best->residuals,
                    .scale = best->scale(),
+                   .scatter = rows.scatter,
                    .dof = best->dof};
 }
 

@@ -25,6 +25,7 @@ struct TermRows {
     Eigen::MatrixXd log_widths; ///< a row a record, a column a width
     Eigen::VectorXd log_errors;
     Eigen::VectorXd weights; ///< relative: 1 / variance of ln e
+    double scatter = 0;      ///< known standard deviation of ln e at weight one; 0: not known
     /// ln of the widths of a reference run that stands in for the exact solution: T_i is then its
     /// value at the row less that at the reference. NaN: exact in that width. Empty: in all.
     Eigen::VectorXd log_reference = {};
@@ -62,7 +63,12 @@ struct TermFit {
     Eigen::VectorXd log_reference;
     Eigen::VectorXd residuals; ///< of every row of the window, ln e − ln model
     double scale = 0;          ///< sqrt(χ² / dof) of the robust fit
+    double scatter = 0;        ///< TermRows::scatter
     int dof = 0;
+
+    /// What makes 1.96 standard errors a 95 % interval: Student's quantile over the normal one,
+    /// as far as the errors come from the residuals. Infinite without residuals and scatter.
+    double student() const;
 
     FittedNumber order(Eigen::Index width) const; ///< p_i
     double size(Eigen::Index width) const;        ///< a_i, of the width in its own unit

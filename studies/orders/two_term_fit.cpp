@@ -85,8 +85,25 @@ const char* words_for(Rejection why) {
     return "out of line with their neighbours";
 }
 
+Verdict verdict_of(Rejection why) {
+    switch (why) {
+    case Rejection::failed:
+        return Verdict::failed;
+    case Rejection::unresolved:
+        return Verdict::unresolved;
+    case Rejection::exact:
+        return Verdict::exact;
+    case Rejection::pre_asymptotic:
+        return Verdict::pre_asymptotic;
+    case Rejection::outlier:
+        break;
+    }
+    return Verdict::outlier;
+}
+
 TwoTermFit fit_two_term(std::span<const Refinement> records,
-                        const std::optional<Refinement>& reference) {
+                        const std::optional<Refinement>& reference,
+                        const std::vector<double>& sigma) {
     TwoTermFit fit;
     std::vector<std::size_t> usable;
     std::vector<ErrorRow> rows;
@@ -100,6 +117,8 @@ TwoTermFit fit_two_term(std::span<const Refinement> records,
         }
         usable.push_back(i);
         rows.push_back({{records[i].h, records[i].dt}, records[i].error});
+        if (!sigma.empty())
+            rows.back().sigma = sigma[i] / records[i].error;
     }
     fit.ensemble.emplace(rows, reference ? std::vector{reference->h, reference->dt}
                                          : std::vector<double>{});

@@ -10,6 +10,7 @@
 
 #include "studies/orders/order_engine.hpp"
 #include "studies/orders/two_term_model.hpp"
+#include "studies/orders/verdict.hpp"
 
 #include <cstddef>
 #include <limits>
@@ -30,6 +31,8 @@ enum class Rejection {
 
 /// The reason in words, as of several records: "no error", "too coarse for the model", …
 const char* words_for(Rejection why);
+/// The same as a verdict on the row.
+Verdict verdict_of(Rejection why);
 
 struct RejectedRecord {
     std::size_t record = 0;
@@ -67,9 +70,11 @@ struct TwoTermFit {
 
 /// Needs seven finite, positive records in three h and three Δt; with fewer the fit says so in
 /// `failure`. reference: h and dt of a run that stands in for the exact solution; NaN in one of
-/// them: the records are exact in that width. std::invalid_argument where it is not at least as
-/// fine as every record.
+/// them: the records are exact in that width. sigma: standard deviations of the errors, one a
+/// record; empty where they are not known. std::invalid_argument where the reference is not at
+/// least as fine as every record.
 TwoTermFit fit_two_term(std::span<const Refinement> records,
-                        const std::optional<Refinement>& reference = std::nullopt);
+                        const std::optional<Refinement>& reference = std::nullopt,
+                        const std::vector<double>& sigma = {});
 
 } // namespace tvbeam

@@ -18,9 +18,9 @@ ForecastRow row_at(const TwoTermModel& model, double h, double dt) {
     row.error = model.error(h, dt);
     const double larger = std::max(row.spatial, row.temporal);
     if (row.error < cancellation_depth * larger)
-        row.ruling = Ruling::cancellation;
+        row.dominant = Dominant::cancellation;
     else
-        row.ruling = row.spatial >= row.temporal ? Ruling::space : Ruling::time;
+        row.dominant = row.spatial >= row.temporal ? Dominant::space : Dominant::time;
     return row;
 }
 
@@ -138,13 +138,13 @@ LadderForecast forecast(const TwoTermModel& model, std::span<const Refinement> l
         in_time ? model.q * std::log(before.dt / last.dt) / std::log(*ratio) : 0.0;
     const double apart = result.spatial_order - result.temporal_order;
     if (!in_time || (in_space && apart < 0))
-        result.asymptotic_ruling = Ruling::space;
+        result.asymptotic_dominant = Dominant::space;
     else
-        result.asymptotic_ruling = Ruling::time;
-    result.asymptotic_order =
-        result.asymptotic_ruling == Ruling::space ? result.spatial_order : result.temporal_order;
+        result.asymptotic_dominant = Dominant::time;
+    result.asymptotic_order = result.asymptotic_dominant == Dominant::space ? result.spatial_order
+                                                                            : result.temporal_order;
     if (in_space && in_time && std::abs(apart) < same_order)
-        result.asymptotic_ruling = Ruling::both;
+        result.asymptotic_dominant = Dominant::both;
 
     const auto rows = carried_on(model, result.rows);
     result.asymptotic_from = onset(rows, result.asymptotic_order, tolerance);

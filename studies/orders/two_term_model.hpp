@@ -39,7 +39,7 @@ struct TwoTermModel {
 /// that is NaN: exact in that width.
 double error_against(const Refinement& reference, const TwoTermModel& model, double h, double dt);
 
-enum class Ruling { space, time, both, cancellation };
+enum class Dominant { space, time, both, cancellation };
 
 /// A record is in the cancellation where the cross term takes the norm below this part of the
 /// larger term.
@@ -51,7 +51,7 @@ struct ForecastRow {
     double spatial = 0;
     double temporal = 0;
     double error = 0;
-    Ruling ruling = Ruling::space;
+    Dominant dominant = Dominant::space;
     /// the order that a table shows in this row, as observed_orders has it; none in the first
     std::optional<double> order = std::nullopt;
 };
@@ -67,7 +67,7 @@ struct LadderForecast {
     double temporal_order = 0;
     /// The lesser of the two: what the ladder shows in the end.
     double asymptotic_order = 0;
-    Ruling asymptotic_ruling = Ruling::both; ///< never cancellation
+    Dominant asymptotic_dominant = Dominant::both; ///< never cancellation
 
     /// The first row from which on every shown order is within the tolerance of the asymptotic one.
     /// It may lie past the ladder (row ≥ rows.size()); h and dt say where. None where it lies more

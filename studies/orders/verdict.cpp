@@ -12,21 +12,7 @@ namespace tvbeam {
 
 namespace {
 
-/// An order below this is none: the error stands still.
-constexpr double standstill = 0.05;
-/// Past the window, an order below this part of the window's is taken for a floor's.
-constexpr double floor_part = 0.5;
-/// Rounding scatters about its floor by less than this factor; an error that grows by more
-/// diverges.
-constexpr double floor_scatter = 3.0;
-/// A run of tiny orders after a longer run of much larger ones is a floor whose scatter looks
-/// regular.
-constexpr double much_larger = 4.0;
-/// A row is described by the model where the two differ by less than this part of the error.
-constexpr double model_tolerance = 0.2;
-/// The orders of the window already run towards that of the finest row, by this part of the step
-/// that is left: a drift, and no kink that one row shows.
-constexpr double drift_part = 0.1;
+constexpr VerdictTuning tuning;
 
 /// Rows of one level, and the means of their logarithms.
 struct Level {
@@ -103,7 +89,7 @@ private:
     }
 
     bool is_sound(std::size_t i) const {
-        return orders_[i] && *orders_[i] > standstill &&
+        return orders_[i] && *orders_[i] > tuning.standstill &&
                (!options_.expected_order || agree(*orders_[i], *options_.expected_order));
     }
 
@@ -139,7 +125,7 @@ private:
                 std::any_of(runs.begin() + static_cast<std::ptrdiff_t>(k) + 1, runs.end(),
                             [&](const Run& coarser) {
                                 return coarser.orders() >= runs[k].orders() &&
-                                       coarser.order > much_larger * runs[k].order;
+                                       coarser.order > tuning.much_larger * runs[k].order;
                             });
             if (floor_in_disguise)
                 continue;
@@ -196,11 +182,11 @@ private:
         if (!orders_[i])
             return {Verdict::pre_asymptotic, "nothing is refined against the row before"};
         const double order = *orders_[i];
-        if (order < 0 && levels_[i].error > floor_scatter * least)
+        if (order < 0 && levels_[i].error > tuning.floor_scatter * least)
             return {
                 Verdict::diverging,
                 fmt::format("the error grows again, order {:.2f} after {:.2f}", order, run.order)};
-        if (order < floor_part * run.order)
+        if (order < tuning.floor_part * run.order)
             return {Verdict::floor,
                     fmt::format("the error stands still near {:.1e}", levels_[i].error)};
         if (agree(order, run.order))
@@ -223,17 +209,17 @@ private:
                 return true;
             const double step = *orders_[i] - *orders_[run.last];
             const double drift = *orders_[run.last] - *orders_[run.first + 1];
-            if (drift * step > drift_part * step * step)
+            if (drift * step > tuning.drift_part * step * step)
                 return true;
         }
         return false;
     }
 
     RowVerdict alone(double order, bool only_order) const {
-        if (order < -standstill)
+        if (order < -tuning.standstill)
             return {Verdict::diverging,
                     fmt::format("the error grows under refinement, order {:.2f}", order)};
-        if (order <= standstill)
+        if (order <= tuning.standstill)
             return {Verdict::floor, fmt::format("the error does not change, order {:.2f}", order)};
         if (options_.expected_order)
             return {Verdict::pre_asymptotic, fmt::format("order {:.2f}, expected is {:.2f}", order,
@@ -275,7 +261,7 @@ std::vector<bool> outliers_of(std::span<const Refinement> levels, double toleran
     for (std::size_t i = 1; i + 1 < levels.size(); ++i) {
         const Refinement past[] = {levels[i - 1], levels[i + 1]};
         const auto across = observed_orders(past)[1];
-        if (out[i - 1] || !across || !orders[i] || !orders[i + 1] || *across <= standstill)
+        if (out[i - 1] || !across || !orders[i] || !orders[i + 1] || *across <= tuning.standstill)
             continue;
         const double into = *orders[i] - *across;
         const double out_of = *orders[i + 1] - *across;
@@ -295,21 +281,21 @@ std::vector<bool> outliers_of(std::span<const Refinement> levels, double toleran
     return out;
 }
 
-std::string dominant(const ForecastRow& row) {
-    return row.ruling == Ruling::space ? "the h term dominates" : "the dt term dominates";
+std::string dominant_term(const ForecastRow& row) {
+    return row.dominant == Dominant::space ? "the h term dominates" : "the dt term dominates";
 }
 
 RowVerdict by_model(const LadderForecast& view, std::size_t i, std::size_t rows) {
     const auto& row = view.rows[i];
-    if (row.ruling == Ruling::cancellation)
+    if (row.dominant == Dominant::cancellation)
         return {Verdict::cancellation,
                 fmt::format("the h term {:.1e} and the dt term {:.1e} cancel in part", row.spatial,
                             row.temporal)};
     if (view.asymptotic_from && i >= view.asymptotic_from->row)
-        return {Verdict::asymptotic,
-                dominant(row) + fmt::format(", order {:.2f} to the end", view.asymptotic_order)};
-    std::string reason =
-        dominant(row) + fmt::format(" here; in the end the order is {:.2f}", view.asymptotic_order);
+        return {Verdict::asymptotic, dominant_term(row) + fmt::format(", order {:.2f} to the end",
+                                                                      view.asymptotic_order)};
+    std::string reason = dominant_term(row) + fmt::format(" here; in the end the order is {:.2f}",
+                                                          view.asymptotic_order);
     if (view.asymptotic_from && view.asymptotic_from->row >= rows)
         reason += fmt::format(", from h = {:.1e}, dt = {:.1e} on", view.asymptotic_from->h,
                               view.asymptotic_from->dt);
@@ -324,7 +310,8 @@ void prefer_model(std::span<const Refinement> levels, const VerdictOptions& opti
             return;
     const auto view = forecast(*options.model, levels, options.tolerance);
     for (std::size_t i = 0; i < levels.size(); ++i)
-        if (std::abs(levels[i].error - view.rows[i].error) <= model_tolerance * levels[i].error)
+        if (std::abs(levels[i].error - view.rows[i].error) <=
+            tuning.model_tolerance * levels[i].error)
             verdicts[i] = by_model(view, i, levels.size());
 }
 

@@ -44,6 +44,26 @@ struct RowVerdict {
     std::string reason; ///< a short sentence, without a full stop
 };
 
+/// The constants of the verdicts, chosen so that the shipped ladders and the made-up ones of
+/// tests/orders/verdicts.cpp get the verdicts that a reader gives them; none is fitted.
+struct VerdictTuning {
+    /// An order below this is none: the error stands still. A twentieth of first order.
+    double standstill = 0.05;
+    /// Past the window, an order below this part of the window's is taken for a floor's.
+    double floor_part = 0.5;
+    /// Rounding scatters about its floor by less than this factor; an error that grows by more
+    /// diverges.
+    double floor_scatter = 3.0;
+    /// A run of tiny orders after a longer run of so much larger ones is a floor whose scatter
+    /// looks regular.
+    double much_larger = 4.0;
+    /// A row is described by the model where the two differ by less than this part of the error.
+    double model_tolerance = 0.2;
+    /// The orders of the window already run towards that of the finest row, by this part of the
+    /// step that is left: a drift, and no kink that one row shows.
+    double drift_part = 0.1;
+};
+
 struct VerdictOptions {
     /// Of the same quantity: of a squared norm it is twice the norm's.
     std::optional<double> expected_order = std::nullopt;

@@ -138,6 +138,32 @@ std::vector<std::int64_t> kept_levels(const ReferenceBlock& reference,
     return levels;
 }
 
+namespace {
+
+/// What the finest level does not show of its error: the part that the reference has as well.
+std::string missing_remark(const ReferenceBlock& reference, const Rung& finest) {
+    const double in_h =
+        static_cast<double>(finest.elements) / static_cast<double>(reference.elements);
+    const double in_dt = 1.0 / static_cast<double>(reference.steps_in(finest));
+    constexpr double seen = 0.02; // less than this changes no order by more than 0.015
+    if (reference.richardson || std::max(in_h, in_dt) <= seen)
+        return {};
+    const auto part = [](const char* width, double ratio) {
+        return fmt::format("{:.2g} % of a first-order part in {} and {:.2g} % of a second-order "
+                           "one",
+                           100.0 * ratio, width, 100.0 * ratio * ratio);
+    };
+    std::string parts = in_h > seen ? part("h", in_h) : "";
+    if (in_dt > seen)
+        parts += (parts.empty() ? "" : ", ") + part("dt", in_dt);
+    return fmt::format("The reference has an error of its own, so that errors are measured too "
+                       "small, most at s = {} (dt = {:g}): by {}. richardson = true extrapolates "
+                       "it away.",
+                       finest.elements, finest.dt, parts);
+}
+
+} // namespace
+
 std::string reference_remark(const ReferenceBlock& reference,
                              const std::vector<RungResult>& rungs) {
     std::string named;
@@ -147,7 +173,7 @@ std::string reference_remark(const ReferenceBlock& reference,
             named += fmt::format("{}s = {} (dt = {:g})", close++ > 0 ? ", " : "", run.rung.elements,
                                  run.rung.dt);
     if (close == 0)
-        return {};
+        return rungs.empty() ? "" : missing_remark(reference, rungs.back().rung);
     return (close == 1 ? "The level " : "The levels ") + named +
            (close == 1 ? " has an h or dt" : " have an h or dt") +
            " within a factor of two of the reference's: what is measured there lacks much of the "

@@ -5,6 +5,7 @@
 #include "core/time/time_levels.hpp"
 #include "studies/reference/piecewise_polynomial.hpp"
 #include "studies/runs/beam_runs.hpp"
+#include "studies/study.hpp"
 
 #include <fmt/format.h>
 
@@ -58,7 +59,10 @@ public:
     }
 
     /// Empty, or why a run failed.
-    std::string compute(const Scene& scene, const ProblemData& data) {
+    std::string compute(const Scene& scene, const ProblemData& data, ReferenceResult& result) {
+        for (const auto level : levels_)
+            result.times.push_back(time_of(level));
+        runs_ = &result.runs;
         if (!block_.richardson)
             return add_run(scene, data, 1, 1, 1.0);
         const double in_h = 1.0 / (std::exp2(order_in_h) - 1.0);
@@ -120,9 +124,10 @@ private:
                         double weight) {
         const Mesh mesh = data.resolution->on(Mesh::uniform(block_.elements / in_h));
         const double dt = dt_ * static_cast<double>(in_dt);
+        const std::int64_t steps = steps_ / in_dt;
+        runs_->push_back({mesh.elements(), steps, dt});
         try {
             const auto solver = make_solver(scene.beam, data, mesh, scene.scheme, dt, needs_);
-            const std::int64_t steps = steps_ / in_dt;
             TimeLevels times(data, scene.scheme.time, dt * static_cast<double>(steps), steps);
             auto next = levels_.begin();
             for (std::int64_t n = 1; next != levels_.end(); ++n) {
@@ -175,6 +180,7 @@ private:
     Eigen::MatrixXd theta_;     // one column a level
     Eigen::MatrixXd curvature_; // one column a level: nodal values, or the two ends of each element
     VectorXd stress_;
+    std::vector<Rung>* runs_ = nullptr;
 };
 
 Field rest(SpaceTimeFunction function) {
@@ -230,7 +236,7 @@ ReferenceResult measure_against_reference(const Scene& scene, ProblemData& data,
     const Needs needs = ErrorNorms::needs(with_fields, norms_of(scene.measures()));
     try {
         auto computed = std::make_shared<ReferenceSolution>(block, measured, needs, execution);
-        result.failure = computed->compute(scene, data);
+        result.failure = computed->compute(scene, data, result);
         reference = std::move(computed);
     } catch (const std::bad_alloc&) {
         result.failure = "not enough memory";
@@ -252,6 +258,28 @@ ReferenceResult measure_against_reference(const Scene& scene, ProblemData& data,
     data.exact->stress = data.amplitude_count;
     ++data.amplitude_count;
     return result;
+}
+
+void expect_reference(TableReader& table, std::vector<Expectation>& expectations) {
+    const auto of_runs = [](const auto& number) {
+        return [number](const StudyResult& result) {
+            std::vector<double> numbers;
+            for (const auto& run : result.reference->runs)
+                numbers.push_back(number(run));
+            return numbers;
+        };
+    };
+    expect_numbers(table, "elements", expectations,
+                   of_runs([](const Rung& run) { return static_cast<double>(run.elements); }));
+    expect_numbers(table, "dt", expectations, of_runs([](const Rung& run) { return run.dt; }));
+    expect_numbers(table, "times", expectations, [](const StudyResult& result) {
+        const auto& times = result.reference->times;
+        return std::vector{times.front(), times.back()};
+    });
+    expect_band(table, "levels", expectations, [](const StudyResult& result) {
+        return std::vector{
+            Metric{"reference: levels", static_cast<double>(result.reference->times.size()), ""}};
+    });
 }
 
 } // namespace tvbeam

@@ -29,9 +29,15 @@ namespace tvbeam {
 ///
 /// How the reference of a study came out.
 struct ReferenceResult {
-    std::string failure;  ///< why it failed; empty when it did not
-    double seconds = 0.0; ///< wall clock of its runs
+    std::string failure;            ///< why it failed; empty when it did not
+    double seconds = 0.0;           ///< wall clock of its runs
+    std::vector<Rung> runs = {};    ///< made for it; up to the one that failed
+    std::vector<double> times = {}; ///< at which it is known
 };
+
+/// Reads [expect.reference]: elements and dt, one a run; times = [the first, the last]; a band for
+/// levels, how many times there are.
+void expect_reference(TableReader& table, std::vector<Expectation>& expectations);
 
 /// Runs the reference of a scene up to the longest final time of the studies that are measured
 /// against it, and sets it in place of data.exact: Θ̃, U and their derivatives by evaluation, the

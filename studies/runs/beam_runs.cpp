@@ -87,8 +87,11 @@ RungResult rung_result(const Rung& rung, const RunResult& run, double seconds) {
             run.errors, run.uncertainties};
 }
 
-StudiedSolver beam_runs(const Scene& scene, const ProblemData& data, const ProblemData& measured) {
-    const auto run = [&scene, &measured](const RunTask& task) {
+StudiedSolver beam_runs(const Scene& scene, const ProblemData& data, const ProblemData& measured,
+                        const Defects& defects) {
+    const auto run = [&scene, &measured, &defects](const RunTask& task) {
+        const ProblemData with_defect =
+            defects.none() ? ProblemData{} : defects.added_to(measured, task.rung);
         const auto start = std::chrono::steady_clock::now();
         const RunResult run = tvbeam::run({.beam = scene.beam,
                                            .mesh = scene.mesh.with(task.rung.elements),
@@ -97,11 +100,11 @@ StudiedSolver beam_runs(const Scene& scene, const ProblemData& data, const Probl
                                            .steps = task.rung.steps,
                                            .norms = norms_of(task.measures),
                                            .advance = task.advance},
-                                          measured);
+                                          defects.none() ? measured : with_defect);
         const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
         RungResult result = rung_result(task.rung, run, elapsed.count());
         // What the norms show of the reference against itself is the rounding of its evaluation.
-        if (scene.reference && scene.reference->is(task.rung)) {
+        if (scene.reference && scene.reference->is(task.rung) && defects.none()) {
             std::fill(result.errors.begin(), result.errors.end(), 0.0);
             result.uncertainties.clear();
         }

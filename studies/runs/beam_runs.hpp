@@ -3,6 +3,7 @@
 #include "core/norms/norms.hpp"
 #include "core/problem.hpp"
 #include "core/scheme.hpp"
+#include "studies/runs/defects.hpp"
 #include "studies/runs/studied_solver.hpp"
 
 #include <vector>
@@ -26,7 +27,8 @@ RungResult rung_result(const Rung& rung, const RunResult& run, double seconds);
 
 /// The beam of a scene as a solver under study: core/run.hpp on the scene's meshes. data: the
 /// scene's problem; measured: the same with what errors are measured against for its exact
-/// solution. All three must outlive the result.
-StudiedSolver beam_runs(const Scene& scene, const ProblemData& data, const ProblemData& measured);
+/// solution; defects: added in each run. All four must outlive the result.
+StudiedSolver beam_runs(const Scene& scene, const ProblemData& data, const ProblemData& measured,
+                        const Defects& defects);
 
 } // namespace tvbeam

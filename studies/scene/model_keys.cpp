@@ -36,6 +36,16 @@ double read_contact(TableReader table, const Stops& stops) {
     return penalty ? *epsilon : 0.0;
 }
 
+/// What [data] and defects share.
+GivenData read_given(TableReader& table) {
+    GivenData data;
+    data.theta0 = table.expression("theta0");
+    data.u0 = table.expression("u0");
+    data.heat_source = table.expression("heat_source");
+    data.body_force = table.expression("body_force");
+    return data;
+}
+
 } // namespace
 
 Beam read_beam(TableReader table) {
@@ -91,6 +101,24 @@ MeshFamily read_mesh(TableReader table) {
     }
     table.finish();
     return family;
+}
+
+GivenData read_data(TableReader table) {
+    GivenData data = read_given(table);
+    table.finish();
+    return data;
+}
+
+GivenData read_defect(TableReader table) {
+    const bool empty = table.unread().empty();
+    GivenData defect = read_given(table);
+    defect.moment_load = table.expression("moment_load");
+    table.finish();
+    if (empty)
+        throw InputError(table.place(), "a defect is empty; give what it adds to the problem: "
+                                        "heat_source, moment_load, body_force, theta0 or u0; or "
+                                        "remove it");
+    return defect;
 }
 
 } // namespace tvbeam

@@ -3,11 +3,13 @@
 #include "core/norms/error_norms.hpp"
 #include "mms/manufactured_problem.hpp"
 #include "mms/text/toml_reader.hpp"
+#include "studies/reference/reference_solution.hpp"
 #include "studies/runs/beam_runs.hpp"
 #include "studies/scene/model_keys.hpp"
 #include "studies/scene/scheme_keys.hpp"
 #include "studies/scene/shipped.hpp"
 #include "studies/scene/study_keys.hpp"
+#include "studies/study.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -22,16 +24,6 @@ Scheme read_scheme(TableReader table) {
     Scheme scheme = read_scheme_keys(table, {});
     table.finish();
     return scheme;
-}
-
-GivenData read_data(TableReader table) {
-    GivenData data;
-    data.theta0 = table.expression("theta0");
-    data.u0 = table.expression("u0");
-    data.heat_source = table.expression("heat_source");
-    data.body_force = table.expression("body_force");
-    table.finish();
-    return data;
 }
 
 Solution read_scene_solution(TableReader& root, const std::filesystem::path& beside) {
@@ -153,8 +145,27 @@ void read_reference(Scene& scene, TableReader& root) {
             "a solution or a block [reference]");
 }
 
-/// [expect]: a table for each study.
+/// The part of the problem that a sentence of left_out is about: "contact: the scene has no stops".
+std::string part_of(const std::string& sentence) {
+    return sentence.substr(0, sentence.find(':'));
+}
+
+/// [expect]: what is left out, the reference, a table for each study.
 void read_expectations(Scene& scene, TableReader expect) {
+    expect_words(expect, "left_out", scene.expectations, [](const StudyResult& result) {
+        std::vector<std::string> parts;
+        for (const auto& sentence : result.left_out)
+            parts.push_back(part_of(sentence));
+        return parts;
+    });
+    if (auto table = expect.table("reference")) {
+        if (!scene.reference)
+            throw expect.error("reference", " expects something of a block [reference], which the "
+                                            "scene does not have");
+        const std::size_t before = scene.expectations.size();
+        expect_reference(*table, scene.expectations);
+        finish_expecting(*table, before, scene.expectations);
+    }
     for (const auto& kind : study_kinds()) {
         auto table = expect.table(kind->name());
         if (!table)
@@ -168,9 +179,13 @@ void read_expectations(Scene& scene, TableReader expect) {
                                " expects something of a study that the scene does not run: it "
                                "has no block [" +
                                    kind->name() + "]" + (kind->measures() ? " with norms" : ""));
+        const std::size_t before = scene.expectations.size();
         kind->expect(*table, *block, scene.expectations);
-        table->finish();
+        finish_expecting(*table, before, scene.expectations);
     }
+    // --set expect={} takes away what the file expects.
+    if (expect.place().line > 0)
+        finish_expecting(expect, 0, scene.expectations);
     expect.finish();
 }
 
@@ -180,6 +195,7 @@ Scene read_scene(const std::string& name_or_file, const std::vector<std::string>
                  const Reading& reading) {
     const std::filesystem::path path = find_file(Shipped::scene, name_or_file);
     TomlDocument document = read_toml(path.string());
+    document.asked = reading.asked;
     if (reading.short_form)
         merge_block(document, "short");
     for (const auto& assignment : overrides)
@@ -202,8 +218,22 @@ Scene read_scene(const std::string& name_or_file, const std::vector<std::string>
     read_studies(scene, root);
     read_reference(scene, root);
     check_meshes(scene, root);
-    if (auto expect = root.table("expect"); expect && reading.expectations)
+    if (auto defect = root.table("defect")) {
+        if (!scene.poses_problem())
+            throw InputError(defect->place(), "the block [defect] adds to the scene's problem, and "
+                                              "no study of the scene runs that; remove it");
+        scene.defect = read_defect(*std::move(defect));
+    }
+    const auto judging = std::find_if(kinds.begin(), kinds.end(), [](const StudyKind* kind) {
+        return kind->judges_expectations();
+    });
+    if (auto expect = root.table("expect");
+        expect && (reading.expectations || judging != kinds.end()))
         read_expectations(scene, *std::move(expect));
+    if (judging != kinds.end() && scene.expectations.empty())
+        throw InputError(root.place((*judging)->name()),
+                         (*judging)->name() + " asks what the scene's expectations catch, and it "
+                                              "has none; add a block [expect]");
     if (auto report = root.table("report"))
         scene.report = read_report(*std::move(report), reading.report_files);
     root.table("short"); // what it holds is read in the short form
@@ -218,6 +248,16 @@ ProblemData problem_of(const Scene& scene, double final_time) {
     if (solution->phases.empty())
         throw InputError({scene.file}, "the scene has no problem of its own; run it on one");
     return manufactured_problem(*solution, scene.beam, final_time);
+}
+
+ErrorConstants forecast_constants(const Scene& scene, double final_time) {
+    const auto* solution = std::get_if<Solution>(&scene.problem);
+    if (solution == nullptr || solution->phases.empty())
+        return {"the scene has no solution from a text", {}};
+    if (!scene.mesh.is_uniform())
+        return {"the meshes are not uniform", {}};
+    return error_constants(*solution, scene.beam, final_time, scene.scheme.time.name,
+                           scene.scheme.thermal_mass);
 }
 
 void require_runnable(const Scene& scene, const ProblemData& data) {

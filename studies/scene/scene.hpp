@@ -3,8 +3,10 @@
 #include "core/problem.hpp"
 #include "core/scheme.hpp"
 #include "core/space/mesh.hpp"
+#include "mms/forecast/error_constants.hpp"
 #include "mms/given_problem.hpp"
 #include "mms/solution.hpp"
+#include "mms/text/asked_keys.hpp"
 #include "studies/reference/reference_block.hpp"
 #include "studies/scene/report_block.hpp"
 #include "studies/study_kind.hpp"
@@ -28,6 +30,7 @@ struct Scene {
     ByKind blocks;                           ///< of the studies that it has
     std::optional<ReferenceBlock> reference; ///< then errors are measured against it
     std::vector<Expectation> expectations;   ///< empty unless they were asked for
+    std::optional<GivenData> defect;         ///< that every run adds to the problem
     ReportBlock report;                      ///< what --out writes
     std::string text;                        ///< the file as it stands, without overrides
     std::vector<std::string> overrides;      ///< KEY=VALUE each, in their order
@@ -67,6 +70,7 @@ struct Reading {
     bool own_problem = false;  ///< without solution and [data]: the caller has the problem
     /// Kinds of files that [report] may name; empty: any.
     std::vector<std::string> report_files = {};
+    AskedKeys* asked = nullptr; ///< where to note what the scene may hold and does; null: nowhere
 };
 
 /// Reads a scene: a shipped name or a file, with overrides `key=value` applied in order. Everything
@@ -77,6 +81,10 @@ Scene read_scene(const std::string& name_or_file, const std::vector<std::string>
 /// The problem of a scene up to final_time; throws InputError where its solution or data are not
 /// admissible.
 ProblemData problem_of(const Scene& scene, double final_time);
+
+/// The sizes of the leading errors of the scene's own scheme, up to final_time; not known without a
+/// solution from a text, and on meshes that are not uniform.
+ErrorConstants forecast_constants(const Scene& scene, double final_time);
 
 /// Refuses, for a scene that is run on a problem of the caller's, what a reader would have refused:
 /// throws InputError where norms ask for errors and there is no exact solution, and where the steps

@@ -30,15 +30,20 @@ SolutionSetting setting_of(const Scene& scene) {
     return {*solution, scene.beam, scene.longest_time(), "the beam of the scene " + scene.name};
 }
 
-/// The first shipped scene that runs a shipped solution.
+/// The shipped scene that has the name of a shipped solution, or else the first that runs it.
 std::optional<Scene> scene_that_runs(const Solution& solution) {
+    std::optional<Scene> first;
     for (const auto& file : shipped_files(Shipped::scene)) {
         Scene scene = read_scene(file.path.string());
         const auto* own = std::get_if<Solution>(&scene.problem);
-        if (own != nullptr && own->name == solution.name && scene.poses_problem())
+        if (own == nullptr || own->name != solution.name || !scene.poses_problem())
+            continue;
+        if (scene.name == solution.name)
             return scene;
+        if (!first)
+            first = std::move(scene);
     }
-    return std::nullopt;
+    return first;
 }
 
 /// Whether a scene runs the solution of that file.

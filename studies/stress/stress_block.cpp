@@ -282,7 +282,7 @@ RoundOffBlock read_roundoff(TableReader table) {
 StressBlock read_stress(TableReader& table) {
     StressBlock block;
     if (auto sweeps = table.table("sweep")) {
-        for (const auto& name : sweeps->keys())
+        for (const auto& name : sweeps->unread())
             block.sweeps.push_back(read_sweep(*sweeps->table(name), name));
         sweeps->finish();
     }

@@ -6,6 +6,7 @@
 #include "core/round_off.hpp"
 #include "core/run.hpp"
 #include "core/time/time_levels.hpp"
+#include "core/worse.hpp"
 #include "mms/text/number_text.hpp"
 #include "studies/stress/mode_solution.hpp"
 #include "studies/stress/stress_problem.hpp"
@@ -124,11 +125,7 @@ public:
     [[nodiscard]] const std::string& other_steps() const { return other_steps_; }
 
 private:
-    /// NaN is worse than every number.
-    static void take(double& worst, double value) {
-        if (!std::isnan(worst) && !(value <= worst))
-            worst = value;
-    }
+    static void take(double& worst, double value) { worst = worse(worst, value); }
 
     void add(const SolveRecord& record, double underflow) {
         const Residuals residual =
@@ -165,6 +162,7 @@ private:
     std::string other_steps_;
 };
 
+/// Of temperature, curvature and contact stress.
 const std::vector<std::string> path_norms{"theta_LinfL2", "u_LinfH2semi", "sigma_L2"};
 
 /// What the round-off of the path_norms is measured in.
@@ -214,20 +212,9 @@ void compare_paths(const StressParameters& parameters, const Mesh& mesh, const P
         checks.path_skipped = "a norm is beyond the range of floating point";
         return;
     }
-    const auto scales = path_scales(parameters, sizes, request.final_time);
-    double worst = 0.0;
-    for (std::size_t k = 0; k < scales.size(); ++k) {
-        const double a = nodal.errors[k];
-        const double b = sine.errors[k];
-        if (a == b)
-            continue;
-        // ‖Θ‖ and ‖w‖ are roots of squares in which larger ones cancel: round-off is of the
-        // squares.
-        const double square = path_norms[k] == "sigma_L2" ? 1.0 : (a + b) / scales[k];
-        worst = std::max(worst, std::abs(a - b) / (epsilon * scales[k]) * square);
-    }
     checks.path_limit = path_limit(parameters.elements, sizes.roughness, sizes.slowest);
-    checks.path = worst;
+    checks.path = path_difference(nodal.errors, sine.errors,
+                                  path_scales(parameters, sizes, request.final_time));
 }
 
 /// The error of the temperature at the end over the one that the scheme's recurrence for the mode
@@ -392,6 +379,22 @@ std::string name_of(Outcome outcome) {
     default:
         return "failed";
     }
+}
+
+double path_difference(const std::vector<double>& nodal, const std::vector<double>& sine,
+                       const std::array<double, 3>& scales) {
+    double worst = 0.0;
+    for (std::size_t k = 0; k < scales.size(); ++k) {
+        const double a = nodal[k];
+        const double b = sine[k];
+        if (a == b)
+            continue;
+        // ‖Θ‖ and ‖w‖ are roots of squares in which larger ones cancel: round-off is of the
+        // squares.
+        const double square = k == 2 ? 1.0 : (a + b) / scales[k];
+        worst = worse(worst, std::abs(a - b) / (epsilon * scales[k]) * square);
+    }
+    return worst;
 }
 
 double path_limit(std::int64_t elements, double roughness, double c) {

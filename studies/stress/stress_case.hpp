@@ -2,8 +2,10 @@
 
 #include "studies/stress/stress_block.hpp"
 
+#include <array>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace tvbeam {
 
@@ -56,6 +58,11 @@ struct StressCase {
 
 /// Runs a case and judges it. Never throws for what its parameters are.
 StressCase judge(const StressParameters& parameters);
+
+/// The greatest difference of temperature, curvature and contact stress (their norms) between nodal
+/// values and the sine basis, in ulp of the scale; NaN where one is.
+double path_difference(const std::vector<double>& nodal, const std::vector<double>& sine,
+                       const std::array<double, 3>& scales);
 
 /// What the two paths may differ by, in ulp of the scale: 30 up to 1000 elements, and beyond in
 /// proportion, as the nodal elimination adds up the round-off of s rows. In nodal values every

@@ -40,12 +40,13 @@ struct WorkPrecisionStudy final : KindOf<WorkPrecisionBlock, WorkPrecisionResult
         const auto all = series_of(block_in(block));
         for (std::size_t i = 0; i < all.size(); ++i)
             if (auto scheme = table.table(block_in(block).schemes[i].name)) {
-                for_each_measure(*scheme, block_in(block).norms,
+                const std::size_t before = expectations.size();
+                for_each_measure(*scheme, block_in(block).norms, expectations,
                                  [&](TableReader& norm, std::size_t k) {
                                      expect_orders(norm, all[i], k, expectations);
                                      expect_errors(norm, all[i], k, expectations);
                                  });
-                scheme->finish();
+                finish_expecting(*scheme, before, expectations);
             }
     }
 };

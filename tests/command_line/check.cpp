@@ -78,6 +78,20 @@ BOOST_AUTO_TEST_CASE(a_baseline_is_compared_with_the_new_run_and_never_read_in_i
         2);
 }
 
+BOOST_AUTO_TEST_CASE(a_tolerance_that_holds_anything_or_nothing_is_refused) {
+    const TemporaryDirectory directory;
+    const std::string file = (directory.path() / "base.json").string();
+    BOOST_TEST(call(directory, "check sheared --record " + file).exit == 0);
+    for (const std::string tolerance : {"nan", "inf", "-1", "0", "0.6", "1e300", "x"}) {
+        const Called called =
+            call(directory, "check sheared --tolerance=" + tolerance + " --baseline " + file);
+        BOOST_TEST(called.exit == 2, tolerance);
+        BOOST_TEST(has(called.errors, "--tolerance: " + tolerance + " is no part > 0 and at most"),
+                   called.errors);
+    }
+    BOOST_TEST(call(directory, "check sheared --tolerance 0.5 --baseline " + file).exit == 0);
+}
+
 BOOST_AUTO_TEST_CASE(a_baseline_keeps_figures_and_refuses_what_it_would_lose) {
     const TemporaryDirectory directory;
     const std::string file = (directory.path() / "base.json").string();

@@ -8,6 +8,7 @@
 #include <boost/test/data/test_case.hpp>
 #include <boost/test/unit_test.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -32,6 +33,23 @@ BOOST_DATA_TEST_CASE(prediction_is_the_closed_form,
     BOOST_TEST(contraction(beam, Mesh::uniform(elements), mass, 1.0 / dt) == expected,
                boost::test_tools::tolerance(1e-10));
     BOOST_TEST(contraction(beam, Mesh::uniform(1), mass, 1.0 / dt) == 0.0);
+}
+
+// BDF2 solves with c = 3/(2Δt), and its first step, one of SDIRK2, with 1/(γΔt), about 2.3 times as
+// much. Steps far below ζ contract less the shorter they are, steps far above 1/π² the longer.
+BOOST_AUTO_TEST_CASE(the_greatest_contraction_is_that_of_whichever_step_contracts_least) {
+    const Beam beam{.alpha = 0.7, .zeta = 0.03};
+    const Mesh mesh = Mesh::uniform(20);
+    const Scheme scheme{Algorithm::fixed_point, ThermalMass::lumped, 1e-14,
+                        TimeScheme::named("bdf2")};
+    const double gamma = 1.0 - std::sqrt(0.5);
+    for (const double dt : {1e-4, 10.0}) {
+        const double running = contraction(beam, mesh, ThermalMass::lumped, 1.5 / dt);
+        const double starting = contraction(beam, mesh, ThermalMass::lumped, 1.0 / (gamma * dt));
+        BOOST_TEST((running > starting) == (dt < 1.0));
+        BOOST_TEST(greatest_contraction(beam, mesh, scheme, dt) == std::max(running, starting),
+                   boost::test_tools::tolerance(1e-12));
+    }
 }
 
 BOOST_DATA_TEST_CASE(measured_contraction_is_the_predicted_one, data::make(TimeScheme::names()),

@@ -3,6 +3,7 @@
 
 #include "core/space/resolution.hpp"
 
+#include "core/norms/quadrature_uncertainty.hpp"
 #include "core/run.hpp"
 #include "core/space/linear_elements.hpp"
 #include "core/space/profile.hpp"
@@ -278,16 +279,58 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_resolved_is_said_until_the_mesh_resolves_it)
             "theta = \"x*(1 - x)*exp(-((x - 0.2 - t/2)/w)^2)\"\n[parameters]\nw = 3e-5\n",
             "spike"),
         beam, 1.0);
-    const RunResult result = run({.beam = beam,
-                                  .mesh = Mesh::uniform(8),
-                                  .scheme = {},
-                                  .final_time = 1.0,
-                                  .steps = 10,
-                                  .norms = {*Norm::named("theta_L2L2")}},
-                                 problem);
+    const RunResult result =
+        run({.beam = beam,
+             .mesh = Mesh::uniform(8),
+             .scheme = {},
+             .final_time = 1.0,
+             .steps = 10,
+             .norms = {*Norm::named("theta_L2L2"), *Norm::named("theta_L2L2_sq")}},
+            problem);
     BOOST_REQUIRE_EQUAL(result.reason, "");
-    BOOST_REQUIRE(result.uncertainties.size() == 1);
+    BOOST_REQUIRE(result.uncertainties.size() == 2);
     BOOST_TEST(result.uncertainties[0] > 0.01);
+    // That of a square is said of the norm itself.
+    BOOST_TEST(result.uncertainties[1] == result.uncertainties[0],
+               boost::test_tools::tolerance(1e-12));
+}
+
+// sin πt sin 10⁶x: the load is greatest half way, of the norm 1/√2, and nothing at the end.
+BOOST_AUTO_TEST_CASE(what_is_uncertain_of_a_load_is_measured_where_it_is_greatest) {
+    const SpaceFunction wave = [](const ArrayXd& x) -> ArrayXd { return (1e6 * x).sin(); };
+    ProblemData problem;
+    problem.profiles = {wave};
+    problem.amplitudes = [](const ArrayXd& t) -> Eigen::ArrayXXd {
+        return (std::numbers::pi * t).sin().transpose();
+    };
+    problem.amplitude_count = 1;
+    problem.heat_source.terms = {{0, 0}};
+    problem.exact.emplace();
+    const Resolution found = resolution_of(wave);
+    const Mesh mesh = found.on(Mesh::uniform(8));
+    const auto parts = quadrature_uncertainties(problem, {&problem.heat_source}, found, mesh,
+                                                {*Norm::named("theta_L2L2")}, {1.0}, 1.0);
+    BOOST_REQUIRE(parts.size() == 1);
+    BOOST_TEST(parts[0] == found.uncertainty(mesh) * std::sqrt(0.5),
+               boost::test_tools::tolerance(0.05));
+}
+
+// μ is what the moment form integrates, G what the Hermite form does; f and q are looked at for
+// both.
+BOOST_AUTO_TEST_CASE(a_run_resolves_the_loads_of_its_own_algorithm) {
+    const auto has_cells = [](Field ProblemData::*load, Algorithm algorithm) {
+        ProblemData problem;
+        problem.profiles = {spike(0.337, 1e-3)};
+        (problem.*load).terms = {{0, 0}};
+        return resolution_of(problem, {algorithm}, {}, 1.0).on(Mesh::uniform(8)).cells != nullptr;
+    };
+    for (const Algorithm algorithm : {Algorithm::direct, Algorithm::fixed_point}) {
+        const bool direct = algorithm == Algorithm::direct;
+        BOOST_TEST(has_cells(&ProblemData::moment_load, algorithm) == direct);
+        BOOST_TEST(has_cells(&ProblemData::couple_load, algorithm) == !direct);
+        BOOST_TEST(has_cells(&ProblemData::body_force, algorithm));
+        BOOST_TEST(has_cells(&ProblemData::heat_source, algorithm));
+    }
 }
 
 BOOST_AUTO_TEST_SUITE_END()

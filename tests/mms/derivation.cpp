@@ -74,8 +74,8 @@ Point free_oscillation(const X& x, const T& t, const Beam& /*beam*/) {
             x * x * (2.0 - x) * cos(2.0 * t) / 80.0, 0.0};
 }
 
-Point moving_front(const X& x, const T& t, const Beam& /*beam*/) {
-    const Jet theta = x * (1.0 - x) * tanh(5.0 * (x - 0.25 - t / 4.0)) +
+Point moving_front(const X& x, const T& t, const Beam& beam) {
+    const Jet theta = beam.theta_A * (1.0 - x) + x * (1.0 - x) * tanh(5.0 * (x - 0.25 - t / 4.0)) +
                       sin(pi * x * (1.0 + t * (1.0 - x))) / 2.0;
     return {theta, x * x * exp(-x * t) / 100.0, 0.0};
 }
@@ -189,20 +189,63 @@ Point penalised_stops(const X& x, const T& t, const Beam& beam) {
             stress};
 }
 
+Point penalised_mixed(const X& x, const T& t, const Beam& beam) {
+    const double g2 = beam.stops.upper;
+    const Jet tip = g2 * (5.0 + t) / 4.0 + 0.0 * x;
+    return {beam.theta_A * (1.0 - x) + sin(pi * x * (1.0 + t * (1.0 - x))) / 2.0,
+            tip * bent(x, t) + g2 * bump(x) * exp(-x * t), (g2 - tip) / beam.stops.epsilon};
+}
+
+Point every_function(const X& x, const T& t, const Beam& beam) {
+    const Jet inner = tan(x) * asin(t / 3.0) + acos(x / 2.0) * log(1.0 + t) + cos(x + t);
+    return {beam.theta_A * (1.0 - x) + x * (1.0 - x) * inner,
+            (x * x * atan(x) * cos(t) + x * x * x * x * x * x * x * exp(-t)) / 100.0,
+            (exp(x + t) - exp(1.0 + t)) / 50.0};
+}
+
+Point every_function_pressed(const X& x, const T& t, const Beam& beam) {
+    const Jet inner = sin(x + t) + tanh(x) * cosh(t) + sqrt(1.0 + x) * sinh(t);
+    return {beam.theta_A * (1.0 - x) + x * (1.0 - x) * inner,
+            beam.stops.upper * (bent(x, t) + bump(x) * (sinh(x + t) + cosh(x) * sin(t))),
+            -1.0 - t + (1.0 - x) * cosh(x + t) / 10.0};
+}
+
+Point mixed(const X& x, const T& t, const Beam& beam) {
+    return {beam.theta_A * (1.0 - x) + x * (1.0 - x) * atan(2.0 * x * (1.0 + t) - 1.0),
+            x * x * exp(-x * t) / 100.0, (1.0 - x) * (1.0 - x) * (1.0 - x) * cos(t) / 20.0};
+}
+
+Point mixed_pressed(const X& x, const T& t, const Beam& beam) {
+    return {beam.theta_A * (1.0 - x) + x * (1.0 - x) * log(1.0 + t + x * t),
+            beam.stops.upper * (bent(x, t) + bump(x) * exp(-x * t)),
+            -1.0 - t + x * (1.0 - x) * sin(2.0 * t) / 10.0};
+}
+
+Point sheared(const X& x, const T& t, const Beam& beam) {
+    return {beam.theta_A * (1.0 - x) + cos(t) * sin(pi * x),
+            (1.0 - cos(pi * x)) * sin(2.0 * t) / 200.0, (1.0 - x * x) * cos(t) / 20.0};
+}
+
 const std::map<std::string, Formula> counterparts = {
     {"copetti-fernandez-2011", copetti_fernandez},
     {"cubic-deflection", cubic_deflection},
     {"end-moment", end_moment},
+    {"every-function", every_function},
+    {"every-function-pressed", every_function_pressed},
     {"force-driven", force_driven},
     {"free-decay", free_decay},
     {"free-oscillation", free_oscillation},
     {"heated-end", heated_end},
     {"impact", impact},
+    {"mixed", mixed},
+    {"mixed-pressed", mixed_pressed},
     {"moving-front", moving_front},
+    {"penalised-mixed", penalised_mixed},
     {"penalised-stops", penalised_stops},
     {"pressed-front", pressed_front},
     {"pressed-on-g1", pressed_on_g1},
     {"released-from-g2", released_from_g2},
+    {"sheared", sheared},
     {"stiff-layer", stiff_layer},
     {"three-phases", three_phases},
     {"touch-without-force", touch_without_force},

@@ -258,6 +258,31 @@ BOOST_AUTO_TEST_CASE(given_data_are_the_problem) {
     }
 }
 
+// Of the paper's solution u_xxxt = −3 g2 (√2 − t) up to t = √2 and 0 after it, θ = e^t sin πx, and
+// u0 = 0, so that u_xx is zero at the start.
+BOOST_AUTO_TEST_CASE(a_defect_knows_the_run_and_the_solution_in_its_phases) {
+    const Solution solution = papers_solution();
+    GivenData defect;
+    defect.heat_source = SourceText("-alpha*h/2*u_xxxt", {"scene.toml", 2, 16});
+    defect.moment_load = SourceText("dt*theta_x*x", {"scene.toml", 3, 16});
+    defect.theta0 = SourceText("theta*u_xx + h", {"scene.toml", 4, 10});
+    const ProblemData added = given_defect(defect, &solution, papers_beam, 2.0, 0.1, 1e-3);
+    for (const double t : {0.5, 1.4, 1.5, 2.0})
+        for (const double x : {0.0, 0.4, 1.0}) {
+            const double u_xxxt = t < std::sqrt(2.0) ? -0.3 * (std::sqrt(2.0) - t) : 0.0;
+            BOOST_TEST(std::abs(field_value(added.heat_source, added, x, t) -
+                                -0.017 * 0.05 * u_xxxt) < 1e-18);
+            const double moment = 1e-3 * std::exp(t) * pi * std::cos(pi * x) * x;
+            const double slope =
+                1e-3 * std::exp(t) * pi * (std::cos(pi * x) - pi * x * std::sin(pi * x));
+            BOOST_TEST(std::abs(field_value(added.moment_load, added, x, t) - moment) < 1e-15);
+            BOOST_TEST(std::abs(field_value(added.couple_load, added, x, t) + slope) < 1e-15);
+            BOOST_TEST(std::abs(field_value(added.theta_initial, added, x, 0.0) - 0.1) < 1e-16);
+            BOOST_TEST(std::abs(amplitude_value(added.end_moment, added, t) -
+                                1e-3 * std::exp(t) * pi) < 1e-15);
+        }
+}
+
 BOOST_DATA_TEST_CASE(body_forces_have_their_moments,
                      data::make({"1", "x", "(x-1)^3*t + 2*x^5 - t", "exp(x)*t", "sin(20*x)",
                                  "exp(x*t) + x", "t/(1+x)", "sqrt(1 + x) + x*t"})) {

@@ -92,6 +92,8 @@ class Case:
         measured_against = None
         if "reference" in self.scene:
             fine = self.scene["reference"]
+            if fine.get("richardson"):
+                raise Unresolved("an extrapolated reference is not known here")
             gauss = self.gauss_points(final_time, min(block["elements"]))
             measured_against = norms.Reference(self.march(final_time, fine["elements"], rational(fine["dt"]), gauss), gauss)
         for index, elements in enumerate(block["elements"]):

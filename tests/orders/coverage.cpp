@@ -1,7 +1,8 @@
 // Do the 95 % intervals of the orders hold under scatter? Synthetic data sets with a fixed seed and
 // known multiplicative noise, exp(σz) with z standard normal. Of an interval that holds with
 // probability 0.95 the part that does scatters with sqrt(0.95 · 0.05 / draws): the least part asked
-// for is 0.95 less four times that. What is not determined says nothing, and few may be.
+// for is 0.95 less four times that. What is not determined says nothing, and few may be: of nine in
+// ten that are determined the part scatters likewise.
 
 #include "studies/orders/order_engine.hpp"
 #include "studies/orders/two_term_fit.hpp"
@@ -48,7 +49,7 @@ struct Score {
     void check(const char* what) const {
         BOOST_TEST_MESSAGE(what << ": determined " << determined << " of " << asked << ", held "
                                 << held);
-        BOOST_TEST(determined >= 0.8 * asked, what);
+        BOOST_TEST(determined >= (0.9 - 4 * std::sqrt(0.9 * 0.1 / asked)) * asked, what);
         BOOST_TEST(held >= (0.95 - 4 * std::sqrt(0.95 * 0.05 / determined)) * determined, what);
     }
 };
@@ -67,6 +68,25 @@ BOOST_AUTO_TEST_CASE(of_a_sequence_under_scatter) {
         score.add(estimate_orders(rows).front(), 2);
     }
     score.check("p of C h^p");
+}
+
+BOOST_AUTO_TEST_CASE(of_a_sequence_whose_scatter_is_stated_or_shown_by_replicates) {
+    Noise noise(0.03);
+    for (const bool stated : {true, false}) {
+        Score score;
+        for (int draw = 0; draw < draws; ++draw) {
+            std::vector<ErrorRow> rows;
+            for (int k = 0; k < 5; ++k)
+                for (int replicate = 0; replicate < (stated ? 1 : 3); ++replicate) {
+                    const double h = 0.2 * std::exp2(-k);
+                    rows.push_back({{h}, 3 * h * h * noise()});
+                    if (stated)
+                        rows.back().sigma = 0.03;
+                }
+            score.add(estimate_orders(rows).front(), 2);
+        }
+        score.check(stated ? "p with stated scatter" : "p with replicates");
+    }
 }
 
 BOOST_AUTO_TEST_CASE(of_a_grid_under_scatter_and_through_a_cancellation) {

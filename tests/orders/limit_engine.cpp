@@ -40,6 +40,42 @@ BOOST_AUTO_TEST_CASE(the_grid_convergence_index_is_that_of_the_tutorial) {
     BOOST_TEST(holds(limit.limit, 0.97130));
 }
 
+// h^7 on three grids: the order of no common method, so that the index takes the factor of two
+// grids and the order 4. f_2 − f_1 = 127/128² of the coarse error.
+BOOST_AUTO_TEST_CASE(an_order_that_no_method_has_is_given_the_factor_of_two_grids) {
+    const auto gci = gci_of(sequence(3, [](double h) { return 1 + std::pow(h, 7); }));
+    BOOST_REQUIRE(gci.has_value());
+    BOOST_TEST(std::abs(gci->order - 7) < 1e-6);
+    const double step = std::exp2(-7) - std::exp2(-14);
+    BOOST_TEST(std::abs(gci->uncertainty / (3 * step / 15) - 1) < 1e-9);
+}
+
+// The limit of f = f_0 + C h² with known scatter σ has at least the standard deviation that linear
+// least squares gives it where the order is known: here 1 + h² with h² = 4^-k, in closed form.
+// Values that happen to lie on the curve know no better.
+BOOST_AUTO_TEST_CASE(a_limit_is_no_better_known_than_its_values_scatter) {
+    constexpr double sigma = 0.01;
+    const auto exact = [](double h) { return 1 + h * h; };
+    auto stated = sequence(6, exact);
+    double n = 0, sum = 0, squares = 0;
+    std::vector<ValueRow> replicates;
+    for (auto& row : stated) {
+        const double x = row.h * row.h;
+        n += 1, sum += x, squares += x * x;
+        for (const double off : {-sigma, sigma})
+            replicates.push_back({row.h, row.value + off});
+        row.sigma = sigma;
+    }
+    const double least = 1.96 * sigma * std::sqrt(squares / (n * squares - sum * sum));
+    BOOST_TEST(estimate_limit(sequence(6, exact)).limit.half_width() < least);
+    for (const auto& rows : {stated, replicates}) {
+        const auto found = estimate_limit(rows);
+        BOOST_TEST(found.limit.determined);
+        BOOST_TEST(holds(found.limit, 1.0));
+        BOOST_TEST(found.limit.half_width() >= least);
+    }
+}
+
 // Celik et al. (2008), Table 1: orders 1.53, 0.75 and, oscillating, 1.51; cells of a plane, so that
 // h is N^-1/2.
 BOOST_AUTO_TEST_CASE(the_orders_of_celik_are_those_of_his_table) {
@@ -95,8 +131,9 @@ BOOST_AUTO_TEST_CASE(replicates_are_one_level) {
         row.value -= 2e-3;
         twice.push_back(row);
     }
+    // Of other weights: what is known of the scatter counts.
     BOOST_TEST(std::abs(estimate_limit(once).limit.value - estimate_limit(twice).limit.value) <
-               1e-9);
+               1e-6);
 }
 
 // Steps that grow up to the finest, and equal steps (ln h): there is no limit.
@@ -112,7 +149,7 @@ BOOST_AUTO_TEST_CASE(values_that_run_apart_have_no_limit_and_the_status_says_so)
 }
 
 // f = f₀ + C hᵖ is what the grid convergence index inverts: order and limit come back at any two
-// ratios, equal or not, and the index is 1.25 times the distance to the limit.
+// ratios, equal or not, and the index is 1.25 times the distance to the limit, up to order 4.
 BOOST_AUTO_TEST_CASE(a_pure_power_is_extrapolated_exactly) {
     for (const double p : {0.5, 1.0, 2.0, 3.7, 7.0})
         for (const double ratio : {1.3, 2.0, 10.0}) {
@@ -122,7 +159,9 @@ BOOST_AUTO_TEST_CASE(a_pure_power_is_extrapolated_exactly) {
             // Values near 2 carry 4e-16, on a smallest difference of 5 · 0.1⁷ = 5e-7.
             BOOST_TEST(std::abs(found->order - p) < 1e-8);
             BOOST_TEST(std::abs(found->limit + 2) < 1e-11);
-            BOOST_TEST(std::abs(found->uncertainty - 1.25 * 5 * std::pow(0.1 / ratio, p)) < 1e-11);
+            if (p < 4)
+                BOOST_TEST(std::abs(found->uncertainty - 1.25 * 5 * std::pow(0.1 / ratio, p)) <
+                           1e-11);
         }
 }
 

@@ -72,6 +72,41 @@ BOOST_AUTO_TEST_CASE(
     BOOST_TEST(order.status == "rising past 1.68");
 }
 
+// √h/10 beside h: at the coarsest level a fifth of the error, at the finest of nine a factor
+// of 3.5. 1/|ln h| goes to the order 0 more slowly than any power.
+BOOST_DATA_TEST_CASE(an_order_that_falls_slowly_is_not_taken_for_one_that_stands,
+                     data::make({4, 5, 6, 7, 8, 9, 12}), levels) {
+    const auto half_power =
+        estimate_orders(sequence(levels, [](double h) { return h + 0.1 * std::sqrt(h); })).front();
+    BOOST_TEST((!half_power.determined || holds(half_power, 0.5)));
+    const auto none =
+        estimate_orders(sequence(levels, [](double h) { return -1 / std::log(h); })).front();
+    BOOST_TEST(!none.determined);
+}
+
+// Of ln e = ln C + p ln h with independent scatter σ of every ln e, p has the standard deviation
+// σ / sqrt(Σ (ln h − mean)²). Rows that happen to lie on a line know no better.
+BOOST_DATA_TEST_CASE(an_interval_is_no_narrower_than_what_known_scatter_makes_of_it,
+                     data::make({3, 5, 8}) * data::make({0.01, 0.05}), levels, sigma) {
+    double squares = 0;
+    for (int k = 0; k < levels; ++k)
+        squares += std::pow((k - (levels - 1) / 2.0) * std::log(2.0), 2);
+    const double least = 1.96 * sigma / std::sqrt(squares);
+    auto stated = sequence(levels, [](double h) { return h * h; });
+    std::vector<ErrorRow> replicates;
+    for (auto& row : stated) {
+        // Two of them, whose mean has the deviation σ as well.
+        for (const double off : {-sigma, sigma})
+            replicates.push_back({row.widths, row.error * std::exp(off)});
+        row.sigma = sigma;
+    }
+    for (const auto& rows : {stated, replicates}) {
+        const auto order = estimate_orders(rows).front();
+        BOOST_TEST(order.half_width() >= least);
+        BOOST_TEST(holds(order, 2.0));
+    }
+}
+
 BOOST_DATA_TEST_CASE(both_orders_of_a_grid_are_held_with_next_terms_and_correlation,
                      data::make({-0.9, 0.0, 0.5, 1.0}) * data::make({-0.5, 0.0, 1.0}), rho, next) {
     const auto orders = estimate_orders(grid([rho = rho, next = next](double h, double dt) {

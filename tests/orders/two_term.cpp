@@ -330,7 +330,7 @@ BOOST_AUTO_TEST_CASE(the_crossing_is_where_the_terms_are_equal) {
     // h = 1, 1/3, 1/9, 1/27: the crossing is between rows 2 and 3, past the end of the ladder.
     BOOST_TEST(view.cancellation->row == 2U);
     BOOST_TEST(view.asymptotic_order == 1.0, boost::test_tools::tolerance(1e-12));
-    BOOST_TEST((view.asymptotic_ruling == Ruling::time));
+    BOOST_TEST((view.asymptotic_dominant == Dominant::time));
 
     TwoTermModel adding = model;
     adding.rho = 0.9;
@@ -351,8 +351,8 @@ BOOST_AUTO_TEST_CASE(the_asymptotic_order_shows_from_where_the_algebra_says) {
     BOOST_TEST(view.asymptotic_from->h == 1.0 / 48, boost::test_tools::tolerance(0.011));
     BOOST_TEST(view.asymptotic_from->row < rows.size());
     BOOST_TEST(*view.rows[1].order > 1.9);
-    BOOST_TEST((view.rows.front().ruling == Ruling::space));
-    BOOST_TEST((view.rows.back().ruling == Ruling::time));
+    BOOST_TEST((view.rows.front().dominant == Dominant::space));
+    BOOST_TEST((view.rows.back().dominant == Dominant::time));
 }
 
 // Δt ∝ h²: orders p and 2q. Fixed h: nothing in space, q in time, and in the end order 0.
@@ -361,7 +361,7 @@ BOOST_AUTO_TEST_CASE(the_coupling_of_the_ladder_sets_its_orders) {
     const std::vector<Refinement> parabolic{{.h = 0.1, .dt = 0.01}, {.h = 0.05, .dt = 0.0025}};
     const auto both = forecast(model, parabolic);
     BOOST_TEST(both.temporal_order == 2.0, boost::test_tools::tolerance(1e-12));
-    BOOST_TEST((both.asymptotic_ruling == Ruling::both));
+    BOOST_TEST((both.asymptotic_dominant == Dominant::both));
     BOOST_TEST(both.asymptotic_from->row == 1U);
 
     const std::vector<Refinement> in_time{{.h = 0.1, .dt = 0.1}, {.h = 0.1, .dt = 0.05}};
@@ -369,7 +369,7 @@ BOOST_AUTO_TEST_CASE(the_coupling_of_the_ladder_sets_its_orders) {
     BOOST_TEST(stagnant.spatial_order == 0.0);
     BOOST_TEST(stagnant.temporal_order == 1.0, boost::test_tools::tolerance(1e-12));
     BOOST_TEST(stagnant.asymptotic_order == 0.0);
-    BOOST_TEST((stagnant.asymptotic_ruling == Ruling::space));
+    BOOST_TEST((stagnant.asymptotic_dominant == Dominant::space));
 }
 
 BOOST_AUTO_TEST_CASE(a_ladder_without_refinement_has_its_rows_only) {

@@ -99,6 +99,25 @@ BOOST_AUTO_TEST_CASE(an_oscillating_ladder_is_nowhere_asymptotic) {
     BOOST_TEST(word(with_orders({-1, 1, -1, 1})) == "ddpdp");
 }
 
+// 2.05, 1.82 and 2.00 are all within a tenth of their mean 1.96; but 2.05 and 1.82, side by side,
+// are not within a tenth of each other.
+BOOST_AUTO_TEST_CASE(orders_of_a_window_agree_with_their_neighbours_and_not_only_with_the_mean) {
+    BOOST_TEST(word(with_orders({2.05, 1.82, 2.00})) == "pAAA");
+    BOOST_TEST(word(with_orders({2.05, 1.95, 2.00})) == "AAAA");
+}
+
+// One odd order at the end may be chance; two that agree neither with the window nor with each
+// other are what the window's order would have to be.
+BOOST_AUTO_TEST_CASE(finer_orders_that_agree_with_nothing_refute_a_window) {
+    BOOST_TEST(word(with_orders({2, 2, 2, 1.2})) == "AAAAp");
+    BOOST_TEST(word(with_orders({2, 2, 2, 1.2, 1.6})) == "pppppp");
+}
+
+// Thrown back by a factor of eight, the error hardly falls from there on: it grows in one row only.
+BOOST_AUTO_TEST_CASE(an_error_diverges_where_it_grows_and_not_where_it_stays_large) {
+    BOOST_TEST(word(with_orders({2, 2, 2, -3, 0.3})) == "AAAAdf");
+}
+
 BOOST_AUTO_TEST_CASE(equal_errors_stand_on_a_floor) {
     BOOST_TEST(word(halving({0.1, 0.1, 0.1, 0.1})) == "ffff");
     // Nearly equal is no slow convergence either: orders of a thousandth agree with each other.

@@ -68,6 +68,11 @@ const std::vector<Part> parts{
      {"stress.contraction={alpha={from=0.1, to=10, count=2}, dt={from=1e-3, to=0.1, count=2}, "
       "elements=4}"}},
     {"roundoff", {"stress.roundoff={elements=[4, 8]}"}},
+    {"sensitivity",
+     {"sensitivity={range=[0.1, 1], defect={zeta={moment_load='zeta*x*t'}, two={u0='h*x^2', "
+      "heat_source='dt'}}}"},
+     {"expect of a ladder", "expect of orders", "expect of an evolution", "expect of stress",
+      "expect of work_precision"}},
     {"reference", {"reference={elements=16, dt=0.0125}"}},
     {"reference that is a level", {"reference={elements=8, dt=0.025}"}},
     {"richardson", {"reference={elements=16, dt=0.0125, richardson=true}"}},
@@ -76,6 +81,9 @@ const std::vector<Part> parts{
      {"mesh.nodes=[0, 0.3, 1]"},
      {},
      {"graded mesh", "reference", "reference that is a level", "richardson"}},
+    {"defect",
+     {"defect={heat_source='h*exp(x*t)', moment_load='dt*x', body_force='x^2', theta0='alpha*x', "
+      "u0='zeta*x^2'}"}},
     {"penalty", {"beam.contact={law='penalty', epsilon=1e-6}"}},
     {"no stops", {"beam.stops=[-inf, inf]"}, {}, {"solution", "penalty"}},
     {"no coupling", {"beam.alpha=0"}},
@@ -217,6 +225,29 @@ BOOST_DATA_TEST_CASE(run_or_are_refused_without_a_ladder_beside_them, data::make
                 const Chosen chosen({base.problem, {}, base.text}, first, second);
                 outcome_of(base.text, chosen.overrides);
             }
+}
+
+// A result with a defect cannot be taken for one without, whatever it is written as.
+BOOST_AUTO_TEST_CASE(with_a_defect_say_so_in_the_first_line_of_the_result) {
+    const TemporaryDirectory directory;
+    std::vector<std::string> overrides = named("ladder").overrides;
+    for (const bool with : {false, true}) {
+        if (with)
+            overrides.emplace_back("defect={heat_source='h'}");
+        const StudyResult result =
+            run_study(read_scene(directory.write("s.toml", bases[0].text), overrides));
+        const Reported all = reported(result);
+        for (const auto& format : report_formats())
+            for (const auto& file : format->write({all, {}, {}})) {
+                const auto said = file.text.find("WITH A DELIBERATE DEFECT, not the");
+                BOOST_TEST((said != std::string::npos) == (with && !file.name.ends_with(".csv")),
+                           file.name);
+                if (with && file.name.ends_with(".json"))
+                    BOOST_TEST(said < 40u);
+            }
+        const auto text = text_document(all.document);
+        BOOST_TEST((text.find("DELIBERATE DEFECT") < text.find('\n')) == with);
+    }
 }
 
 BOOST_AUTO_TEST_CASE(hold_every_kind_of_study) {

@@ -33,7 +33,7 @@ std::ostream& operator<<(std::ostream& stream, const Case& c) {
 
 const std::string cancel = "two terms of the error cancel";
 const std::string lower = "a term of lower order takes over";
-const std::string settles = "where it settles";
+const std::string settles = "the last two orders agree, as where coarse levels";
 const std::string unknown = "why is not known";
 
 // h = 1/10, 1/20, …: seven rungs.
@@ -73,6 +73,17 @@ BOOST_DATA_TEST_CASE(a_reason_is_the_one_that_the_orders_show, data::make(cases)
     BOOST_TEST(remarks[0].find(sample.said) != std::string::npos, remarks[0]);
     for (const auto& wrong : sample.not_said)
         BOOST_TEST(remarks[0].find(wrong) == std::string::npos, remarks[0]);
+}
+
+// Roots of order 2: their squares have the order 4.
+BOOST_AUTO_TEST_CASE(of_a_square_both_orders_are_named) {
+    std::vector<Refinement> roots;
+    for (const double h : {0.1, 0.05, 0.025})
+        roots.push_back({.h = h, .error = h * h});
+    const auto remarks = order_remarks(measure_of(*Norm::named("theta_L2L2_sq")), roots, nullptr);
+    BOOST_REQUIRE(remarks.size() == 1U);
+    BOOST_TEST(remarks[0].find("order 4.00 (the square of order 2.00)") != std::string::npos,
+               remarks[0]);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

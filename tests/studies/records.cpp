@@ -2,6 +2,7 @@
 
 #include "mms/text/input_error.hpp"
 #include "studies/data/data_analysis.hpp"
+#include "studies/data/data_check.hpp"
 #include "studies/data/data_file.hpp"
 #include "studies/data/record_analysis.hpp"
 #include "tests/comma_locale.hpp"
@@ -76,7 +77,7 @@ const std::vector<Malformed> malformed{
     {"x,error\n1,2\n", "e.csv:1:1: no column h, elements or dt"},
     {"h\n1\n", "e.csv:1:1: no column 'error'"},
     {"h,eror\n1,2\n", "e.csv:1:1: no column 'error'; did you mean 'eror'?"},
-    {"H,error\n1,2\n", "e.csv:1:1: no column h, elements or dt among H, error"},
+    {"width,error\n1,2\n", "e.csv:1:1: no column h, elements or dt among width, error"},
     {"h,error\n0.1,1\n0.05\n", "e.csv:3:1: has 1 fields; the columns are 2"},
     {"h,error\n0.1,1,2\n", "e.csv:2:1: has 3 fields; the columns are 2"},
     {"h,error\n0.1,1,\n", "e.csv:2:1: has 3 fields"},
@@ -136,6 +137,21 @@ const std::vector<Malformed> malformed{
     {"dx,L2\n1,2\n", "e.csv:1:1: no column 'drag'", {.sizes = {"dx"}, .values = {"drag"}}},
     {"h,error\n1,2\n", "e.csv:1:1: no column 'tau'", {.step = "tau"}},
     {"h,error\n1,2\n", "e.csv:1:1: no column 's'", {.sigma = "s"}},
+    {"h,error\n0.1,1\n",
+     "e.csv:1:1: column h is a width already",
+     {.sizes = {"h"}, .dimension = 2.0}},
+    {"h,error,sd\n0.1,1,1\n0.05,1,\n",
+     "e.csv:3:8: '' in column sd is no deviation",
+     {.sigma = "sd"}},
+    {"h,error,sd\n0.1,1,-1\n", "e.csv:2:7: '-1' in column sd is no deviation", {.sigma = "sd"}},
+    {"h,L2,H1,sd\n1,1,1,1\n",
+     "e.csv:1:1: --sigma is of one column",
+     {.errors = {"L2", "H1"}, .sigma = "sd"}},
+    {"elements,error\n0.1,1\n", "e.csv:2:1: '0.1' in column elements counts nothing"},
+    {"steps,error\n0.1,1\n", "e.csv:2:1: '0.1' in column steps counts nothing", {.step = "steps"}},
+    {"H,h1,error,Error,ERROR\n0.1,1,1,1,1\n",
+     "e.csv:1:1: names the column eRROR twice",
+     {.errors = {"eRROR"}}},
     {std::string("h,error\n0.1,1\0\n", 15), "e.csv:2:5: '1"},
     {std::string("\0\0\0\0", 4), "e.csv:1:1: is no text"},
     {"\xFF\xFEh\n", "e.csv: is UTF-16"},
@@ -197,6 +213,11 @@ BOOST_AUTO_TEST_CASE(sizes_are_widths_or_numbers_of_things_and_what_is_assumed_i
     const auto line = data_of("ndofs,error\n400,1\n", {.sizes = {"ndofs"}});
     BOOST_TEST(line.remarks.at(0).find("dimension 1 was assumed") != std::string::npos);
     BOOST_TEST(data_of("tau,error\n0.1,1\n", {.step = "tau"}).widths[0].name == "tau");
+    const auto steps = data_of("nsteps,error\n8,1\n", {.step = "nsteps"});
+    BOOST_TEST(steps.widths[0].name == "dt");
+    BOOST_TEST(steps.widths[0].numbers[0] == 0.125);
+    BOOST_TEST(steps.remarks.at(0) == "dt = 1/nsteps: the time 1 was assumed");
+    BOOST_TEST(data_of("H,Error\n0.5,1\n").widths[0].numbers[0] == 0.5);
 }
 
 BOOST_AUTO_TEST_CASE(an_empty_or_nan_error_is_a_failed_run) {
@@ -308,6 +329,62 @@ BOOST_AUTO_TEST_CASE(a_grid_gets_the_two_term_model) {
     BOOST_TEST(analysis.orders.empty());
     BOOST_TEST(std::abs(analysis.two_term->model.p - 2.0) < 1e-4);
     BOOST_TEST(std::abs(analysis.two_term->model.q - 1.0) < 1e-4);
+}
+
+// A grid h² + 0.3 Δt with one row ten times out of line: that row is named, the others stand, and
+// one band for the orders of two widths is refused.
+BOOST_AUTO_TEST_CASE(rows_of_a_grid_have_verdicts_and_its_orders_are_gated_by_width) {
+    std::string text = "h,dt,error\n";
+    for (const double h : {0.2, 0.1, 0.05, 0.025})
+        for (const double dt : {0.1, 0.05, 0.025, 0.0125}) {
+            const bool out = h == 0.05 && dt == 0.05;
+            text += std::to_string(h) + "," + std::to_string(dt) + "," +
+                    std::to_string((h * h + 0.3 * dt) * (out ? 10 : 1)) + "\n";
+        }
+    const auto analysis = analysis_of(text);
+    const auto& verdicts = analysis.columns.at(0).verdicts;
+    BOOST_REQUIRE(verdicts.size() == 16u);
+    for (std::size_t i = 0; i < 16; ++i)
+        BOOST_TEST(std::string(name_of(verdicts[i].verdict)) ==
+                   (i == 9 ? "outlier" : "asymptotic"));
+    BOOST_CHECK_THROW(check(analysis, "error.order = [0.9, 2.1]"), InputError);
+    const auto held = check(analysis, "error.order = { h = [1.9, 2.1], dt = [0.9, 1.1] }");
+    BOOST_TEST(held.size() == 2u);
+    for (const auto& one : held)
+        BOOST_TEST(one.holds);
+}
+
+// Orders 1.46, 1.57, 1.68, pairs of which differ by less than a tenth, go on: no row is asymptotic.
+BOOST_AUTO_TEST_CASE(no_row_is_asymptotic_where_the_order_is_not_determined) {
+    std::vector<Refinement> ladder{{.h = 0.1, .error = 1.0}};
+    for (const double order : {1.46, 1.57, 1.68})
+        ladder.push_back(
+            {.h = ladder.back().h / 2, .error = ladder.back().error * std::exp2(-order)});
+    const auto analysis = analyse(ladder);
+    BOOST_REQUIRE(!analysis.order.determined);
+    BOOST_REQUIRE(analysis.verdict->window.has_value());
+    for (const auto& row : analysis.verdict->rows)
+        BOOST_TEST(std::string(name_of(row.verdict)) == "pre-asymptotic");
+    const std::string& reason = analysis.verdict->rows.back().reason;
+    BOOST_TEST(reason.find("rising past 1.68") != std::string::npos, reason);
+}
+
+// Errors of one width differ by 20 %: the order of h² is known to σ_p = s/sqrt(2 Σ (ln h − mean)²)
+// at best, where s = 0.14 is the deviation of ln e that the pairs show.
+BOOST_AUTO_TEST_CASE(stated_deviations_and_replicates_of_a_file_are_in_the_interval) {
+    std::string pairs = "h,error\n";
+    std::string stated = "h,error,sd\n";
+    for (const double h : {0.2, 0.1, 0.05, 0.025}) {
+        for (const double off : {-0.1, 0.1})
+            pairs += std::to_string(h) + "," + std::to_string(h * h * std::exp(off)) + "\n";
+        stated += std::to_string(h) + "," + std::to_string(h * h) + "," +
+                  std::to_string(0.1 * h * h) + "\n";
+    }
+    stated += "0.4,nan,nan\n"; // a failed run takes no deviation away
+    const double least = 1.96 * 0.1 / (std::log(2.0) * std::sqrt(5.0));
+    for (const auto& column :
+         {analysis_of(pairs).columns[0], analysis_of(stated, {.sigma = "sd"}).columns[0]})
+        BOOST_TEST(column.by_width[0].half_width() >= least);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

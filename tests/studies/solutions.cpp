@@ -44,10 +44,11 @@ std::vector<std::string> schemes() {
 bool is_of(const Scene& scene, const std::string& solution) {
     const auto* own = std::get_if<Solution>(&scene.problem);
     return own != nullptr && own->name == solution && scene.scheme.algorithm == Algorithm::direct &&
-           scene.get<LadderBlock>() != nullptr;
+           scene.get<LadderBlock>() != nullptr && !scene.defect;
 }
 
-/// The scene that studies a solution: that of its name, or else the first that names it.
+/// The scene that studies a solution: that of its name, or else the first that names it. On uniform
+/// meshes and against the exact solution.
 Scene scene_of(const std::string& solution) {
     std::vector<Scene> scenes;
     for (const auto& file : shipped_files(Shipped::scene)) {
@@ -58,7 +59,10 @@ Scene scene_of(const std::string& solution) {
     BOOST_REQUIRE_MESSAGE(!scenes.empty(), "no scene checks " << solution);
     const auto own = std::find_if(scenes.begin(), scenes.end(),
                                   [&](const Scene& scene) { return scene.name == solution; });
-    return own == scenes.end() ? scenes.front() : *own;
+    Scene scene = own == scenes.end() ? scenes.front() : *own;
+    scene.mesh = {};
+    scene.reference.reset();
+    return scene;
 }
 
 const std::vector<std::string> norms{"theta_L2L2", "u_LinfH2semi"};

@@ -2,6 +2,7 @@
 
 #include "studies/stress/stress.hpp"
 #include "core/contraction.hpp"
+#include "core/run.hpp"
 #include "studies/ladder/ladder.hpp"
 #include "studies/scene/scene.hpp"
 #include "studies/stress/stress_problem.hpp"
@@ -192,6 +193,25 @@ BOOST_AUTO_TEST_CASE(hermite_form_warns_where_round_off_may_exceed_its_error) {
     BOOST_TEST(!warns(remarks("direct", "640", "1e-4")));
 }
 
+// Each of temperature, curvature and contact stress counts by itself, and what is not a number is
+// no agreement.
+BOOST_AUTO_TEST_CASE(every_norm_of_the_two_paths_is_compared) {
+    const std::vector<double> nodal{0.5, 0.5, 0.5};
+    const std::array<double, 3> scales{1.0, 1.0, 1.0};
+    BOOST_TEST(path_difference(nodal, nodal, scales) == 0.0);
+    for (std::size_t k = 0; k < 3; ++k) {
+        std::vector<double> sine = nodal;
+        sine[k] *= 1.0 + 0x1p-40; // 2^-41, of 2^-52
+        BOOST_TEST(path_difference(nodal, sine, scales) == 0x1p11,
+                   boost::test_tools::tolerance(1e-9));
+        sine[k] = std::nan("");
+        BOOST_TEST(std::isnan(path_difference(nodal, sine, scales)), k);
+        BOOST_TEST(std::isnan(path_difference(sine, nodal, scales)), k);
+    }
+    // Also one in front of numbers.
+    BOOST_TEST(std::isnan(path_difference({std::nan(""), 0.5, 0.5}, {0.5, 0.4, 0.3}, scales)));
+}
+
 BOOST_AUTO_TEST_CASE(error_of_the_mode_is_the_predicted_one) {
     StressParameters mode;
     mode.alpha = 0.5;
@@ -245,6 +265,62 @@ BOOST_AUTO_TEST_CASE(a_heated_end_is_certified_by_every_scheme) {
                 const StressCase result = judge(heated);
                 BOOST_TEST(name_of(result.outcome) == "certified", result.reason);
             }
+}
+
+// The energy law of the first step, one of SDIRK2, has the factor Δt² = ∞ before zeros; those of
+// the BDF2 steps after it are numbers.
+BOOST_AUTO_TEST_CASE(what_was_not_a_number_once_is_not_certified_by_later_steps) {
+    StressParameters endless;
+    endless.alpha = 1.0;
+    endless.zeta = 1.0;
+    endless.dt = 1e300;
+    endless.elements = 2;
+    endless.initial = InitialData::smooth;
+    endless.time = "bdf2";
+    for (const std::int64_t steps : {1, 3}) {
+        endless.steps = steps;
+        BOOST_TEST(name_of(judge(endless).outcome) != "certified");
+    }
+}
+
+// Round-off of the two bases: where that of temperature and curvature is the same, what differs is
+// the contact stress alone.
+BOOST_AUTO_TEST_CASE(a_contact_stress_that_alone_differs_between_the_bases_is_seen) {
+    StressParameters pressed;
+    pressed.stops = {.lower = -0.01, .upper = 0.01};
+    pressed.load = 1.0;
+    int alone = 0;
+    for (const double alpha : {0.0, 0.1, 1.0})
+        for (const double zeta : {0.0, 0.1, 1.0})
+            for (const double dt : {0.1, 1.0})
+                for (const std::int64_t elements : {1, 2, 4})
+                    for (const auto& time : TimeScheme::names()) {
+                        pressed.alpha = alpha;
+                        pressed.zeta = zeta;
+                        pressed.dt = dt;
+                        pressed.elements = elements;
+                        pressed.steps = 2;
+                        pressed.time = time;
+                        const Mesh mesh = Mesh::uniform(elements);
+                        const ProblemData data = stress_problem(pressed, mesh);
+                        RunRequest request{{alpha, zeta, 0.0, pressed.stops},
+                                           mesh,
+                                           {},
+                                           2 * dt,
+                                           2,
+                                           {*Norm::named("theta_LinfL2"),
+                                            *Norm::named("u_LinfH2semi"),
+                                            *Norm::named("sigma_L2")}};
+                        request.scheme.time = TimeScheme::named(time);
+                        const auto sine = run(request, data).errors;
+                        request.scheme.basis = Basis::nodal;
+                        const auto nodal = run(request, data).errors;
+                        if (sine[0] != nodal[0] || sine[1] != nodal[1] || sine[2] == nodal[2])
+                            continue;
+                        ++alone;
+                        BOOST_TEST(judge(pressed).checks->path.value() > 0.0);
+                    }
+    BOOST_TEST(alone > 0);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -121,7 +121,7 @@ Scene scene_of(const std::string& text, const std::vector<std::string>& override
 WorkPrecisionResult timed(const Scene& scene, double one_run_above = 1e9) {
     const ProblemData problem = problem_of(scene, scene.longest_time());
     return run_work_precision(*scene.get<WorkPrecisionBlock>(),
-                              beam_runs(scene, problem, problem).run, {}, one_run_above);
+                              beam_runs(scene, problem, problem, Defects()).run, {}, one_run_above);
 }
 
 /// A scheme with made-up errors, in times 1 s, 2 s, 4 s, ….

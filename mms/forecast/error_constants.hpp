@@ -1,0 +1,57 @@
+#pragma once
+
+#include "core/problem.hpp"
+#include "core/space/thermal_mass.hpp"
+#include "mms/solution.hpp"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace tvbeam {
+
+/// constant · width^order, the leading term of an error in one width when the other is zero.
+struct LeadingTerm {
+    double order = 0.0;
+    double constant = 0.0;
+};
+
+struct NormConstants {
+    std::string norm;                 ///< the norm itself, not its square
+    std::optional<LeadingTerm> in_h;  ///< a h^p; none: no error of that kind
+    std::optional<LeadingTerm> in_dt; ///< b Δt^q; likewise
+};
+
+/// The sizes of the leading errors of a solution, forecast without running a scheme.
+struct ErrorConstants {
+    std::string unknown; ///< why they are not known; empty: they are
+    std::vector<NormConstants> norms;
+
+    [[nodiscard]] const NormConstants* of(const std::string& norm) const;
+};
+
+/// Forecasts on uniform meshes from the modified equations (Warming and Hyett 1974, J. Comput.
+/// Phys. 14; Krueger, Mousseau and Hassan for manufactured solutions): the leading errors Δt^q (E,
+/// e) and h² (N, d) of θ̃ and w = u_xx solve the linear problem driven by the truncation terms of
+/// the scheme (driven_beam.hpp, F to the heat equation and H to the beam's).
+///
+/// Time. Euler: F = ½(θ̃_tt − α w_tt), H = ½ζ w_tt; BDF2: F = ⅓(θ̃_ttt − α w_ttt), H = ⅓ζ w_ttt; a
+/// Runge–Kutta scheme of order 2, with C₁ = ½Σ b c² − 1/6 and C₂ = Σ_i b_i (Σ_j a_ij c_j − c_i²/2):
+/// F = C₁(θ̃_ttt − α w_ttt) + C₂ θ̃_xxtt, H = C₁ζ w_ttt − C₂(w_tt + α θ̃_tt).
+///
+/// Space. Linear elements interpolate with I_hθ̃ − θ̃ = ½ξ(1 − ξ)h² θ̃_xx, on average h²θ̃_xx/12, and
+/// what P1disc leaves of w is ½(ξ² − ξ + 1/6)h² w_xx. N = Θ − I_hθ̃ at the nodes and d = W − Πw obey
+/// F = −θ̃_xxt/12, with the lumped mass matrix +θ̃_xxt/12 as it adds h²/6 (θ̃_xt, χ_x), and
+/// H = −α θ̃_xx/12. So, over h⁴,
+///
+///     ‖e_θ‖² = ∫ N² + Nθ̃_xx/6 + θ̃_xx²/120,   ‖e_w‖² = ∫ d² + w_xx²/720,   ‖e_θx‖² = h⁻²∫ θ̃_xx²/12,
+///
+/// u_x and u have the integrals of d; without it h⁶∫w_xx²/30240 and h⁸∫w_xx²/362880.
+///
+/// Not known where a contact begins or ends, at penalised stops that are touched, where a phase
+/// ends, for SDIRK2 without viscosity, and where the driven problem does not settle to 0.2 %.
+/// Throws InputError as expected_orders does.
+ErrorConstants error_constants(const Solution& solution, const Beam& beam, double final_time,
+                               const std::string& time_scheme, ThermalMass mass);
+
+} // namespace tvbeam

@@ -1,0 +1,232 @@
+// The sizes of the leading errors, forecast from the modified equations, against those of runs.
+
+#include "mms/forecast/error_constants.hpp"
+
+#include "core/run.hpp"
+#include "mms/manufactured_problem.hpp"
+#include "mms/text/input_error.hpp"
+#include "studies/gates/check.hpp"
+#include "studies/orders/known_orders.hpp"
+#include "studies/scene/shipped.hpp"
+#include "studies/scene/solution_setting.hpp"
+#include "tests/temporary_directory.hpp"
+
+#include <boost/test/data/monomorphic.hpp>
+#include <boost/test/data/test_case.hpp>
+#include <boost/test/unit_test.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+using namespace tvbeam;
+namespace data = boost::unit_test::data;
+
+BOOST_AUTO_TEST_SUITE(error_constant)
+
+namespace {
+
+std::vector<std::string> shipped() {
+    if (TVBEAM_SHORT_TESTS) // the constants are those of any build
+        return {"end-moment"};
+    std::vector<std::string> names;
+    for (const auto& file : shipped_files(Shipped::solution))
+        names.push_back(file.name);
+    return names;
+}
+
+/// Where one term is measured, the other is less than this part of it, in every norm.
+constexpr double hidden = 2e-3;
+constexpr double within = 0.02;
+
+using Term = std::optional<LeadingTerm> NormConstants::*;
+
+/// The width at which the other term is that small beside this one at its width.
+double hiding_width(const ErrorConstants& forecast, Term shown, double width, Term other) {
+    double least = 1.0;
+    for (const auto& norm : forecast.norms)
+        if (const auto& one = norm.*shown, &two = norm.*other; one && two && two->constant > 0.0)
+            least = std::min(least, std::pow(hidden * one->constant * std::pow(width, one->order) /
+                                                 two->constant,
+                                             1.0 / two->order));
+    return least;
+}
+
+struct Case {
+    SolutionSetting setting;
+    ProblemData problem;
+    ErrorConstants forecast;
+    std::string time;
+    ThermalMass mass;
+
+    Case(const std::string& name, const std::string& scheme, ThermalMass of_heat)
+        : setting(solution_setting(name)),
+          forecast(
+              error_constants(setting.solution, setting.beam, setting.final_time, scheme, of_heat)),
+          time(scheme), mass(of_heat) {
+        if (forecast.unknown.empty())
+            problem = manufactured_problem(setting.solution, setting.beam, setting.final_time);
+    }
+
+    /// All norms, not their squares.
+    [[nodiscard]] std::vector<double> errors(std::int64_t elements, std::int64_t steps) const {
+        RunRequest request{setting.beam,
+                           Mesh::uniform(elements),
+                           Scheme{.thermal_mass = mass, .time = TimeScheme::named(time)},
+                           setting.final_time,
+                           steps,
+                           {},
+                           {}};
+        for (const auto& norm : forecast.norms)
+            request.norms.push_back(*Norm::named(norm.norm));
+        RunResult run = tvbeam::run(request, problem);
+        BOOST_REQUIRE_MESSAGE(run.status == RunStatus::ok, run.reason);
+        for (std::size_t k = 0; k < run.errors.size(); ++k)
+            if (request.norms[k].squared)
+                run.errors[k] = std::sqrt(run.errors[k]);
+        return run.errors;
+    }
+};
+
+/// A constant at two widths, extrapolated with the order of the next term.
+void compare(const std::string& what, const LeadingTerm& term, double coarse, double error,
+             double fine, double finer_error, double next) {
+    const double first = error / std::pow(coarse, term.order);
+    const double second = finer_error / std::pow(fine, term.order);
+    const double found = second + (second - first) / (std::pow(coarse / fine, next) - 1.0);
+    BOOST_TEST_MESSAGE(what << " " << term.constant << " forecast, " << found << " measured, ratio "
+                            << term.constant / found);
+    BOOST_TEST(std::abs(term.constant / found - 1.0) < within,
+               what << ": " << term.constant << " forecast, " << found << " measured");
+}
+
+/// Source terms that do not separate are evaluated at every point in every step.
+bool is_separable(const Case& one) {
+    return one.problem.heat_source.is_separable() && one.problem.moment_load.is_separable();
+}
+
+std::int64_t most_elements(const Case& one) {
+    return is_separable(one) ? 16384 : 512;
+}
+
+/// Whether the error of space on the finest mesh is seen beside that of twice as many steps.
+bool space_shows(const Case& one, const NormConstants& norm, std::int64_t steps) {
+    constexpr double seen = 0.01;
+    const double dt = one.setting.final_time / static_cast<double>(2 * steps);
+    const double h = 1.0 / static_cast<double>(most_elements(one));
+    return norm.in_h && norm.in_h->constant * std::pow(h, norm.in_h->order) >
+                            seen * norm.in_dt->constant * std::pow(dt, norm.in_dt->order);
+}
+
+} // namespace
+
+// With steps so small that the error of time is hidden, on 32 and 64 elements.
+BOOST_DATA_TEST_CASE(in_space_is_that_of_runs, data::make(shipped()) * data::make({false, true}),
+                     name, lumped) {
+    const Case one(name, "sdirk2", lumped ? ThermalMass::lumped : ThermalMass::consistent);
+    BOOST_TEST_MESSAGE(name << ": " << one.forecast.unknown);
+    if (!one.forecast.unknown.empty())
+        return;
+    const double dt =
+        hiding_width(one.forecast, &NormConstants::in_h, 1.0 / 64, &NormConstants::in_dt);
+    const auto steps = std::max<std::int64_t>(64, std::llround(one.setting.final_time / dt));
+    const auto coarse = one.errors(32, steps);
+    const auto fine = one.errors(64, steps);
+    for (std::size_t k = 0; k < coarse.size(); ++k)
+        if (const auto& term = one.forecast.norms[k].in_h; term && term->constant > 0.0)
+            compare(name + (lumped ? ", lumped, " : ", consistent, ") + one.forecast.norms[k].norm +
+                        ": a",
+                    *term, 1.0 / 32, coarse[k], 1.0 / 64, fine[k], 2.0);
+}
+
+// On meshes so fine that the error of space is hidden, in 128 and 256 steps or fewer.
+BOOST_DATA_TEST_CASE(in_time_is_that_of_runs,
+                     data::make(shipped()) * data::make(TimeScheme::names()), name, time) {
+    const Case one(name, time, ThermalMass::consistent);
+    BOOST_TEST_MESSAGE(name << ": " << one.forecast.unknown);
+    if (!one.forecast.unknown.empty())
+        return;
+    for (std::size_t k = 0; k < one.forecast.norms.size(); ++k) {
+        const auto& norm = one.forecast.norms[k];
+        if (!norm.in_dt || norm.in_dt->constant == 0.0)
+            continue;
+        ErrorConstants alone{{}, {norm}};
+        // Fewer steps where on the finest mesh the error of space would show beside that of so
+        // many.
+        const std::int64_t steps = !space_shows(one, norm, 128)  ? 128
+                                   : !space_shows(one, norm, 64) ? 64
+                                                                 : 32;
+        const double dt = one.setting.final_time / static_cast<double>(steps);
+        const double h = hiding_width(alone, &NormConstants::in_dt, dt / 2.0, &NormConstants::in_h);
+        // Slopes of linear elements never are that small; else a forecast that is far too small
+        // must not be passed over.
+        const bool slopes = norm.in_h && norm.in_h->order < 2.0;
+        if (1.0 / h > static_cast<double>(most_elements(one)) && (slopes || !is_separable(one)))
+            continue;
+        Case single = one;
+        single.forecast = alone;
+        const auto elements =
+            std::clamp<std::int64_t>(std::llround(1.0 / h), 16, most_elements(one));
+        compare(name + ", " + time + ", " + norm.norm + ": b", *norm.in_dt, dt,
+                single.errors(elements, steps)[0], dt / 2.0, single.errors(elements, 2 * steps)[0],
+                1.0);
+    }
+}
+
+// On a square grid e² with known terms of the next order is met to round-off, whatever its sizes.
+BOOST_AUTO_TEST_CASE(sizes_of_terms_of_known_orders_are_found_beneath_the_next_ones) {
+    std::vector<Refinement> records;
+    for (const double h : {0.1, 0.05, 0.025, 0.0125})
+        for (const double dt : {0.04, 0.02, 0.01, 0.005}) {
+            const double space = 3.0 * h * h;
+            const double time = 0.7 * dt;
+            const double square = space * space * (1.0 + 5.0 * h * h) -
+                                  1.2 * space * time * (1.0 + dt) + time * time * (1.0 + 3.0 * dt);
+            records.push_back({.h = h, .dt = dt, .error = std::sqrt(square)});
+        }
+    const auto sizes = fit_known_orders(records, 2.0, 1.0);
+    BOOST_REQUIRE_MESSAGE(sizes.a && sizes.b, sizes.failure);
+    BOOST_TEST(std::abs(sizes.a->value - 3.0) < 1e-9);
+    BOOST_TEST(std::abs(sizes.b->value - 0.7) < 1e-9);
+    records.resize(6);
+    BOOST_TEST(!fit_known_orders(records, 2.0, 1.0).failure.empty());
+}
+
+// The gate of [orders] sees a defect of the scheme's own order, and says where nothing is forecast.
+BOOST_AUTO_TEST_CASE(gates_catch_a_defect_of_the_scheme_s_own_order) {
+    const TemporaryDirectory directory;
+    const auto found = [&](const std::string& scene, const std::vector<std::string>& overrides) {
+        std::vector<std::string> metrics;
+        const auto result = run_study(read_scene(
+            directory.write("s.toml", scene + "[expect.orders.theta_L2L2]\nforecast = 0.02\n"),
+            overrides, {.expectations = true}));
+        for (const auto& one : check(result))
+            metrics.push_back(one.what + (one.holds ? " holds" : " " + one.found));
+        return metrics;
+    };
+    const std::string grid = "[orders]\nfinal_time = 1.0\nelements = [8, 16, 32, 64]\n"
+                             "dt = [0.02, 0.01, 0.005, 0.0025]\nnorms = ['theta_L2L2']\n";
+    const std::string scene =
+        "solution = 'free-oscillation'\n[beam]\nalpha = 0.3\nzeta = 0.05\n" + grid;
+    const std::string a = "orders.theta_L2L2: a over its forecast";
+    const std::string b = "orders.theta_L2L2: b over its forecast";
+    BOOST_TEST(found(scene, {}) == (std::vector<std::string>{a + " holds", b + " holds"}),
+               boost::test_tools::per_element());
+    // Euler's own term is dt θ_tt/2; here it is 8 % more.
+    const auto late = found(scene, {"defect.heat_source='0.04*dt*(-9)*theta'"});
+    BOOST_TEST(late[0] == a + " holds");
+    BOOST_TEST(late[1] != b + " holds", late[1]);
+    const auto wide = found(scene, {"defect.heat_source='h^2*theta_xx/5'"});
+    BOOST_TEST(wide[0] != a + " holds", wide[0]);
+    const auto paper = found("solution = 'copetti-fernandez-2011'\n[beam]\nalpha = 0.017\n"
+                             "zeta = 0.1\nstops = [-0.02, 0.1]\n" +
+                                 grid,
+                             {"orders.final_time=2"});
+    BOOST_TEST(paper == std::vector<std::string>{"orders.theta_L2L2: a, b over its forecast no "
+                                                 "forecast: a contact begins at t = 1.41421"},
+               boost::test_tools::per_element());
+    BOOST_CHECK_THROW(found(scene, {"expect.orders.theta_L2L2.forecast=0.9"}), InputError);
+}
+
+BOOST_AUTO_TEST_SUITE_END()

@@ -1,0 +1,62 @@
+// Shipped scenes use, and expect something of, all that a scene can use.
+
+#include "studies/gates/features.hpp"
+
+#include <boost/test/unit_test.hpp>
+
+#include <algorithm>
+
+using namespace tvbeam;
+
+BOOST_AUTO_TEST_SUITE(features)
+
+namespace {
+
+/// The names of those that no scene uses.
+std::vector<std::string> unused(const std::vector<Feature>& features) {
+    std::vector<std::string> names;
+    for (const auto& feature : features)
+        if (feature.scenes.empty())
+            names.push_back(feature.name);
+    return names;
+}
+
+bool has(const std::vector<std::string>& names, const std::string& name) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+} // namespace
+
+BOOST_AUTO_TEST_CASE(every_feature_and_every_pair_stands_in_a_scene_with_expectations) {
+    const FeatureTable table = feature_table();
+    for (const auto& name : unused(table.features))
+        BOOST_ERROR("no scene with [expect] has the feature: " << name);
+    for (const auto& name : unused(table.pairs))
+        BOOST_ERROR("no run that [expect] looks at has both: " << name);
+}
+
+// Without the scenes that have them, features and pairs are missed: those of keys, words of
+// choices, functions, norms, probes and runs.
+BOOST_AUTO_TEST_CASE(what_no_scene_uses_is_told) {
+    std::vector<ShippedFile> few;
+    for (const auto& file : shipped_files(Shipped::scene))
+        if (file.name == "table1" || file.name == "figure1")
+            few.push_back(file);
+    const FeatureTable table = feature_table(few);
+    const auto features = unused(table.features);
+    for (const std::string missed :
+         {"key mesh", "key reference", "key scheme.time = bdf2", "formula atan",
+          "formula x^n, n > 4", "norm sigma_L2", "probe of deflection between nodes", "mesh graded",
+          "zeta zero", "contact by penalty", "march by the fixed point"})
+        BOOST_TEST(has(features, missed), missed);
+    for (const std::string used : {"key beam.stops", "formula sin", "norm theta_L2L2",
+                                   "probe of tip", "march in sines", "contact with two stops"})
+        BOOST_TEST(!has(features, used), used);
+    const auto pairs = unused(table.pairs);
+    BOOST_TEST(has(pairs, "time bdf2, mesh graded"));
+    BOOST_TEST(has(pairs, "theta_A not zero, source that does not separate"));
+    BOOST_TEST(!has(pairs, "time euler, contact with two stops"));
+    BOOST_TEST(!has(pairs, "mesh graded, march in sines")); // which cannot be
+}
+
+BOOST_AUTO_TEST_SUITE_END()
