@@ -171,6 +171,8 @@ private:
     [[nodiscard]] Forecast in_time(Method method, double Switch::*own, double until) const {
         if (method == Method::euler)
             return exactly(1.0);
+        if (method == Method::bdf2 && known_.is_quadratic)
+            return exactly(3.0);
         const bool kink =
             std::any_of(known_.switches.begin(), known_.switches.end(), [&](const Switch& change) {
                 return change.t <= until &&
@@ -312,6 +314,9 @@ std::vector<std::string> reasons(const ExpectedOrders& known, const Beam& beam) 
                                            : "u_xx is linear in t, and alpha = 0: no scheme has a "
                                              "time error in u, and no order in dt is visible "
                                              "there.");
+    if (known.is_quadratic)
+        text.emplace_back("theta and u_xx are quadratic in t: BDF2 has no error but that of its "
+                          "first step, which SDIRK2 makes: order 3.");
     for (const Switch& change : known.switches)
         if (change.theta_t_jump > 0.0 || change.u_xxt_jump > 0.0)
             text.push_back("at t = " + number_text(change.t) + " " +
@@ -351,6 +356,10 @@ ExpectedOrders expected_orders(const Solution& solution, const Beam& beam, doubl
         result.theta_has_time_error = !theta_is_linear || (coupled && !u_is_linear);
         result.u_has_time_error =
             coupled ? result.theta_has_time_error : beam.zeta != 0.0 && !u_is_linear;
+        result.is_quadratic = result.switches.empty() &&
+                              (result.theta_has_time_error || result.u_has_time_error) &&
+                              vanishes(derived, &DerivedPhase::theta, s.t, 3) &&
+                              vanishes(derived, &DerivedPhase::u_xx, s.t, 3);
         result.orders = Orders(result, beam).all();
         result.reasons = reasons(result, beam);
         return result;

@@ -46,6 +46,8 @@ struct ExpectedOrders {
     bool u_is_exact = false;     ///< u is cubic in x: the C¹ cubics hold it
     bool theta_has_time_error = true;
     bool u_has_time_error = true;
+    bool is_quadratic =
+        false; ///< in t, what is differenced: BDF2 differs from it by its start alone
     std::vector<Switch> switches; ///< those before final_time
     ContactHistory contact;       ///< at rigid stops; at penalised ones touch alone
     double law_distance = 0.0;    ///< ExactSolution::law_distance
@@ -65,7 +67,9 @@ struct ExpectedOrders {
 ///   u_xx, and where ζ = 0 nothing. The coupling passes the errors on. Where θ̃_t or u_xxt jumps
 ///   at the part s of a step, the defect is of order 1: for BDF2, which looks one step behind, the
 ///   sum over the steps is (s − 1/2)Δt times the jump; SDIRK2 has none at a level. What of the jump
-///   is along 1 − x a stop may take away. So the order is 1 to 2.
+///   is along 1 − x a stop may take away. So the order is 1 to 2. Where what is differenced is
+///   quadratic in time BDF2 is exact but for its first step, of SDIRK2, whose error O(Δt³)
+///   stays: 3.
 /// - of the stress at rigid stops: as long as the tip is pressed and has been from t = 0 on, the
 ///   order p of u. When a contact begins, the computed tip has an error e = O(Δt^p) and comes to
 ///   the stop too early or too late by τ. Too early: the gap ~ τ^m is e, and the stop takes away a

@@ -49,8 +49,8 @@ struct ErrorConstants {
 /// u_x and u have the integrals of d; without it h⁶∫w_xx²/30240 and h⁸∫w_xx²/362880.
 ///
 /// Not known where a contact begins or ends, at penalised stops that are touched, where a phase
-/// ends, for SDIRK2 without viscosity, and where the driven problem does not settle to 0.2 %.
-/// Throws InputError as expected_orders does.
+/// ends, for BDF2 where the solution is quadratic in time, for SDIRK2 without viscosity, and where
+/// the driven problem does not settle to 0.2 %. Throws InputError as expected_orders does.
 ErrorConstants error_constants(const Solution& solution, const Beam& beam, double final_time,
                                const std::string& time_scheme, ThermalMass mass);
 

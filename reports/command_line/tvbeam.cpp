@@ -44,6 +44,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -148,6 +149,8 @@ int run_command(const RunOptions& options) {
     }
     Destination json = destination(options.json);
     Destination csv = destination(options.csv);
+    if (scene.defect && csv.wanted() && !options.quiet)
+        say("the CSV holds results with a deliberate defect, not the problem's");
     const StudyResult result = run_shown(scene, options.quiet, options.jobs, kept);
     // Files first: what standard output goes to may be gone.
     if (out) {
@@ -225,17 +228,18 @@ int check_command(const CheckOptions& options) {
     std::vector<StudyResult> results;
     std::vector<CheckedScene> checked;
     for (const auto& scene : scenes) {
+        const std::string shown = scene.name + (scene.defect ? " (with a deliberate defect)" : "");
         const auto start = std::chrono::steady_clock::now();
         std::optional<Checkpoint> none;
         results.push_back(run_shown(scene, options.quiet, options.jobs, none));
         const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
         if (results.back().interrupted()) {
-            checked.push_back({scene.name, elapsed.count(), "it was interrupted", {}});
+            checked.push_back({shown, elapsed.count(), "it was interrupted", {}});
             say("interrupted in " + scene.name);
             break;
         }
         checked.push_back(
-            {scene.name, elapsed.count(), results.back().ending().reason, check(results.back())});
+            {shown, elapsed.count(), results.back().ending().reason, check(results.back())});
         if (baseline) {
             const auto more = baseline->check(baseline_entry(results.back()), options.tolerance);
             checked.back().expectations.insert(checked.back().expectations.end(), more.begin(),
@@ -356,28 +360,38 @@ int list_command() {
     return done;
 }
 
-int features_command() {
+/// Those whose name holds the word, each with all its scenes; without a word a line each, with two.
+int features_command(const std::string& word) {
     const FeatureTable table = feature_table();
     std::string text;
+    std::string counts;
     const auto add = [&](const std::string& what, const std::vector<Feature>& features) {
-        const auto used = std::count_if(features.begin(), features.end(),
-                                        [](const Feature& one) { return !one.scenes.empty(); });
-        text +=
-            fmt::format("{}, {} of {} in a scene with [expect]:\n", what, used, features.size());
-        for (const auto& [name, scenes] : features)
-            text += wrapped(fmt::format("{}: {}", name,
-                                        scenes.empty() ? "none"
-                                                       : fmt::format("{} scenes: {}", scenes.size(),
-                                                                     fmt::join(scenes, ", "))),
-                            4);
+        text += what + ":\n";
+        std::size_t used = 0;
+        for (const auto& [name, scenes] : features) {
+            used += scenes.empty() ? 0 : 1;
+            if (name.find(word) == std::string::npos)
+                continue;
+            const bool all = !word.empty() || scenes.size() <= 2;
+            const auto shown = std::span(scenes).first(all ? scenes.size() : 2);
+            const std::string line =
+                scenes.empty()
+                    ? "none"
+                    : fmt::format("{} scene{}: {}{}", scenes.size(), scenes.size() == 1 ? "" : "s",
+                                  fmt::join(shown, ", "), all ? "" : ", …");
+            text += word.empty() ? fmt::format("  {}: {}\n", name, line)
+                                 : wrapped(fmt::format("  {}: {}", name, line), 4);
+        }
         text += "\n";
+        counts +=
+            fmt::format("{}: {} of {} in a scene with [expect]\n", what, used, features.size());
     };
     add("Features", table.features);
     add("Pairs of what a run consists of", table.pairs);
     text += "Needed in no scene:\n";
     for (const auto& [name, reason] : table.exceptions)
-        text += wrapped(fmt::format("{}: {}", name, reason), 4);
-    write_standard_output(text);
+        text += wrapped(fmt::format("  {}: {}", name, reason), 4);
+    write_standard_output(text + "\n" + counts);
     return done;
 }
 
@@ -611,13 +625,19 @@ Command add_list(CLI::App& app) {
     auto* list =
         app.add_subcommand("list", "List the shipped scenes and solutions.\nExample: tvbeam list");
     const auto names = std::make_shared<bool>(false);
-    const auto features = std::make_shared<bool>(false);
+    const auto word = std::make_shared<std::string>();
     list->add_flag("--names", *names, "the names alone, one a line");
-    list->add_flag("--features", *features,
-                   "what scenes can use, and which of those with [expect] do, also in pairs")
-        ->excludes("--names");
-    return {list, [names, features] {
-                return *features ? features_command() : *names ? names_command() : list_command();
+    const auto* features =
+        list->add_option("--features", *word,
+                         "what scenes can use, and which of those with [expect] do, also in pairs; "
+                         "with a word, those with it in their names, and all their scenes")
+            ->expected(0, 1)
+            ->type_name("[WORD]")
+            ->excludes("--names");
+    return {list, [names, word, features] {
+                return features->count() > 0 ? features_command(*word)
+                       : *names              ? names_command()
+                                             : list_command();
             }};
 }
 

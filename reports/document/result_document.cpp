@@ -86,6 +86,8 @@ std::string reference_line(const Scene& scene, const ReferenceResult& result) {
         line += ", with half of s, and with twice dt";
     if (scene.has_exact_solution())
         line += "; not against the exact solution that the scene has";
+    if (scene.defect)
+        line += "; without the defect";
     if (!result.failure.empty())
         line += "; it failed: " + result.failure;
     return line;

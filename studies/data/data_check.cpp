@@ -148,6 +148,9 @@ private:
 std::vector<CheckedExpectation> check(const DataAnalysis& analysis,
                                       const std::string& expectations) {
     std::error_code ignored;
+    if (expectations.empty())
+        throw InputError({"--expect"}, "is empty; give a file of expectations, or one of them as "
+                                       "'L2.order = [1.9, 2.1]'");
     const bool is_text = expectations.find('=') != std::string::npos &&
                          !std::filesystem::exists(expectations, ignored);
     const TomlDocument document =

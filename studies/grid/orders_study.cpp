@@ -128,9 +128,9 @@ struct OrdersStudy final : KindOf<OrdersBlock, OrdersResult> {
                     });
                 });
             if (const auto within = norm.number("forecast")) {
-                if (!(*within > 0.0 && *within < 0.5))
-                    throw norm.error("forecast", " must be a part between 0 and 0.5: by how much a "
-                                                 "and b may differ from their forecasts");
+                if (!(*within > 0.0 && *within <= widest_part))
+                    throw norm.error("forecast", " must be > 0 and at most 0.5: by what part a and "
+                                                 "b may differ from their forecasts");
                 expectations.push_back(in_band(1.0 - *within, 1.0 + *within, norm.place("forecast"),
                                                [k, within = *within](const StudyResult& result) {
                                                    return forecast_metrics(k, within, result);

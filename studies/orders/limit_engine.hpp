@@ -15,6 +15,7 @@
 /// The limit is the mean with weights 1 / u_m², its interval their spread, as in order_engine.hpp.
 #pragma once
 
+#include "studies/orders/named_limits.hpp"
 #include "studies/orders/order_engine.hpp"
 
 #include <limits>
@@ -23,21 +24,6 @@
 #include <string>
 
 namespace tvbeam {
-
-struct ValueRow {
-    double h = 0;
-    double value = 0;
-    /// Standard deviation; NaN: unknown. Counts where all rows have one.
-    double sigma = std::numeric_limits<double>::quiet_NaN();
-};
-
-/// A named method's own figure: the limit it goes to and its uncertainty of the finest value.
-struct MethodLimit {
-    double limit = 0;
-    double uncertainty = 0;
-    double order = 0; ///< NaN where the model has none
-    std::string model;
-};
 
 struct LimitTuning {
     double factor = 1.1;     ///< half of the interval over the spread
@@ -60,12 +46,5 @@ struct LimitEstimate {
 /// Rows that are not finite are passed over; rows of one width are averaged. Values whose steps
 /// grow up to the finest have no limit, and the status says so.
 LimitEstimate estimate_limit(std::span<const ValueRow> rows, const LimitTuning& tuning = {});
-
-/// The three finest levels; none where they oscillate, stand still or run apart.
-std::optional<MethodLimit> gci_of(std::span<const ValueRow> levels);
-/// The same levels, with the order of |ε_32 / ε_21| and its sign (their eq. 3): oscillation too.
-std::optional<MethodLimit> celik_of(std::span<const ValueRow> levels);
-/// Least squares, weighted by 1/h and not, of the four models of Eça and Hoekstra; four levels.
-std::optional<MethodLimit> eca_hoekstra_of(std::span<const ValueRow> levels);
 
 } // namespace tvbeam

@@ -187,6 +187,27 @@ BOOST_AUTO_TEST_CASE(a_solution_linear_in_time_has_no_time_residual) {
     }
 }
 
+// A quadratic is what BDF2 differentiates exactly; its first step is one of another scheme.
+BOOST_AUTO_TEST_CASE(bdf2_has_order_three_where_a_solution_is_quadratic_in_time) {
+    const auto of_bdf2 = [](const std::string& theta, const std::string& u) {
+        const Solution solution = parse_solution(
+            "theta = 'x*(1 - x)*(" + theta + ")'\nu = 'x^2*(" + u + ")/100'\n", "my.toml");
+        const Beam beam{0.4, 0.15, 0.0, {}};
+        if (const Forecast& order = expected_orders(solution, beam, 1.0).orders[0].bdf2;
+            order.is_known() && order.least == order.greatest)
+            return order.least;
+        return 0.0;
+    };
+    BOOST_TEST(of_bdf2("1 - 2*t^2", "t") == 3.0);
+    BOOST_TEST(of_bdf2("t", "t^2") == 3.0);
+    BOOST_TEST(of_bdf2("t^2", "t^3") == 2.0);
+    BOOST_TEST(of_bdf2("t^3", "t") == 2.0);
+    const Solution solution =
+        parse_solution("theta = 'sin(pi*x)*t^2'\nu = 'x^2*t^2/100'\n", "my.toml");
+    BOOST_TEST(time_residuals(solution, {0.4, 0.15, 0.0, {}}, 1.0, "bdf2", {16, 32}).back().heat ==
+               0.0);
+}
+
 // Without coupling each equation has the time error of what it differences itself: the heat
 // equation of theta, the beam equation, if zeta is not 0, of u_xx.
 BOOST_AUTO_TEST_CASE(a_time_error_is_forecast_where_a_residual_is) {

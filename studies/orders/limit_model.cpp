@@ -1,0 +1,99 @@
+#include "studies/orders/limit_model.hpp"
+
+#include <Eigen/QR>
+
+#include <algorithm>
+#include <cmath>
+
+namespace tvbeam {
+
+namespace {
+
+/// The standard deviation at weight one: from the residuals, with Student's factor, or known.
+double deviation_of(const LinearFit& fit, const Weights& weights) {
+    return std::max(fit.dof > 0 ? std::sqrt(fit.square / fit.dof) * student_over_normal(fit.dof)
+                                : 0.0,
+                    weights.scatter);
+}
+
+/// For a given order all else is linear.
+LinearFit fit_at(std::span<const ValueRow> rows, const Weights& weights, double order,
+                 const LimitModel& model) {
+    const auto n = static_cast<Eigen::Index>(rows.size());
+    const int columns = model.next ? 3 : 2;
+    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 64, 3> design(n, columns);
+    Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 64, 1> right(n);
+    const double unit = rows.front().h;
+    for (Eigen::Index i = 0; i < n; ++i) {
+        const auto& row = rows[static_cast<std::size_t>(i)];
+        const double x = row.h / unit;
+        const double w = std::sqrt(weights.relative[i]);
+        design(i, 0) = w;
+        design(i, 1) = w * std::pow(x, order);
+        if (model.alternating && i % 2 == 1)
+            design(i, 1) = -design(i, 1);
+        if (model.next)
+            design(i, 2) = design(i, 1) * x;
+        right[i] = w * (row.value - rows.back().value);
+    }
+    const Eigen::HouseholderQR<decltype(design)> qr(design);
+    const Eigen::VectorXd x = qr.solve(right);
+    LinearFit fit{.limit = rows.back().value + x[0],
+                  .order = order,
+                  .square = (right - design * x).squaredNorm(),
+                  .dof = static_cast<int>(n) - model.parameters()};
+    fit.finest = rows.back().value + design.row(n - 1).dot(x) / std::sqrt(weights.relative[n - 1]);
+    if (const double deviation = deviation_of(fit, weights); deviation > 0) {
+        const Eigen::MatrixXd root =
+            qr.matrixQR().topRows(columns).template triangularView<Eigen::Upper>().solve(
+                Eigen::MatrixXd::Identity(columns, columns));
+        fit.limit_error = deviation * root.row(0).norm();
+    }
+    return fit;
+}
+
+} // namespace
+
+std::optional<LinearFit> fit_limit_model(std::span<const ValueRow> rows, const Weights& weights,
+                                         const LimitModel& model) {
+    if (static_cast<int>(rows.size()) < model.parameters())
+        return std::nullopt;
+    const auto at = [&](double p) { return fit_at(rows, weights, p, model); };
+    if (model.order)
+        return at(*model.order);
+    constexpr int net = 24;
+    const double step = std::log(greatest_order / least_order) / net;
+    int best = 0;
+    double least = infinity;
+    for (int k = 0; k <= net; ++k)
+        if (const double square = at(least_order * std::exp(k * step)).square; square < least) {
+            least = square;
+            best = k;
+        }
+    if (best == 0 || best == net)
+        return std::nullopt;
+    double low = least_order * std::exp((best - 1) * step);
+    double high = least_order * std::exp((best + 1) * step);
+    const double golden = (std::sqrt(5.0) - 1) / 2;
+    for (int k = 0; k < 40; ++k) {
+        const double left = high - golden * (high - low);
+        const double right = low + golden * (high - low);
+        (at(left).square < at(right).square ? high : low) =
+            at(left).square < at(right).square ? right : left;
+    }
+    auto fit = at((low + high) / 2);
+    // The standard error at the best order knows nothing of the order's own: that of the linearised
+    // model does.
+    if (const double deviation = deviation_of(fit, weights); deviation > 0) {
+        const double d = 1e-3 * fit.order;
+        const auto above = at(fit.order + d), below = at(fit.order - d);
+        const double curvature = (above.square + below.square - 2 * fit.square) / (d * d) / 2;
+        const double slope = (above.limit - below.limit) / (2 * d);
+        if (curvature > 0)
+            fit.limit_error =
+                std::hypot(fit.limit_error, std::abs(slope) * deviation / std::sqrt(curvature));
+    }
+    return fit;
+}
+
+} // namespace tvbeam

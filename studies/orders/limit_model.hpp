@@ -1,0 +1,52 @@
+#pragma once
+
+#include "studies/orders/order_engine.hpp"
+
+#include <Eigen/Core>
+
+#include <limits>
+#include <optional>
+#include <span>
+
+namespace tvbeam {
+
+struct ValueRow {
+    double h = 0;
+    double value = 0;
+    /// Standard deviation; NaN: unknown. Counts where all rows have one.
+    double sigma = std::numeric_limits<double>::quiet_NaN();
+};
+
+/// The orders that are searched for one that is free.
+inline constexpr double least_order = 0.2;
+inline constexpr double greatest_order = 8;
+
+/// A model of f: powers of h beside the constant. One that is free is searched for.
+struct LimitModel {
+    std::optional<double> order; ///< none: free
+    bool next = false;           ///< a further term of one power more
+    bool alternating = false;    ///< C changes its sign from level to level
+    int parameters() const { return 2 + (order ? 0 : 1) + (next ? 1 : 0); }
+};
+
+struct LinearFit {
+    double limit = 0;
+    double limit_error = 0; ///< over 1.96 it is an interval's half; 0 without residuals and σ
+    double order = 0;
+    double square = infinity; ///< sum of weighted squares
+    double finest = 0;        ///< the model's value at the finest level
+    int dof = 0;
+};
+
+/// 1/σ² over its mean, and the standard deviation at weight one, 0 where it is not known.
+struct Weights {
+    Eigen::VectorXd relative;
+    double scatter = 0;
+};
+
+/// The weighted least-squares fit of a model to rows from coarse to fine; a free order is the best
+/// within the bounds, none at a bound. None where there are fewer rows than parameters.
+std::optional<LinearFit> fit_limit_model(std::span<const ValueRow> rows, const Weights& weights,
+                                         const LimitModel& model);
+
+} // namespace tvbeam

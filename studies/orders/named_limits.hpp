@@ -1,0 +1,30 @@
+/// The limits and uncertainties of values by the methods that have names, as their authors give
+/// them: for comparison beside the engine's own (limit_engine.hpp).
+#pragma once
+
+#include "studies/orders/limit_model.hpp"
+
+#include <optional>
+#include <span>
+#include <string>
+
+namespace tvbeam {
+
+/// A named method's own figure: the limit it goes to and its uncertainty of the finest value.
+struct MethodLimit {
+    double limit = 0;
+    double uncertainty = 0;
+    double order = 0; ///< NaN where the model has none
+    std::string model;
+};
+
+// Levels: coarse to fine, of different widths, finite.
+
+/// The three finest levels; none where they oscillate, stand still or run apart.
+std::optional<MethodLimit> gci_of(std::span<const ValueRow> levels);
+/// The same levels, with the order of |ε_32 / ε_21| and its sign (their eq. 3): oscillation too.
+std::optional<MethodLimit> celik_of(std::span<const ValueRow> levels);
+/// Least squares, weighted by 1/h and not, of the four models of Eça and Hoekstra; four levels.
+std::optional<MethodLimit> eca_hoekstra_of(std::span<const ValueRow> levels);
+
+} // namespace tvbeam
