@@ -41,7 +41,7 @@ std::chrono::duration<double> seconds_of(clockid_t clock) {
 }
 
 /// For work to end by itself: of computing, which a busy machine gives late, and at most.
-constexpr std::chrono::duration<double> grace{0.15};
+constexpr std::chrono::duration<double> grace{0.1};
 constexpr std::chrono::duration<double> longest_grace{2.0};
 constexpr int run_failed = 3; // the exit code
 

@@ -12,7 +12,7 @@ namespace tvbeam {
 /// read, the first ends the program.
 ///
 /// Work that asks made() often enough ends by itself and is reported. Work that does not, because
-/// one array takes long, is left as it is after 0.15 s of computing: `abandon` is called, in
+/// one array takes long, is left as it is after 0.1 s of computing: `abandon` is called, in
 /// another thread, and the program ends with exit code 3.
 class EndRequests {
 public:

@@ -699,6 +699,25 @@ int command_line(int argc, char** argv) {
     return called->call();
 }
 
+/// Words take memory, too.
+void say_no_memory() {
+    std::fputs("tvbeam: there is not enough memory\n", stderr);
+}
+
+/// Libraries run out of memory also where they say that they throw nothing.
+[[noreturn]] void terminate_said() {
+    try {
+        if (const auto exception = std::current_exception())
+            std::rethrow_exception(exception);
+    } catch (const std::bad_alloc&) {
+        say_no_memory();
+        std::_Exit(run_failed);
+    } catch (...) {
+        std::abort();
+    }
+    std::abort();
+}
+
 int reported_command_line(int argc, char** argv) {
     try {
         return command_line(argc, argv);
@@ -718,10 +737,11 @@ int reported_command_line(int argc, char** argv) {
 int main(int argc, char** argv) {
     // A closed pipe then fails the write, which is reported like any other.
     std::signal(SIGPIPE, SIG_IGN);
+    std::set_terminate(&terminate_said);
     try {
         return reported_command_line(argc, argv);
     } catch (const std::bad_alloc&) {
-        std::fputs("tvbeam: there is not enough memory\n", stderr); // words take memory, too
+        say_no_memory();
         return run_failed;
     }
 }

@@ -50,10 +50,8 @@ ReportDirectory::ReportDirectory(std::filesystem::path path, const ReportBlock& 
 ReportDirectory::~ReportDirectory() {
     if (lock_ >= 0)
         close(lock_);
-    std::error_code ignored;
     for (const auto& directory : made_)
-        if (std::filesystem::is_empty(directory, ignored) && !ignored)
-            std::filesystem::remove(directory, ignored);
+        rmdir(directory.c_str()); // fails where something was written
 }
 
 void ReportDirectory::make(const std::filesystem::path& directory) {

@@ -19,6 +19,7 @@
 #include <csignal>
 #include <ctime>
 #include <filesystem>
+#include <new>
 #include <sstream>
 #include <string_view>
 #include <system_error>
@@ -38,8 +39,12 @@ public:
                               "': " + std::generic_category().message(errno));
     }
     ~ScratchDirectory() {
-        std::error_code ignored;
-        std::filesystem::remove_all(path_, ignored);
+        try {
+            std::error_code ignored;
+            std::filesystem::remove_all(path_, ignored);
+        } catch (const std::bad_alloc&) {
+            return; // a later run takes it away
+        }
     }
     ScratchDirectory(const ScratchDirectory&) = delete;
     ScratchDirectory& operator=(const ScratchDirectory&) = delete;

@@ -133,7 +133,7 @@ BOOST_AUTO_TEST_CASE(a_file_without_end_is_refused) {
          {std::string("run /dev/zero"), std::string("derive /dev/zero"),
           std::string("analyse /dev/zero"), std::string("analyse - </dev/zero"),
           "check " + file + " --baseline /dev/zero"}) {
-        const Called called = call(directory, arguments, "ulimit -v 4000000; ");
+        const Called called = call(directory, arguments);
         BOOST_TEST(called.exit == 2, arguments);
         BOOST_TEST(has(called.errors, "bytes that are read at most"), called.errors);
     }

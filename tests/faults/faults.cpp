@@ -1,11 +1,13 @@
 // Makes calls of one program fail, loaded before its libraries (LD_PRELOAD):
 //
-//     TVBEAM_FAULT="write ENOSPC 7"    the seventh call of write() since main() began fails so, and no other
-//     TVBEAM_FAULT="write ENOSPC 7+"   every later one, too: the disk stays full
-//     TVBEAM_COUNTS=FILE               how many calls there were of each, one a line, when the program ends
+//     TVBEAM_FAULT="write ENOSPC 7"    the seventh call of write() since main() began fails so, and
+//     no other TVBEAM_FAULT="write ENOSPC 7+"   every later one, too: the disk stays full
+//     TVBEAM_COUNTS=FILE               how many calls there were of each, one a line, when the
+//     program ends
 //
-// Instead of an error: SHORT, half of what was asked for is read or written; KILL, the program is killed there.
-// malloc stands for everything that reserves memory, and its error is no memory, whichever is named.
+// Instead of an error: SHORT, half of what was asked for is read or written; KILL, the program is
+// killed there. malloc stands for everything that reserves memory, and its error is no memory,
+// whichever is named.
 
 #include <atomic>
 #include <cerrno>
@@ -31,8 +33,19 @@ void* __libc_memalign(std::size_t alignment, std::size_t size);
 
 namespace {
 
-enum Call { calls_write, calls_fsync, calls_rename, calls_open, calls_read, calls_close, calls_fork, calls_malloc, calls };
-constexpr const char* names[calls] = {"write", "fsync", "rename", "open", "read", "close", "fork", "malloc"};
+enum Call {
+    calls_write,
+    calls_fsync,
+    calls_rename,
+    calls_open,
+    calls_read,
+    calls_close,
+    calls_fork,
+    calls_malloc,
+    calls
+};
+constexpr const char* names[calls] = {"write", "fsync", "rename", "open",
+                                      "read",  "close", "fork",   "malloc"};
 
 struct NamedError {
     const char* name;
@@ -40,9 +53,9 @@ struct NamedError {
 };
 constexpr int is_short = -1;
 constexpr int is_kill = -2;
-constexpr NamedError errors[] = {{"EIO", EIO},       {"ENOSPC", ENOSPC}, {"EINTR", EINTR}, {"EMFILE", EMFILE},
-                                 {"EAGAIN", EAGAIN}, {"ENOMEM", ENOMEM}, {"EACCES", EACCES},
-                                 {"SHORT", is_short}, {"KILL", is_kill}};
+constexpr NamedError errors[] = {{"EIO", EIO},       {"ENOSPC", ENOSPC},  {"EINTR", EINTR},
+                                 {"EMFILE", EMFILE}, {"EAGAIN", EAGAIN},  {"ENOMEM", ENOMEM},
+                                 {"EACCES", EACCES}, {"SHORT", is_short}, {"KILL", is_kill}};
 
 std::atomic<bool> in_main = false;
 std::atomic<long> counts[calls];
@@ -83,7 +96,8 @@ void read_fault() {
     char call[16] = "";
     char error[16] = "";
     char after = ' ';
-    if (text == nullptr || std::sscanf(text, "%15s %15s %ld%c", call, error, &faulty_from, &after) < 3)
+    if (text == nullptr ||
+        std::sscanf(text, "%15s %15s %ld%c", call, error, &faulty_from, &after) < 3)
         return;
     for (const auto& known : errors)
         if (std::strcmp(known.name, error) == 0)
@@ -123,8 +137,8 @@ extern "C" {
 int __libc_start_main(int (*main)(int, char**, char**), int count, char** arguments, void (*init)(),
                       void (*fini)(), void (*loader)(), void* stack) {
     real_main = main;
-    return next<decltype(__libc_start_main)>("__libc_start_main")(counted_main, count, arguments, init, fini,
-                                                                  loader, stack);
+    return next<decltype(__libc_start_main)>("__libc_start_main")(counted_main, count, arguments,
+                                                                  init, fini, loader, stack);
 }
 
 ssize_t write(int descriptor, const void* from, size_t size) {
@@ -154,13 +168,16 @@ int fdatasync(int descriptor) {
 }
 
 int rename(const char* from, const char* to) {
-    return fails(calls_rename) ? -1 : static_cast<int>(syscall(SYS_renameat2, AT_FDCWD, from, AT_FDCWD, to, 0));
-}
-
-int renameat2(int from_directory, const char* from, int to_directory, const char* to, unsigned flags) {
     return fails(calls_rename)
                ? -1
-               : static_cast<int>(syscall(SYS_renameat2, from_directory, from, to_directory, to, flags));
+               : static_cast<int>(syscall(SYS_renameat2, AT_FDCWD, from, AT_FDCWD, to, 0));
+}
+
+int renameat2(int from_directory, const char* from, int to_directory, const char* to,
+              unsigned flags) {
+    return fails(calls_rename) ? -1
+                               : static_cast<int>(syscall(SYS_renameat2, from_directory, from,
+                                                          to_directory, to, flags));
 }
 
 int open(const char* path, int flags, ...) {
@@ -171,7 +188,8 @@ int open(const char* path, int flags, ...) {
         mode = va_arg(rest, mode_t);
         va_end(rest);
     }
-    return fails(calls_open) ? -1 : static_cast<int>(syscall(SYS_openat, AT_FDCWD, path, flags, mode));
+    return fails(calls_open) ? -1
+                             : static_cast<int>(syscall(SYS_openat, AT_FDCWD, path, flags, mode));
 }
 
 int open64(const char* path, int flags, ...) __attribute__((alias("open")));
@@ -188,10 +206,12 @@ int close(int descriptor) {
 }
 
 int posix_spawnp(pid_t* process, const char* file, const posix_spawn_file_actions_t* actions,
-                 const posix_spawnattr_t* attributes, char* const arguments[], char* const environment[]) {
+                 const posix_spawnattr_t* attributes, char* const arguments[],
+                 char* const environment[]) {
     if (fails(calls_fork))
         return errno;
-    return next<decltype(posix_spawnp)>("posix_spawnp")(process, file, actions, attributes, arguments, environment);
+    return next<decltype(posix_spawnp)>("posix_spawnp")(process, file, actions, attributes,
+                                                        arguments, environment);
 }
 
 void* malloc(size_t size) {
