@@ -171,10 +171,10 @@ int run_command(const RunOptions& options) {
     // Files first: what standard output goes to may be gone.
     if (out) {
         kept->write();
-        if (!kept->failure().empty())
-            say(kept->failure() + "; the runs behind it are not kept for --resume");
         if (const std::string left_out = out->write(reported(result)); !left_out.empty())
             say(left_out);
+        if (!kept->failure().empty())
+            say(kept->failure() + "; the runs behind it are not kept for --resume");
         if (!result.interrupted())
             kept->remove();
     }
@@ -704,18 +704,20 @@ void say_no_memory() {
     std::fputs("tvbeam: there is not enough memory\n", stderr);
 }
 
-/// Libraries run out of memory also where they say that they throw nothing.
+/// Libraries run out of memory also where they say that they throw nothing. Those of C++ then do
+/// not tell what was thrown.
 [[noreturn]] void terminate_said() {
     try {
         if (const auto exception = std::current_exception())
             std::rethrow_exception(exception);
+        std::fputs("tvbeam: cannot go on; is there enough memory?\n", stderr);
+        std::_Exit(run_failed);
     } catch (const std::bad_alloc&) {
         say_no_memory();
         std::_Exit(run_failed);
     } catch (...) {
         std::abort();
     }
-    std::abort();
 }
 
 int reported_command_line(int argc, char** argv) {

@@ -18,7 +18,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr const char* baseline_schema = "tvbeam-baseline/1";
-constexpr std::size_t largest_file = 64 << 20; // bytes
+constexpr std::size_t largest_baseline = 64 << 20; // bytes
 
 /// Figures of the size of round-off, which another compiler changes; they want a band of [expect].
 bool is_round_off(const std::string& figure) {
@@ -77,7 +77,7 @@ std::string baseline_of(const std::vector<BaselineEntry>& entries) {
 }
 
 Baseline::Baseline(const std::string& file) : file_(file) {
-    text_ = file_text(file, largest_file);
+    text_ = file_text(file, largest_baseline);
     const Json json = Json::parse(text_, nullptr, false);
     if (json.is_discarded() || !json.is_object() || !json.contains("schema") ||
         json["schema"] != baseline_schema || !json.contains("scenes") ||

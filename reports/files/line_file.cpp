@@ -15,7 +15,7 @@ namespace tvbeam {
 namespace {
 
 constexpr std::chrono::milliseconds between_flushes{500};
-constexpr std::size_t largest_file = std::size_t{1} << 30; // bytes
+constexpr std::size_t largest_line_file = std::size_t{1} << 30; // bytes
 
 } // namespace
 
@@ -30,7 +30,7 @@ void LineFile::fail() const {
 }
 
 bool LineFile::read(const std::function<void(std::size_t number, const std::string& line)>& visit) {
-    const std::string text = file_text(path_.string(), largest_file);
+    const std::string text = file_text(path_.string(), largest_line_file);
     std::size_t number = 0;
     std::size_t begin = 0;
     for (std::size_t end = 0; (end = text.find('\n', begin)) != std::string::npos; begin = end + 1)

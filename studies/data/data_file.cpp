@@ -314,10 +314,10 @@ void choose_figures(const Names& names, const DataChoice& choice, DataFile& data
 }
 
 /// Bytes; a record of ten figures has some two hundred.
-constexpr std::size_t largest_file = 64 << 20;
+constexpr std::size_t largest_table = 64 << 20;
 
 std::string text_of(const std::string& file) {
-    std::string text = file_text(file, largest_file);
+    std::string text = file_text(file, largest_table);
     constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
     if (text.starts_with(byte_order_mark))
         text.erase(0, byte_order_mark.size());
