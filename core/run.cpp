@@ -20,8 +20,12 @@ namespace tvbeam {
 
 namespace {
 
-/// Steps between two calls of RunRequest::advance.
-constexpr std::int64_t steps_between = 64;
+/// Steps between two calls of RunRequest::advance: few where each takes long.
+std::int64_t steps_between(const Mesh& mesh) {
+    constexpr std::int64_t most = 64;
+    constexpr std::int64_t elements = 1 << 17; // about a millisecond's
+    return std::clamp<std::int64_t>(elements / mesh.elements(), 1, most);
+}
 
 RunResult failure(const std::string& reason, const Counters& counters = {}) {
     return {.status = RunStatus::failed, .reason = reason, .counters = counters};
@@ -83,6 +87,7 @@ RunResult march(const RunRequest& request, const ProblemData& data, const Mesh& 
     if (observer != nullptr)
         observer->visit(0.0, *solver);
     TimeLevels levels(data, request.scheme.time, request.final_time, request.steps);
+    const std::int64_t between = steps_between(mesh);
     for (std::int64_t n = 1; n <= request.steps; ++n) {
         const StepSources sources = levels.at(n);
         const std::string reason = solver->step(sources);
@@ -94,7 +99,7 @@ RunResult march(const RunRequest& request, const ProblemData& data, const Mesh& 
                        sources.amplitudes.col(sources.amplitudes.cols() - 1));
         if (observer != nullptr)
             observer->visit(levels.time(n), *solver);
-        if (n % steps_between == 0 && request.advance && !request.advance(steps_between))
+        if (n % between == 0 && request.advance && !request.advance(between))
             return {.status = RunStatus::interrupted};
     }
     RunResult result{.counters = solver->counters()};

@@ -195,7 +195,9 @@ ModeArrays::ModeArrays(Eigen::Index modes, Eigen::Index arrays) {
 ModeArrays::Array ModeArrays::operator[](Eigen::Index array) {
     if (packs_.empty()) // a single element has no modes
         return {nullptr, 0};
-    return {packs_.front().lanes + array * stride_ * Pack::size, stride_ * Pack::size};
+    // Packs have no gaps; a pointer into one would end with it.
+    auto* doubles = reinterpret_cast<double*>(packs_.data());
+    return {doubles + array * stride_ * Pack::size, stride_ * Pack::size};
 }
 
 std::int64_t ModeArrays::size() const {

@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
+#include <new>
 #include <string_view>
 #include <utility>
 
@@ -64,6 +65,8 @@ ex guarded(const Operation& operation, const std::string& complaint) {
         result = operation();
     } catch (const AlgebraError&) {
         throw;
+    } catch (const std::bad_alloc&) {
+        throw; // the machine's fault, not the expression's
     } catch (const std::exception&) {
         throw AlgebraError(complaint);
     }

@@ -1,5 +1,6 @@
 #include "mms/text/toml_reader.hpp"
 
+#include "mms/text/file_text.hpp"
 #include "mms/text/nearest_name.hpp"
 
 #include <fmt/format.h>
@@ -7,16 +8,13 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <utility>
 
 namespace tvbeam {
 
 namespace {
 
-constexpr std::uintmax_t largest_file = 1 << 20;
+constexpr std::size_t largest_file = 1 << 20; // bytes
 
 Place place_of(const toml::node& node) {
     const toml::source_region& region = node.source();
@@ -63,16 +61,7 @@ toml::table parse(const std::string& text, const std::string& file) {
 } // namespace
 
 TomlDocument read_toml(const std::string& file) {
-    std::error_code error;
-    if (std::filesystem::is_directory(file, error))
-        throw InputError({file}, "is a directory; give the file in it");
-    std::ifstream stream(file, std::ios::binary);
-    if (!stream)
-        throw InputError({file}, "cannot be read; check the path and its permissions");
-    if (const auto size = std::filesystem::file_size(file, error); !error && size > largest_file)
-        throw InputError({file}, "has " + std::to_string(size) + " bytes; at most are read " +
-                                     std::to_string(largest_file));
-    return parse_toml({std::istreambuf_iterator<char>(stream), {}}, file);
+    return parse_toml(file_text(file, largest_file), file);
 }
 
 TomlDocument parse_toml(std::string text, const std::string& file) {

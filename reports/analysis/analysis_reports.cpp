@@ -1,6 +1,7 @@
 #include "reports/analysis/analysis_reports.hpp"
 
 #include "reports/analysis/analysis_document.hpp"
+#include "reports/document/json_text.hpp"
 #include "reports/plots/drawing.hpp"
 #include "reports/plots/plot_style.hpp"
 #include "reports/studies/run_fields.hpp"
@@ -155,7 +156,7 @@ std::string analysis_json(const DataAnalysis& analysis) {
                     {"sizes", std::move(sizes)},
                     {"remarks", analysis.remarks},
                     {"columns", std::move(columns)}};
-    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+    return json_text(json);
 }
 
 std::string analysis_csv(const DataAnalysis& analysis) {

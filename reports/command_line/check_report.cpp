@@ -1,5 +1,6 @@
 #include "reports/command_line/check_report.hpp"
 
+#include "reports/document/visible_text.hpp"
 #include "reports/files/output_file.hpp"
 #include "reports/formats/markdown_report.hpp"
 
@@ -28,16 +29,17 @@ std::string outcome(const char* word, fmt::terminal_color colour, bool coloured)
 std::string check_report(const CheckedScene& scene, bool coloured) {
     if (scene.passed())
         return fmt::format("{}    {}: {} expectations, {:.2f} s\n",
-                           outcome("ok", fmt::terminal_color::green, coloured), scene.name,
+                           outcome("ok", fmt::terminal_color::green, coloured), visible(scene.name),
                            scene.expectations.size(), scene.seconds);
-    std::string text =
-        fmt::format("{}  {}\n", outcome("FAIL", fmt::terminal_color::red, coloured), scene.name);
+    std::string text = fmt::format("{}  {}\n", outcome("FAIL", fmt::terminal_color::red, coloured),
+                                   visible(scene.name));
     if (!scene.error.empty())
-        text += fmt::format("      a run failed: {}\n", scene.error);
+        text += fmt::format("      a run failed: {}\n", visible(scene.error));
     for (const auto& checked : scene.expectations)
         if (!checked.holds)
-            text += fmt::format("      {}: {}: expected {}, found {}\n", place_text(checked.place),
-                                checked.what, checked.expected, checked.found);
+            text += visible(fmt::format("      {}: {}: expected {}, found {}\n",
+                                        place_text(checked.place), checked.what, checked.expected,
+                                        checked.found));
     return text;
 }
 

@@ -9,21 +9,6 @@
 
 namespace tvbeam {
 
-/// As long as it exists, Ctrl-C and a polite kill (SIGINT, SIGTERM) ask for the end; a second one,
-/// half a second later or more, ends the program at once. A signal that the caller of the program
-/// has set to be ignored is.
-class EndRequests {
-public:
-    EndRequests();
-    ~EndRequests();
-    EndRequests(const EndRequests&) = delete;
-    EndRequests& operator=(const EndRequests&) = delete;
-    EndRequests(EndRequests&&) = delete;
-    EndRequests& operator=(EndRequests&&) = delete;
-
-    static bool made(); ///< since the program began
-};
-
 /// A line on standard error that says how much of the work is done and how long the rest takes, at
 /// the pace so far; after the first second, five times a second. What is left is left undone when
 /// the end was asked for: a run ends within its next steps, a stress case with its last one.

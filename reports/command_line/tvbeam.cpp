@@ -8,12 +8,14 @@
 #include "reports/analysis/analysis_reports.hpp"
 #include "reports/command_line/check_report.hpp"
 #include "reports/command_line/completion.hpp"
+#include "reports/command_line/end_requests.hpp"
 #include "reports/command_line/new_solution.hpp"
 #include "reports/command_line/progress_line.hpp"
 #include "reports/command_line/solution_report.hpp"
 #include "reports/document/result_document.hpp"
 #include "reports/document/text_document.hpp"
 #include "reports/document/text_table.hpp"
+#include "reports/document/visible_text.hpp"
 #include "reports/files/baseline.hpp"
 #include "reports/files/checkpoint.hpp"
 #include "reports/files/output_file.hpp"
@@ -43,6 +45,8 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <mutex>
+#include <new>
 #include <optional>
 #include <span>
 #include <string>
@@ -68,7 +72,14 @@ struct RunOptions {
 };
 
 void say(const std::string& message) {
-    std::fprintf(stderr, "tvbeam: %s\n", message.c_str());
+    std::fprintf(stderr, "tvbeam: %s\n", visible(message).c_str());
+}
+
+/// In place of a progress line that may stand there.
+void say_interrupted(const std::string& message) {
+    if (isatty(STDERR_FILENO) == 1)
+        std::fputs("\r\033[K", stderr);
+    say(message);
 }
 
 /// Where one report goes: nowhere, standard output (-), or a file.
@@ -131,7 +142,6 @@ std::string trouble_of(const StudyResult& result, bool kept) {
 }
 
 int run_command(const RunOptions& options) {
-    const EndRequests end_requests;
     const Scene scene =
         read_scene(options.scene, options.overrides, {.report_files = report_format_names()});
     std::optional<ReportDirectory> out;
@@ -151,12 +161,23 @@ int run_command(const RunOptions& options) {
     Destination csv = destination(options.csv);
     if (scene.defect && csv.wanted() && !options.quiet)
         say("the CSV holds results with a deliberate defect, not the problem's");
+    // From here on there is something to keep.
+    EndRequests end_requests([&] {
+        const bool goes_on = kept && kept->holds_runs();
+        out.reset();
+        say_interrupted(std::string("interrupted in what could not be left in time; no report is "
+                                    "written") +
+                        (goes_on ? "; --resume goes on from the runs that are kept" : ""));
+    });
     const StudyResult result = run_shown(scene, options.quiet, options.jobs, kept);
+    end_requests.settle();
     // Files first: what standard output goes to may be gone.
     if (out) {
         kept->write();
         if (const std::string left_out = out->write(reported(result)); !left_out.empty())
             say(left_out);
+        if (!kept->failure().empty())
+            say(kept->failure() + "; the runs behind it are not kept for --resume");
         if (!result.interrupted())
             kept->remove();
     }
@@ -204,8 +225,9 @@ std::vector<BaselineEntry> entries_of(const std::vector<StudyResult>& results) {
     return entries;
 }
 
+constexpr const char* interrupted_reason = "it was interrupted";
+
 int check_command(const CheckOptions& options) {
-    const EndRequests end_requests;
     // All scenes are read before any is run, so that a mistake in the last is not found after the
     // others' run.
     std::vector<Scene> scenes;
@@ -227,6 +249,25 @@ int check_command(const CheckOptions& options) {
 
     std::vector<StudyResult> results;
     std::vector<CheckedScene> checked;
+    std::mutex mutex; // of what is checked
+    const auto add = [&](const CheckedScene& one) {
+        const std::scoped_lock lock(mutex);
+        checked.push_back(one);
+    };
+    // From here on there is something to keep.
+    EndRequests end_requests([&] {
+        std::vector<CheckedScene> reported;
+        {
+            const std::scoped_lock lock(mutex);
+            reported = checked;
+        }
+        const Scene& scene = scenes.at(std::min(reported.size(), scenes.size() - 1));
+        if (reported.size() < scenes.size())
+            reported.push_back({scene.name, 0.0, interrupted_reason, {}});
+        say_interrupted("interrupted in " + scene.name);
+        if (junit.wanted())
+            junit.write(junit_report(reported));
+    });
     for (const auto& scene : scenes) {
         const std::string shown = scene.name + (scene.defect ? " (with a deliberate defect)" : "");
         const auto start = std::chrono::steady_clock::now();
@@ -234,21 +275,22 @@ int check_command(const CheckOptions& options) {
         results.push_back(run_shown(scene, options.quiet, options.jobs, none));
         const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
         if (results.back().interrupted()) {
-            checked.push_back({shown, elapsed.count(), "it was interrupted", {}});
-            say("interrupted in " + scene.name);
+            add({shown, elapsed.count(), interrupted_reason, {}});
+            say_interrupted("interrupted in " + scene.name);
             break;
         }
-        checked.push_back(
-            {shown, elapsed.count(), results.back().ending().reason, check(results.back())});
+        CheckedScene one{shown, elapsed.count(), results.back().ending().reason,
+                         check(results.back())};
         if (baseline) {
             const auto more = baseline->check(baseline_entry(results.back()), options.tolerance);
-            checked.back().expectations.insert(checked.back().expectations.end(), more.begin(),
-                                               more.end());
+            one.expectations.insert(one.expectations.end(), more.begin(), more.end());
         }
         if (!junit.standard_output() && !record.standard_output() &&
-            !(options.quiet && checked.back().passed()))
-            write_standard_output(check_report(checked.back(), coloured()));
+            !(options.quiet && one.passed()))
+            write_standard_output(check_report(one, coloured()));
+        add(one);
     }
+    end_requests.settle();
     if (junit.wanted())
         junit.write(junit_report(checked));
     if (record.wanted() && !results.back().interrupted())
@@ -317,9 +359,9 @@ int derive_command(const std::string& name, bool latex) {
     const SolutionSetting setting = solution_setting(name);
     const Solution& solution = setting.solution;
     write_standard_output(
-        formula_report(solution, derived_formulas(solution, setting.beam.stops.epsilon > 0.0),
-                       latex) +
-        (latex ? "" : solution_report(setting)));
+        visible(formula_report(
+                    solution, derived_formulas(solution, setting.beam.stops.epsilon > 0.0), latex) +
+                (latex ? "" : solution_report(setting))));
     return done;
 }
 
@@ -356,7 +398,7 @@ int list_command() {
                             (solution.purpose.empty() ? solution.source : solution.purpose),
                         4);
     }
-    write_standard_output(text);
+    write_standard_output(visible(text));
     return done;
 }
 
@@ -677,18 +719,51 @@ int command_line(int argc, char** argv) {
     return called->call();
 }
 
-} // namespace
+/// Words take memory, too.
+void say_no_memory() {
+    std::fputs("tvbeam: there is not enough memory\n", stderr);
+}
 
-int main(int argc, char** argv) {
-    // A closed pipe then fails the write, which is reported like any other.
-    std::signal(SIGPIPE, SIG_IGN);
+/// Libraries run out of memory also where they say that they throw nothing. Those of C++ then do
+/// not tell what was thrown.
+[[noreturn]] void terminate_said() {
+    try {
+        if (const auto exception = std::current_exception())
+            std::rethrow_exception(exception);
+        std::fputs("tvbeam: cannot go on; is there enough memory?\n", stderr);
+        std::_Exit(run_failed);
+    } catch (const std::bad_alloc&) {
+        say_no_memory();
+        std::_Exit(run_failed);
+    } catch (...) {
+        std::abort();
+    }
+}
+
+int reported_command_line(int argc, char** argv) {
     try {
         return command_line(argc, argv);
+    } catch (const std::bad_alloc&) {
+        throw;
     } catch (const InputError& error) {
         say(error.what());
         return bad_input;
     } catch (const std::exception& error) {
         say(error.what());
+        return run_failed;
+    }
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+    // A closed pipe then fails the write, which is reported like any other.
+    std::signal(SIGPIPE, SIG_IGN);
+    std::set_terminate(&terminate_said);
+    try {
+        return reported_command_line(argc, argv);
+    } catch (const std::bad_alloc&) {
+        say_no_memory();
         return run_failed;
     }
 }

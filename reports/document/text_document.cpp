@@ -1,6 +1,7 @@
 #include "reports/document/text_document.hpp"
 
 #include "reports/document/text_table.hpp"
+#include "reports/document/visible_text.hpp"
 
 namespace tvbeam {
 
@@ -50,7 +51,7 @@ std::string text_document(const Document& document) {
         for (const auto& part : document.left_out)
             text += wrapped(part, 4);
     }
-    return text;
+    return visible(text);
 }
 
 } // namespace tvbeam

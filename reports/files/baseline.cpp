@@ -1,15 +1,15 @@
 #include "reports/files/baseline.hpp"
 
+#include "mms/text/file_text.hpp"
 #include "mms/text/input_error.hpp"
+#include "reports/document/json_text.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <map>
-#include <sstream>
 
 namespace tvbeam {
 
@@ -18,6 +18,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr const char* baseline_schema = "tvbeam-baseline/1";
+constexpr std::size_t largest_baseline = 64 << 20; // bytes
 
 /// Figures of the size of round-off, which another compiler changes; they want a band of [expect].
 bool is_round_off(const std::string& figure) {
@@ -72,16 +73,11 @@ std::string baseline_of(const std::vector<BaselineEntry>& entries) {
                              "with figures");
         scenes[name] = std::move(errors);
     }
-    return Json{{"schema", baseline_schema}, {"scenes", std::move(scenes)}}.dump(2) + "\n";
+    return json_text({{"schema", baseline_schema}, {"scenes", std::move(scenes)}});
 }
 
 Baseline::Baseline(const std::string& file) : file_(file) {
-    std::ifstream stream(file);
-    if (!stream)
-        throw InputError({file}, "the baseline cannot be read; record one with --record");
-    std::ostringstream text;
-    text << stream.rdbuf();
-    text_ = text.str();
+    text_ = file_text(file, largest_baseline);
     const Json json = Json::parse(text_, nullptr, false);
     if (json.is_discarded() || !json.is_object() || !json.contains("schema") ||
         json["schema"] != baseline_schema || !json.contains("scenes") ||

@@ -115,12 +115,18 @@ void Checkpoint::read_entry(const Scene& scene, const Json& entry) {
 
 void Checkpoint::add_entry(const std::string& study, std::size_t index, const Json& result) {
     const std::scoped_lock lock(mutex_);
-    if (!begun_)
-        file_.append(identity_);
-    begun_ = true;
-    file_.append(Json{{"study", study}, {"index", index}, {"result", result}}.dump(
-        -1, ' ', false, Json::error_handler_t::replace));
-    holds_runs_ = true;
+    if (!failure_.empty())
+        return;
+    try {
+        if (!begun_)
+            file_.append(identity_);
+        begun_ = true;
+        file_.append(Json{{"study", study}, {"index", index}, {"result", result}}.dump(
+            -1, ' ', false, Json::error_handler_t::replace));
+        holds_runs_ = true;
+    } catch (const OutputError& error) {
+        failure_ = error.what();
+    }
 }
 
 std::optional<RungResult> Checkpoint::find(const std::string& study, std::size_t index) {
@@ -142,7 +148,11 @@ void Checkpoint::add_case(std::size_t index, const StressCase& result) {
 }
 
 void Checkpoint::write() {
-    file_.flush();
+    try {
+        file_.flush();
+    } catch (const OutputError& error) {
+        failure_ = error.what();
+    }
 }
 
 void Checkpoint::remove() {

@@ -33,7 +33,10 @@ public:
     void add_case(std::size_t index, const StressCase& result) override;
 
     /// Whether something is kept now.
-    [[nodiscard]] bool holds_runs() const { return holds_runs_; }
+    [[nodiscard]] bool holds_runs() const {
+        const std::scoped_lock lock(mutex_);
+        return holds_runs_;
+    }
 
     /// Results of the earlier attempt.
     [[nodiscard]] std::size_t found() const { return cases_.size() + runs_.size(); }
@@ -41,8 +44,15 @@ public:
     /// Whether the last line of the earlier attempt was cut short, and is left out.
     [[nodiscard]] bool was_torn() const { return torn_; }
 
-    void write();  ///< what is not yet on the disk; throws OutputError
-    void remove(); ///< the file: the study has come to its end
+    /// Brings to the disk what is not yet there.
+    void write();
+
+    /// Why results could not be kept, all of them or the later ones; empty: they are. A study goes
+    /// on without, and its results are written.
+    [[nodiscard]] const std::string& failure() const { return failure_; }
+
+    /// The file: the study has come to its end. Throws OutputError.
+    void remove();
 
 private:
     void read(const Scene& scene);
@@ -51,11 +61,12 @@ private:
                    const nlohmann::ordered_json& result);
 
     LineFile file_;
-    std::mutex mutex_;
+    mutable std::mutex mutex_;
     std::string identity_; // the first line
     bool begun_ = false;   // it is in the file
     bool holds_runs_ = false;
     bool torn_ = false;
+    std::string failure_;
     std::map<std::pair<std::string, std::size_t>, RungResult> runs_; // of the earlier attempt
     std::map<std::size_t, StressCase> cases_;                        // likewise
 };

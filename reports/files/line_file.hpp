@@ -22,8 +22,9 @@ public:
 
     [[nodiscard]] const std::filesystem::path& path() const { return path_; }
 
-    /// Visits the lines that are there, numbered from 1; nothing where there is no file. Returns
-    /// whether a last one had no end: it is not visited, and gone once a line is appended.
+    /// Visits the lines that are there, numbered from 1. Returns whether a last one had no end: it
+    /// is not visited, and gone once a line is appended. Throws InputError where the file cannot be
+    /// read.
     bool read(const std::function<void(std::size_t number, const std::string& line)>& visit);
 
     /// Appends a line, without its end. It survives the program at once, and a crash of the machine

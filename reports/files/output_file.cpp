@@ -1,12 +1,14 @@
 #include "reports/files/output_file.hpp"
 
+#include "reports/files/descriptor.hpp"
+#include "reports/files/temporary.hpp"
+
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <cstdio>
-#include <cstdlib>
 #include <system_error>
 
 namespace tvbeam {
@@ -17,6 +19,22 @@ std::string reason() {
     return std::generic_category().message(errno);
 }
 
+/// A new file of this user's in the directory, open for writing; −1 and errno.
+int make_temporary(const std::filesystem::path& directory, std::filesystem::path& path) {
+    constexpr int attempts = 100; // somebody else may have made files of such names
+    int descriptor = -1;
+    for (int i = 0; i < attempts && descriptor < 0; ++i) {
+        path = temporary_path(directory);
+        descriptor = uncut(
+            [&] { return open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666); });
+        if (descriptor < 0 && errno != EEXIST)
+            break;
+    }
+    if (descriptor < 0)
+        path.clear();
+    return descriptor;
+}
+
 } // namespace
 
 OutputFile::OutputFile(std::filesystem::path path) : path_(std::move(path)) {
@@ -24,21 +42,23 @@ OutputFile::OutputFile(std::filesystem::path path) : path_(std::move(path)) {
     if (std::filesystem::is_directory(path_, error))
         throw OutputError("cannot write '" + path_.string() +
                           "': it is a directory; name a file in it");
-    if (std::filesystem::exists(path_, error)) {
+    const bool exists = std::filesystem::exists(path_, error);
+    if (error) // a name that is too long, say
+        throw OutputError("cannot write '" + path_.string() + "': " + error.message());
+    if (exists) {
         // What a link points to is replaced, not the link; and a device or pipe is written to, not
         // replaced.
         path_ = std::filesystem::canonical(path_, error);
-        if (!std::filesystem::is_regular_file(path_, error)) {
-            descriptor_ = open(path_.c_str(), O_WRONLY | O_CLOEXEC);
+        if (!error && !std::filesystem::is_regular_file(path_, error)) {
+            descriptor_ = uncut([&] { return open(path_.c_str(), O_WRONLY | O_CLOEXEC); });
             if (descriptor_ < 0)
-                throw OutputError("cannot write '" + path_.string() + "': " + reason());
+                fail();
             return;
         }
     }
-    const auto directory =
-        path_.has_parent_path() ? path_.parent_path() : std::filesystem::path(".");
-    if (access(directory.c_str(), W_OK | X_OK) != 0)
-        throw OutputError("cannot write '" + path_.string() + "': " + reason());
+    if (access(directory().c_str(), W_OK | X_OK) != 0)
+        fail();
+    remove_left_behind(directory());
 }
 
 OutputFile::~OutputFile() {
@@ -48,51 +68,74 @@ OutputFile::~OutputFile() {
         unlink(temporary_.c_str());
 }
 
+std::filesystem::path OutputFile::directory() const {
+    return path_.has_parent_path() ? path_.parent_path() : std::filesystem::path(".");
+}
+
 void OutputFile::fail() const {
     throw OutputError("cannot write '" + path_.string() + "': " + reason());
 }
 
 void OutputFile::prepare(const std::string& text) {
-    if (descriptor_ < 0) {
-        temporary_ = path_.string() + ".XXXXXX";
-        descriptor_ = mkstemp(temporary_.data());
-        if (descriptor_ < 0)
-            fail();
-    }
-    for (std::size_t written = 0; written < text.size();) {
-        const ssize_t count = write(descriptor_, text.data() + written, text.size() - written);
-        if (count < 0 && errno != EINTR)
-            fail();
-        if (count > 0)
-            written += static_cast<std::size_t>(count);
-    }
-    if (temporary_.empty())
-        return;
-    // mkstemp makes files for their owner alone; a result is readable as any new file is.
-    const mode_t mask = umask(0);
-    umask(mask);
-    if (fchmod(descriptor_, 0666 & ~mask) != 0 || fsync(descriptor_) != 0)
+    const bool replaced = descriptor_ < 0;
+    if (replaced)
+        descriptor_ = make_temporary(directory(), temporary_);
+    if (descriptor_ < 0 || !write_whole(descriptor_, text))
         fail();
-    // A directory of results has more files than a process may have open.
-    close(descriptor_);
+    if (!replaced)
+        return;
+    if (uncut([&] { return fsync(descriptor_); }) != 0)
+        fail();
+    // A directory of results has more files than a process may have open. What close says cut
+    // short is closed.
+    const int closed = close(descriptor_);
     descriptor_ = -1;
+    if (closed != 0 && errno != EINTR)
+        fail();
 }
 
 void OutputFile::publish() {
     if (temporary_.empty())
         return;
-    if (rename(temporary_.c_str(), path_.c_str()) != 0)
+    const auto exchange = [&] {
+        return renameat2(AT_FDCWD, temporary_.c_str(), AT_FDCWD, path_.c_str(), RENAME_EXCHANGE);
+    };
+    if (uncut(exchange) == 0) {
+        state_ = State::exchanged;
+        return;
+    }
+    // There is none yet, or the file system exchanges nothing.
+    if (errno != ENOENT && errno != EINVAL && errno != ENOSYS && errno != ENOTSUP)
+        fail();
+    const bool added = errno == ENOENT;
+    if (uncut([&] { return rename(temporary_.c_str(), path_.c_str()); }) != 0)
         fail();
     temporary_.clear();
+    state_ = added ? State::added : State::older;
+}
+
+void OutputFile::revoke() {
+    if (state_ == State::exchanged)
+        rename(temporary_.c_str(), path_.c_str());
+    else if (state_ == State::added)
+        unlink(path_.c_str());
+    state_ = State::older;
+}
+
+void OutputFile::sync() const {
+    if (descriptor_ < 0 && !sync_directory(directory()))
+        fail();
 }
 
 void OutputFile::commit(const std::string& text) {
     prepare(text);
     publish();
+    sync();
 }
 
 void write_standard_output(const std::string& text) {
-    if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0)
+    // What the library of the command line has printed comes first.
+    if (std::fflush(stdout) != 0 || !write_whole(STDOUT_FILENO, text))
         throw OutputError("cannot write to standard output: " + reason());
 }
 

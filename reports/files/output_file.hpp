@@ -30,19 +30,35 @@ public:
     /// cannot be written.
     void prepare(const std::string& text);
 
-    /// Gives what was prepared the file's name.
+    /// Gives what was prepared the file's name. The machine may forget that until sync(). Throws
+    /// OutputError, and leaves an older file of the name as it was.
     void publish();
 
-    /// Both. Throws OutputError, and leaves an older file of the name as it was, when the text
+    /// Undoes publish(), where the file system can exchange two files.
+    void revoke();
+
+    /// Brings the file's name to the disk; throws OutputError.
+    void sync() const;
+
+    /// All of it. Throws OutputError, and leaves an older file of the name as it was, when the text
     /// cannot be written.
     void commit(const std::string& text);
 
 private:
+    /// What stands under the file's name, and under the temporary one.
+    enum class State {
+        older,     ///< an older file or none; the text once it is prepared
+        exchanged, ///< the text; the older file
+        added      ///< the text; nothing
+    };
+
+    [[nodiscard]] std::filesystem::path directory() const;
     [[noreturn]] void fail() const;
 
     std::filesystem::path path_;
-    std::string temporary_;
+    std::filesystem::path temporary_; // empty: nothing stands there
     int descriptor_ = -1;
+    State state_ = State::older;
 };
 
 /// Writes to standard output; throws OutputError when that fails (a closed pipe, a full disk).

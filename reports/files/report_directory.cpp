@@ -1,5 +1,6 @@
 #include "reports/files/report_directory.hpp"
 
+#include "reports/files/descriptor.hpp"
 #include "reports/formats/report_format.hpp"
 
 #include <fcntl.h>
@@ -13,6 +14,24 @@
 #include <utility>
 
 namespace tvbeam {
+
+namespace {
+
+/// All of them, or none.
+void publish(std::list<OutputFile>& files) {
+    try {
+        for (auto& file : files)
+            file.publish();
+    } catch (const OutputError&) {
+        for (auto& file : files)
+            file.revoke();
+        throw;
+    }
+    for (const auto& file : files)
+        file.sync();
+}
+
+} // namespace
 
 ReportDirectory::ReportDirectory(std::filesystem::path path, const ReportBlock& block)
     : path_(std::move(path)) {
@@ -31,10 +50,8 @@ ReportDirectory::ReportDirectory(std::filesystem::path path, const ReportBlock& 
 ReportDirectory::~ReportDirectory() {
     if (lock_ >= 0)
         close(lock_);
-    std::error_code ignored;
     for (const auto& directory : made_)
-        if (std::filesystem::is_empty(directory, ignored) && !ignored)
-            std::filesystem::remove(directory, ignored);
+        rmdir(directory.c_str()); // fails where something was written
 }
 
 void ReportDirectory::make(const std::filesystem::path& directory) {
@@ -61,8 +78,8 @@ void ReportDirectory::remove_earlier(const std::set<std::string>& written) const
 }
 
 void ReportDirectory::lock() {
-    lock_ = open(path_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    if (lock_ < 0 || flock(lock_, LOCK_EX | LOCK_NB) != 0) {
+    lock_ = uncut([&] { return open(path_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC); });
+    if (lock_ < 0 || uncut([&] { return flock(lock_, LOCK_EX | LOCK_NB); }) != 0) {
         const std::string reason = std::generic_category().message(errno);
         const bool taken = lock_ >= 0 && errno == EWOULDBLOCK;
         throw OutputError("cannot write to '" + path_.string() + "': " +
@@ -84,8 +101,7 @@ std::string ReportDirectory::write(const Reported& result) {
             files.emplace_back(path_ / name).prepare(text);
             written.insert(name);
         }
-    for (auto& file : files)
-        file.publish();
+    publish(files);
     remove_earlier(written);
     return drawn.failure.empty() ? ""
                                  : drawn.failure +

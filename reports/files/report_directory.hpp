@@ -22,7 +22,8 @@ struct Reported;
 ///     plots       plots/NAME.gp, .dat, .svg, .png for each figure; without gnuplot the first two
 ///     html        report.html
 ///
-/// Each appears whole or not at all, and none of them before all could be brought to the disk. A
+/// Each appears whole or not at all, and none of them before all could be brought to the disk;
+/// where one cannot be given its name, none is, on file systems that can exchange two files. A
 /// file of an earlier result is replaced, and its plots and CSV files go where this result has none
 /// of their names; kinds of files that are not asked for are left alone.
 class ReportDirectory {

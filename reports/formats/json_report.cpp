@@ -1,5 +1,6 @@
 #include "reports/formats/json_report.hpp"
 
+#include "reports/document/json_text.hpp"
 #include "reports/document/result_document.hpp"
 #include "reports/files/provenance.hpp"
 #include "reports/formats/report_format.hpp"
@@ -55,7 +56,7 @@ std::string json_report(const StudyResult& result) {
         json["reference"] = json_of(*result.reference, *result.scene.reference);
     for (const auto* report : reports_of(result))
         json[report->study()] = report->json(result);
-    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+    return json_text(json);
 }
 
 struct JsonFormat final : ReportFormat {

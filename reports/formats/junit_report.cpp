@@ -1,5 +1,7 @@
 #include "reports/formats/junit_report.hpp"
 
+#include "reports/document/visible_text.hpp"
+
 #include <boost/property_tree/ptree.hpp>
 #include <boost/property_tree/xml_parser.hpp>
 #include <fmt/format.h>
@@ -21,27 +23,28 @@ std::int64_t violations(const CheckedScene& scene) {
 ptree suite_of(const CheckedScene& scene) {
     const bool failed = !scene.error.empty();
     ptree suite;
-    suite.put("<xmlattr>.name", scene.name);
+    suite.put("<xmlattr>.name", visible(scene.name));
     suite.put("<xmlattr>.tests", scene.expectations.size() + (failed ? 1 : 0));
     suite.put("<xmlattr>.failures", violations(scene));
     suite.put("<xmlattr>.errors", failed ? 1 : 0);
     suite.put("<xmlattr>.time", fmt::format("{:.3f}", scene.seconds));
     const auto test_case = [&](const std::string& name) {
         ptree entry;
-        entry.put("<xmlattr>.classname", scene.name);
-        entry.put("<xmlattr>.name", name);
+        entry.put("<xmlattr>.classname", visible(scene.name));
+        entry.put("<xmlattr>.name", visible(name));
         return entry;
     };
     if (failed) {
         ptree entry = test_case("runs");
-        entry.put("error.<xmlattr>.message", scene.error);
+        entry.put("error.<xmlattr>.message", visible(scene.error));
         suite.add_child("testcase", entry);
     }
     for (const auto& checked : scene.expectations) {
         ptree entry = test_case(checked.what);
         if (!checked.holds)
-            entry.put("failure.<xmlattr>.message",
-                      fmt::format("expected {}, found {}", checked.expected, checked.found));
+            entry.put(
+                "failure.<xmlattr>.message",
+                visible(fmt::format("expected {}, found {}", checked.expected, checked.found)));
         suite.add_child("testcase", entry);
     }
     return suite;

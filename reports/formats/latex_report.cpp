@@ -1,6 +1,7 @@
 #include "reports/formats/latex_report.hpp"
 
 #include "reports/document/text_table.hpp"
+#include "reports/document/visible_text.hpp"
 #include "reports/document/written_number.hpp"
 #include "reports/formats/report_format.hpp"
 #include "studies/table_row.hpp"
@@ -320,7 +321,8 @@ const char* const preamble =
 
 } // namespace
 
-std::string latex_text(const std::string& text) {
+std::string latex_text(const std::string& given) {
+    const std::string text = visible(given); // pdflatex stops at some control characters
     std::string latex;
     for (std::size_t at = 0; at < text.size();) {
         const std::size_t length = length_of_character(text, at);

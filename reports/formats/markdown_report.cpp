@@ -1,5 +1,6 @@
 #include "reports/formats/markdown_report.hpp"
 
+#include "reports/document/visible_text.hpp"
 #include "reports/document/written_number.hpp"
 #include "reports/formats/report_format.hpp"
 #include "studies/table_row.hpp"
@@ -80,7 +81,8 @@ std::string rows(const std::vector<std::pair<std::string, std::string>>& pairs) 
 
 } // namespace
 
-std::string markdown_text(const std::string& text) {
+std::string markdown_text(const std::string& given) {
+    const std::string text = visible(given);
     const auto is_word = [&text](std::size_t at) {
         return at < text.size() && std::isalnum(static_cast<unsigned char>(text[at])) != 0;
     };

@@ -20,7 +20,8 @@ struct DrawnPlots {
 };
 
 /// Runs gnuplot on each script, in a directory of its own that goes again. Where gnuplot is not
-/// installed, or fails, `failure` says so. Throws OutputError where the scripts cannot be written.
+/// installed, fails, or writes half a picture, where there is no room for the scripts, and where
+/// the end is asked for (EndRequests), `failure` says so.
 DrawnPlots draw(const std::vector<Plot>& plots);
 
 } // namespace tvbeam

@@ -1,5 +1,6 @@
 #include "reports/plots/plot_style.hpp"
 
+#include "reports/document/visible_text.hpp"
 #include "studies/text/number_text.hpp"
 
 #include <fmt/format.h>
@@ -33,9 +34,12 @@ SeriesStyle series_style(std::size_t series) {
 
 std::string gnuplot_text(const std::string& text) {
     std::string quoted = "'";
-    for (const char c : text)
-        quoted += c == '\'' ? std::string("''")
-                            : std::string(1, static_cast<unsigned char>(c) < ' ' ? ' ' : c);
+    for (const char c : visible(text)) {
+        // In an SVG, gnuplot puts the text in a section that ends at the first "]]>".
+        if (c == '>' && quoted.ends_with("]]"))
+            quoted += ' ';
+        quoted += c == '\'' ? std::string("''") : std::string(1, c == '\n' || c == '\t' ? ' ' : c);
+    }
     return quoted + "'";
 }
 

@@ -1,5 +1,7 @@
 #include "reports/studies/run_fields.hpp"
 
+#include "reports/document/visible_text.hpp"
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -40,7 +42,10 @@ Json number_json(std::optional<double> value) {
     return value && std::isfinite(*value) ? Json(*value) : Json();
 }
 
-std::string quoted(const std::string& field) {
+std::string quoted(const std::string& given) {
+    // A spreadsheet would compute what begins so.
+    const bool is_formula = given.find_first_of("=+-@\t\r") == 0;
+    const std::string field = (is_formula ? "'" : "") + visible(given);
     if (field.find_first_of(",\"\n\r") == std::string::npos)
         return field;
     std::string text = "\"";

@@ -19,7 +19,8 @@ nlohmann::ordered_json counters_json(const RungResult& run);
 /// A number, or null where there is none or it is not finite.
 nlohmann::ordered_json number_json(std::optional<double> value);
 
-/// A field as RFC 4180 has it.
+/// A text as a field of RFC 4180, which no terminal obeys and no spreadsheet computes: before = + -
+/// and @ stands a '.
 std::string quoted(const std::string& field);
 
 /// The first columns of a run, without a comma at the end; their names.

@@ -1,5 +1,6 @@
 #include "studies/data/data_file.hpp"
 
+#include "mms/text/file_text.hpp"
 #include "mms/text/input_error.hpp"
 #include "mms/text/nearest_name.hpp"
 #include "studies/text/number_text.hpp"
@@ -11,13 +12,11 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <filesystem>
-#include <fstream>
-#include <iostream>
 #include <iterator>
 #include <limits>
 #include <string_view>
 #include <system_error>
+#include <tuple>
 
 namespace tvbeam {
 
@@ -314,16 +313,11 @@ void choose_figures(const Names& names, const DataChoice& choice, DataFile& data
     }
 }
 
+/// Bytes; a record of ten figures has some two hundred.
+constexpr std::size_t largest_table = 64 << 20;
+
 std::string text_of(const std::string& file) {
-    std::ifstream stream;
-    if (file != "-") {
-        std::error_code ignored;
-        stream.open(file, std::ios::binary);
-        if (!stream || std::filesystem::is_directory(file, ignored))
-            throw InputError({file}, "cannot be read; check the path and its permissions");
-    }
-    std::istream& source = file == "-" ? std::cin : stream;
-    std::string text{std::istreambuf_iterator<char>(source), {}};
+    std::string text = file_text(file, largest_table);
     constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
     if (text.starts_with(byte_order_mark))
         text.erase(0, byte_order_mark.size());

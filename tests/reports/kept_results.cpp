@@ -1,15 +1,20 @@
 // Results that an earlier attempt has left: those that it wrote come back bit for bit, others are
 // refused with what is wrong with them.
 
+#include "reports/files/checkpoint.hpp"
 #include "reports/files/kept_result.hpp"
+#include "tests/temporary_directory.hpp"
 
 #include <boost/test/unit_test.hpp>
 #include <nlohmann/json.hpp>
 
 #include <cmath>
+#include <csignal>
 #include <limits>
 #include <utility>
 #include <vector>
+
+#include <sys/resource.h>
 
 using namespace tvbeam;
 
@@ -18,6 +23,10 @@ BOOST_AUTO_TEST_SUITE(kept_results)
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+bool has(const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
+}
 
 const Rung rung{.elements = 10, .steps = 30, .dt = 1.0 / 30.0};
 
@@ -135,6 +144,26 @@ BOOST_AUTO_TEST_CASE(a_case_that_is_none_is_refused) {
     Json without = kept(judged());
     without.erase("checks");
     BOOST_CHECK_THROW(kept_case(without), std::invalid_argument);
+}
+
+// A file of lines that is at its limit of size is as one on a full disk.
+BOOST_AUTO_TEST_CASE(results_that_cannot_be_kept_do_not_end_the_study) {
+    const TemporaryDirectory directory;
+    const Scene scene = read_scene("table1");
+    Checkpoint kept(directory.path(), scene, false);
+    rlimit before{};
+    getrlimit(RLIMIT_FSIZE, &before);
+    const rlimit small{.rlim_cur = 10, .rlim_max = before.rlim_max};
+    const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+    setrlimit(RLIMIT_FSIZE, &small);
+    kept.add("ladder", 0, run());
+    kept.write();
+    setrlimit(RLIMIT_FSIZE, &before);
+    kept.add("ladder", 1, run());
+    std::signal(SIGXFSZ, handler);
+    BOOST_TEST(has(kept.failure(), "cannot write"), kept.failure());
+    BOOST_TEST(!kept.holds_runs());
+    BOOST_TEST(directory.read("unfinished.jsonl").empty()); // no half of a line
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -265,6 +265,9 @@ BOOST_AUTO_TEST_CASE(what_a_round_off_study_did_not_measure_is_not_drawn) {
 
 BOOST_AUTO_TEST_CASE(text_of_a_scene_cannot_leave_its_quotes_in_a_script) {
     BOOST_TEST(gnuplot_text("it's `id` \"x\"\nsystem('y')") == "'it''s `id` \"x\" system(''y'')'");
+    // Nor the section of an SVG that gnuplot puts it in, nor XML altogether.
+    BOOST_TEST(gnuplot_text("a]]>b]]]]>") == "'a]] >b]]]] >'");
+    BOOST_TEST(gnuplot_text("\033[2J\xff") == "'\\x1B[2J\\xFF'");
 }
 
 BOOST_AUTO_TEST_CASE(series_differ_in_more_than_colour) {

@@ -2,15 +2,20 @@
 
 #include "core/norms/norms.hpp"
 #include "reports/document/html_text.hpp"
+#include "reports/document/json_text.hpp"
 #include "reports/document/text_table.hpp"
+#include "reports/document/visible_text.hpp"
 #include "reports/document/written_number.hpp"
 #include "reports/formats/html_report.hpp"
+#include "reports/formats/junit_report.hpp"
 #include "reports/formats/latex_report.hpp"
 #include "reports/formats/markdown_report.hpp"
+#include "reports/studies/run_fields.hpp"
 #include "studies/text/number_text.hpp"
 #include "tests/comma_locale.hpp"
 
 #include <boost/test/unit_test.hpp>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <sstream>
@@ -139,12 +144,54 @@ BOOST_AUTO_TEST_CASE(html_has_a_table_with_headings_and_hides_what_aligns_it) {
     BOOST_TEST(has(html, "<li>found_it</li>"));
 }
 
+// https://www.w3.org/TR/xml/#charsets, ISO/IEC 6429 and RFC 3629.
+BOOST_AUTO_TEST_CASE(what_a_terminal_would_obey_is_written_out) {
+    BOOST_TEST(visible("a\tb\n Δ, é, 中, 😀 \u00A0") == "a\tb\n Δ, é, 中, 😀 \u00A0");
+    BOOST_TEST(visible("\033[31m\r\x7f") == "\\x1B[31m\\x0D\\x7F");
+    BOOST_TEST(visible("\u0080\u009F") == "\\u0080\\u009F");
+    BOOST_TEST(visible("\uFFFE\uFFFF\uFFFD") == "\\uFFFE\\uFFFF\uFFFD");
+    // No UTF-8: a lone byte, one that goes on, an overlong /, a surrogate, beyond Unicode, cut
+    // short.
+    BOOST_TEST(visible("\x9b;") == "\\x9B;");
+    BOOST_TEST(visible("\xc0\xaf") == "\\xC0\\xAF");
+    BOOST_TEST(visible("\xed\xa0\x80") == "\\xED\\xA0\\x80");
+    BOOST_TEST(visible("\xf4\x90\x80\x80") == "\\xF4\\x90\\x80\\x80");
+    BOOST_TEST(visible("\xe2\x88") == "\\xE2\\x88");
+}
+
+BOOST_AUTO_TEST_CASE(json_keeps_control_characters_escaped) {
+    const nlohmann::ordered_json json{{"title", "\033 \u007f \u0080 \u009f \u00a0 é"}};
+    const std::string text = json_text(json);
+    BOOST_TEST(text == "{\n  \"title\": \"\\u001b \\u007f \\u0080 \\u009f \u00a0 é\"\n}\n");
+    BOOST_TEST(nlohmann::ordered_json::parse(text) == json);
+}
+
+BOOST_AUTO_TEST_CASE(no_field_of_csv_is_computed_by_a_spreadsheet) {
+    BOOST_TEST(quoted("=HYPERLINK(\"x\",1)") == "\"'=HYPERLINK(\"\"x\"\",1)\"");
+    for (const std::string first : {"=", "+", "-", "@", "\t"})
+        BOOST_TEST(quoted(first + "1") == "'" + first + "1");
+    BOOST_TEST(quoted("a=1") == "a=1");
+}
+
+BOOST_AUTO_TEST_CASE(junit_is_xml_whatever_a_scene_is_called) {
+    CheckedScene scene{"\033[2J.toml", 0.0, "a \x01 b", {}};
+    scene.expectations.push_back({"\u009b", "<1>", "\xff", {}, false});
+    const std::string text = junit_report({scene});
+    BOOST_TEST(has(text, "\\x1B[2J.toml"), text);
+    BOOST_TEST(has(text, "\\u009B"), text);
+    BOOST_TEST(has(text, "\\xFF"), text);
+    BOOST_TEST(std::none_of(text.begin(), text.end(),
+                            [](char c) { return c >= 0 && c < ' ' && c != '\n'; }),
+               text);
+}
+
 BOOST_AUTO_TEST_CASE(text_is_shown_and_never_taken_for_markup) {
     BOOST_TEST(html_text("<a href=\"x\">'&'\x01</a>") ==
                "&lt;a href=&quot;x&quot;&gt;&#39;&amp;&#39; &lt;/a&gt;");
     BOOST_TEST(latex_text("50% a_b \\x {y} $ # & ~ ^") ==
                "50\\% a\\_b \\textbackslash{}x \\{y\\} \\$ \\# \\& \\textasciitilde{} "
                "\\textasciicircum{}");
+    BOOST_TEST(latex_text("a\x7f") == "a\\textbackslash{}x7F"); // pdflatex stops at it
     BOOST_TEST(latex_text("Fernández ± L∞ 中") == "Fernández $\\pm$ L$^\\infty$ ?");
 }
 
