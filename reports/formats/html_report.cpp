@@ -306,15 +306,6 @@ std::string without_element(std::string_view text, const std::string& name) {
     return result.append(text);
 }
 
-/// An opening tag without the first attribute of this name.
-std::string without_attribute(std::string tag, const std::string& name) {
-    const auto at = tag.find(" " + name + "=\"");
-    const auto end = at == std::string::npos ? at : tag.find('"', at + name.size() + 3);
-    if (end != std::string::npos)
-        tag.erase(at, end + 1 - at);
-    return tag;
-}
-
 } // namespace
 
 std::string inline_svg(const Figure& figure) {
@@ -325,10 +316,14 @@ std::string inline_svg(const Figure& figure) {
         svg = with_behind(svg, mark, prefix);
     // Its titles would pop up as hints; what a picture shows is said by its label.
     svg = without_element(without_element(svg, "title"), "desc");
-    const std::string label = " role=\"img\" aria-label=\"" + html_text(figure.caption) + "\"";
-    const std::size_t end = std::min(svg.find('>'), svg.size());
-    return without_attribute(without_attribute(svg.substr(0, end), "width"), "height") +
-           (end < svg.size() ? label : "") + svg.substr(end);
+    // Its size is the page's matter.
+    const auto width = svg.find("width=\"");
+    const auto height = svg.find("\" height=\"", width);
+    const auto end = height == std::string::npos ? height : svg.find('"', height + 10);
+    if (end < svg.find('>'))
+        svg.replace(width - 1, end + 2 - width,
+                    " role=\"img\" aria-label=\"" + html_text(figure.caption) + "\"");
+    return svg;
 }
 
 std::string html_report(const HtmlContents& contents) {
