@@ -75,6 +75,8 @@ struct ExactSolution {
     /// Of a solution of rigid stops on a beam with penalised ones: by how much it misses their law,
     /// at most. Errors stall there. Unit: length.
     double law_distance = 0.0;
+    /// That the tip stays between the stops was seen at sampled times, and is not proven.
+    bool tip_is_sampled = false;
 
     /// A computed solution: its fields are polynomials of degree ≤ 5 on each of so many equal
     /// elements, a multiple of those of any mesh that it is compared on. 0: smooth on [0, 1].

@@ -106,7 +106,9 @@ ProblemData differentiated_problem(const DifferentiatedSolution& given, const Be
         problem.exact->stress = 1;
     problem.theta_initial = problem.exact->theta;
     problem.curvature_initial = problem.exact->u_xx;
-    problem.exact->law_distance = require_admissible(problem, solution.name, beam, final_time);
+    const Admissible admissible = require_admissible(problem, solution.name, beam, final_time);
+    problem.exact->law_distance = admissible.law_distance;
+    problem.exact->tip_is_sampled = admissible.tip_is_sampled;
     return problem;
 }
 

@@ -335,8 +335,10 @@ std::vector<std::string> reasons(const ExpectedOrders& known, const Beam& beam) 
 ExpectedOrders expected_orders(const Solution& solution, const Beam& beam, double final_time) {
     const DerivedSolution derived = derive_on(solution, beam);
     require_final_time(final_time);
-    const double law_distance = check_admissible(
-        solution, derived, PlainSolution(solution, derived, beam, final_time), beam, final_time);
+    const double law_distance =
+        check_admissible(solution, derived, PlainSolution(solution, derived, beam, final_time),
+                         beam, final_time)
+            .law_distance;
     return located(solution.phases.front().u, "the solution", [&] {
         const ModelSymbols& s = model_symbols();
         ExpectedOrders result;

@@ -87,10 +87,11 @@ ProblemData manufactured_problem(const Solution& solution, const Beam& beam, dou
     require_final_time(final_time);
     const DerivedSolution derived = derive_on(solution, beam);
     const PlainSolution plain(solution, derived, beam, final_time);
-    const double law_distance = check_admissible(solution, derived, plain, beam, final_time);
+    const Admissible admissible = check_admissible(solution, derived, plain, beam, final_time);
     try {
         ProblemData problem = built(derived, final_time);
-        problem.exact->law_distance = law_distance;
+        problem.exact->law_distance = admissible.law_distance;
+        problem.exact->tip_is_sampled = admissible.tip_is_sampled;
         require_as_written(problem, plain);
         return problem;
     } catch (const AlgebraError& error) {

@@ -12,6 +12,10 @@ namespace tvbeam {
 
 namespace {
 
+// Each of them is derived from, and compared with all others.
+constexpr std::size_t most_phases = 1000;
+constexpr std::size_t most_parameters = 1000;
+
 /// What a phase may say, and the top of the file for all of them.
 struct Formulas {
     std::optional<SourceText> theta, u, sigma;
@@ -37,7 +41,12 @@ void require_free_name(const std::string& name, const Place& place) {
 std::vector<SolutionParameter> read_parameters(TableReader& root) {
     std::vector<SolutionParameter> result;
     auto table = root.table("parameters");
-    for (const auto& name : table ? table->unread() : std::vector<std::string>()) {
+    const auto names = table ? table->unread() : std::vector<std::string>();
+    if (names.size() > most_parameters)
+        throw root.error("parameters", " holds " + std::to_string(names.size()) +
+                                           "; a solution has at most " +
+                                           std::to_string(most_parameters));
+    for (const auto& name : names) {
         require_free_name(name, table->place_of_key(name));
         result.push_back({name, *table->expression(name)});
     }
@@ -103,6 +112,10 @@ Solution solution_in(const TomlDocument& document) {
     solution.parameters = read_parameters(root);
     auto tables = root.tables("phase");
     root.finish();
+    if (tables.size() > most_phases)
+        throw root.error("phase", " holds " + std::to_string(tables.size()) +
+                                      " phases; a solution has at most " +
+                                      std::to_string(most_phases));
     if (tables.empty())
         solution.phases.push_back(phase_of(root, top, root, {}, true));
     for (auto& table : tables)

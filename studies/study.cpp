@@ -52,6 +52,8 @@ double work_of(const ReferenceBlock& reference, double final_time) {
            (reference.richardson ? 2.0 : 1.0);
 }
 
+} // namespace
+
 double work_of(const Scene& scene) {
     const Method own = method_of(scene.scheme);
     double work =
@@ -60,6 +62,8 @@ double work_of(const Scene& scene) {
         work += kind->work(block, own);
     return work;
 }
+
+namespace {
 
 /// What is timed last; of the others the cheapest first: when time is short most of them are whole.
 std::vector<const ByKind::Entry*> in_running_order(const Scene& scene, const Method& own) {
@@ -107,6 +111,11 @@ StudyResult run_study(const Scene& scene, const ProblemData& data, const Defects
         const ProblemData posed = defects.added_to(measured, scene.series().front().rungs.front());
         result.left_out = left_out({scene, posed, solver, own, execution, defects});
         result.remarks = phase_remarks(scene, data);
+        if (data.exact && data.exact->tip_is_sampled)
+            result.remarks.emplace_back(
+                "That the exact solution's tip stays between the stops was seen at sampled times, "
+                "and is not proven: a peak that is narrower than the time between them may pass a "
+                "stop unseen.");
     }
     const StudyContext context{scene, resolved, solver, own, execution, defects};
     for (const auto* entry : in_running_order(scene, own))

@@ -47,6 +47,9 @@ struct StudyResult {
     [[nodiscard]] bool interrupted() const { return ending().interrupted; }
 };
 
+/// What the studies of a scene cost, about, in the unit of work_of(Method, Rung).
+double work_of(const Scene& scene);
+
 /// Runs the studies of a scene, their runs in up to `execution.jobs` threads; those that are
 /// timed, of [work_precision], one at a time and after all others. Throws InputError when its
 /// problem is not admissible; nothing has run then.

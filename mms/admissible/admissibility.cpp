@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -21,6 +22,9 @@ using Eigen::Index;
 using GiNaC::ex;
 
 namespace {
+
+/// Of single operations, to prove that the tip stays between the stops: a few tenths of a second.
+constexpr std::int64_t most_enclosures = 1'000'000;
 
 /// The largest sizes of the solution's parts over all phases; tolerances are relative to them.
 struct Scales {
@@ -38,18 +42,18 @@ public:
         : solution_(solution), derived_(derived), plain_(plain), beam_(beam),
           final_time_(final_time) {}
 
-    double run() {
+    Admissible run() {
         // Finite first: no comparison below can be trusted with a NaN.
         for (std::size_t i = 0; i < phase_count(); ++i)
             require_finite(i);
-        const ContactRules contact = contact_rules();
+        ContactRules contact = contact_rules();
         for (std::size_t i = 0; i < phase_count(); ++i) {
             require_end_values(i);
             contact.require(i);
             if (i + 1 < phase_count())
                 require_continuity(i);
         }
-        return contact.law_distance();
+        return {contact.law_distance(), contact.tip_is_sampled()};
     }
 
 private:
@@ -202,6 +206,11 @@ private:
             require_as_written(i, tape, 1, Computed::contact_stress, "sigma(1,t)");
             ContactPhase contact;
             contact.times = times(i, time_points);
+            contact.tip = [tape](double begin, double end) {
+                return tape.enclose(0, 0.0, begin, end);
+            };
+            contact.most_parts =
+                most_enclosures / (1 + static_cast<std::int64_t>(tape.instruction_count()));
             contact.ends = [tape = std::move(tape)](const ArrayXd& in_time) {
                 return tape.evaluate(ArrayXd::Zero(1), in_time);
             };
@@ -274,8 +283,8 @@ void require_final_time(double final_time) {
                                  "; it must be positive and finite");
 }
 
-double check_admissible(const Solution& solution, const DerivedSolution& derived,
-                        const PlainSolution& plain, const Beam& beam, double final_time) {
+Admissible check_admissible(const Solution& solution, const DerivedSolution& derived,
+                            const PlainSolution& plain, const Beam& beam, double final_time) {
     return AdmissibilityCheck(solution, derived, plain, beam, final_time).run();
 }
 

@@ -8,6 +8,12 @@
 
 namespace tvbeam {
 
+/// What remains to be said of a solution that is admissible.
+struct Admissible {
+    double law_distance; ///< ContactRules::law_distance
+    bool tip_is_sampled; ///< ContactRules::tip_is_sampled
+};
+
 /// Checks that a solution obeys, on [0, final_time], what (5)–(10) ask of it whatever the sources
 /// f, G and the end moment m are:
 ///
@@ -22,18 +28,19 @@ namespace tvbeam {
 /// further that θ̃, u and u_xx do not jump between phases, and that θ̃, u, σ̃ and what is derived from
 /// them are finite on a grid of [0,1] × [0, final_time]. An equality holds if it does symbolically,
 /// or else at every sampled time to 1e-12 of the largest value of θ̃ (or u, or σ̃) on the grid;
-/// inequalities are sampled, with the same tolerance.
+/// inequalities are sampled, with the same tolerance. (6) is proven for all times of a text's
+/// solution on rigid stops, or said not to be (greatest_value.hpp).
 ///
 /// `solution` gives the places. Throws InputError at the expression at fault; it names the
 /// equation, the time, the value and a repair; and where a derived formula is not what `plain`, the
-/// same solution's, says. Returns ContactRules::law_distance.
-double check_admissible(const Solution& solution, const DerivedSolution& derived,
-                        const PlainSolution& plain, const Beam& beam, double final_time);
+/// same solution's, says.
+Admissible check_admissible(const Solution& solution, const DerivedSolution& derived,
+                            const PlainSolution& plain, const Beam& beam, double final_time);
 
 /// The same for a problem with an exact solution that no text describes; all of it is sampled, and
 /// jumps are looked for between the times of a grid. Errors begin with `name` in place of a file.
-double require_admissible(const ProblemData& problem, const std::string& name, const Beam& beam,
-                          double final_time);
+Admissible require_admissible(const ProblemData& problem, const std::string& name, const Beam& beam,
+                              double final_time);
 
 /// Throws InputError unless final_time is positive and finite.
 void require_final_time(double final_time);

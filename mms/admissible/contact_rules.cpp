@@ -53,11 +53,43 @@ bool ContactRules::at_upper(double tip) const {
     return tip >= stops_.upper - tip_tolerance_;
 }
 
-void ContactRules::require(std::size_t index) const {
-    if (rigid_)
-        require_rigid(index);
-    else
+void ContactRules::require(std::size_t index) {
+    if (!rigid_) {
         require_law(phases_[index]);
+        return;
+    }
+    require_rigid(index);
+    if (!stays_between_stops(phases_[index]))
+        tip_is_sampled_ = true;
+}
+
+/// The tip's greatest value, or with `below` that of −u(1,t), if it is above the limit.
+GreatestValue ContactRules::farthest(const ContactPhase& phase, bool below, double limit) const {
+    const EnclosedFunction tip = [&](double begin, double end) -> Enclosure {
+        const Enclosure e = phase.tip(begin, end);
+        return below ? Enclosure{{-e.value.upper, -e.value.lower}, {-e.slope.upper, -e.slope.lower}}
+                     : e;
+    };
+    return greatest_value(tip, phase.times(0), phase.times(phase.times.size() - 1), limit,
+                          tip_tolerance_, phase.most_parts);
+}
+
+/// Throws where the tip is found to pass a stop between the sampled times; false: it is not, and
+/// not proven to stay either.
+bool ContactRules::stays_between_stops(const ContactPhase& phase) const {
+    bool proven = true;
+    for (const bool below : {true, false}) {
+        const double limit = (below ? -stops_.lower : stops_.upper) + tip_tolerance_;
+        if (std::isinf(limit))
+            continue;
+        if (!phase.tip)
+            return false;
+        const GreatestValue found = farthest(phase, below, limit);
+        if (found.value > limit)
+            require_between_stops(phase, found.t, below ? -found.value : found.value);
+        proven = proven && found.proven;
+    }
+    return proven;
 }
 
 void ContactRules::require_law(const ContactPhase& phase) const {
@@ -123,12 +155,32 @@ std::string ContactRules::repair_of_tip(bool below) const {
             }
         }
     }
+    // What is greater between the sampled times by more than rounding.
+    bool proven = true;
+    for (const ContactPhase& phase : phases_) {
+        if (!phase.tip) {
+            proven = false;
+            continue;
+        }
+        const GreatestValue lowest = farthest(phase, true, tip_tolerance_ - least);
+        const GreatestValue highest = farthest(phase, false, tip_tolerance_ + greatest);
+        if (-lowest.value < least - tip_tolerance_) {
+            least = -lowest.value;
+            least_at = lowest.t;
+        }
+        if (highest.value > greatest + tip_tolerance_) {
+            greatest = highest.value;
+            greatest_at = highest.t;
+        }
+        proven = proven && lowest.proven && highest.proven;
+    }
     const double stop = below ? stops_.lower : stops_.upper;
     const double extreme = below ? least : greatest;
     const std::string name = below ? "g1" : "g2";
     const std::string text = std::string("it is ") + (below ? "least, " : "greatest, ") +
                              number_text(extreme) +
-                             ", at t = " + number_text(below ? least_at : greatest_at) + ": ";
+                             ", at t = " + number_text(below ? least_at : greatest_at) +
+                             (proven ? ": " : " as far as was seen: ");
     // A solution that presses on a stop would come off it if all of u were made smaller.
     if (pressed)
         return text + "change u(1,t) by " + number_text(rounded_out(stop - extreme)) +

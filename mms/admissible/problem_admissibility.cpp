@@ -22,7 +22,7 @@ public:
         : problem_(problem), exact_(*problem.exact), place_{name}, beam_(beam),
           final_time_(final_time) {}
 
-    double run() {
+    Admissible run() {
         // Finite first: no comparison below can be trusted with a NaN.
         theta_scale_ = largest(exact_.theta, "theta");
         u_scale_ = largest(exact_.u, "u");
@@ -36,12 +36,12 @@ public:
         largest(problem_.couple_load, "G of (3)");
         largest(problem_.moment_load, "the integral of G of (3)");
         require_end_values();
-        const ContactRules rules(beam_, {contact()}, u_scale_, sigma_scale_);
+        ContactRules rules(beam_, {contact()}, u_scale_, sigma_scale_);
         rules.require(0);
         require_continuity(exact_.theta, theta_scale_, "(1): theta");
         // As u(0,t) = u_x(0,t) = 0, no jump of u is without one of u_xx.
         require_continuity(exact_.u_xx, u_xx_scale_, "(3): u_xx");
-        return rules.law_distance();
+        return {rules.law_distance(), rules.tip_is_sampled()};
     }
 
 private:
@@ -175,8 +175,8 @@ private:
 
 } // namespace
 
-double require_admissible(const ProblemData& problem, const std::string& name, const Beam& beam,
-                          double final_time) {
+Admissible require_admissible(const ProblemData& problem, const std::string& name, const Beam& beam,
+                              double final_time) {
     require_final_time(final_time);
     return ProblemAdmissibilityCheck(problem, name, beam, final_time).run();
 }

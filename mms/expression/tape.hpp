@@ -1,5 +1,7 @@
 #pragma once
 
+#include "mms/expression/enclosure.hpp"
+
 #include <Eigen/Core>
 
 #include <cstdint>
@@ -18,6 +20,11 @@ public:
     /// point. A value depends on its point only, not on where in the array the point stands.
     [[nodiscard]] Eigen::ArrayXXd evaluate(const Eigen::ArrayXd& x, const Eigen::ArrayXd& t) const;
 
+    /// What one expression does at x while t is in [begin, end]: bounds of all its values and of
+    /// all its derivatives in t, rounded outwards. They hold for the constants as they stand in the
+    /// tape; where it may have no value, or a jump, there are none.
+    [[nodiscard]] Enclosure enclose(Eigen::Index output, double x, double begin, double end) const;
+
     [[nodiscard]] Eigen::Index output_count() const {
         return static_cast<Eigen::Index>(outputs_.size());
     }
@@ -26,6 +33,7 @@ public:
 
 private:
     friend class TapeCompiler;
+    friend class TapeEnclosure;
 
     enum class Operation : std::uint8_t {
         Add,
@@ -74,6 +82,9 @@ private:
     template <typename Real>
     void evaluate_in(const Eigen::ArrayXd& x, const Eigen::ArrayXd& t,
                      Eigen::ArrayXXd& values) const;
+    template <typename Real>
+    [[nodiscard]] Enclosure enclose_in(Eigen::Index output, double x, double begin,
+                                       double end) const;
 
     // Registers 0 and 1 hold x and t. The instructions that do not need x come first: for many x at
     // one time they run once. Registers in `persistent` are read by the rest and never written by

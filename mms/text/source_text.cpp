@@ -30,6 +30,12 @@ public:
     }
     [[nodiscard]] int line() const { return line_; }
     [[nodiscard]] int column() const { return column_; }
+    [[nodiscard]] LineIndex::Mark mark() const { return {offset_, line_, column_}; }
+    void begin_at(const LineIndex::Mark& mark) {
+        offset_ = mark.offset;
+        line_ = mark.line;
+        column_ = mark.column;
+    }
 
     void step() {
         if (at_end())
@@ -93,6 +99,22 @@ bool escapes_line_end(const Walker& walker) {
 
 } // namespace
 
+LineIndex::LineIndex(std::string_view text) {
+    constexpr std::size_t distance = 2048;
+    for (Walker walker(text); !walker.at_end(); walker.step())
+        if (walker.mark().offset % distance == 0)
+            marks_.push_back(walker.mark());
+}
+
+LineIndex::Mark LineIndex::before(int line, int column) const {
+    const auto behind = [](const Mark& place, const Mark& mark) {
+        return std::pair(place.line, place.column) < std::pair(mark.line, mark.column);
+    };
+    const auto next = std::upper_bound(marks_.begin(), marks_.end(), Mark{0, line, column}, behind);
+    // Within a code point its column is that of the point before.
+    return std::distance(marks_.begin(), next) < 2 ? Mark{0, 1, 1} : *std::prev(next, 2);
+}
+
 SourceText::SourceText(std::string text, const Place& first)
     : text_(std::move(text)), file_(first.file) {
     positions_.reserve(text_.size() + 1);
@@ -107,9 +129,11 @@ SourceText::SourceText(std::string text, const Place& first)
 }
 
 SourceText SourceText::of_toml_string(std::string value, std::string_view document,
-                                      const Place& opening) {
+                                      const Place& opening, const LineIndex& lines) {
     SourceText result(std::move(value), opening);
     Walker walker(document);
+    if (const LineIndex::Mark mark = lines.before(opening.line, opening.column); mark.offset > 0)
+        walker.begin_at(mark);
     walker.go_to(opening.line, opening.column);
 
     const char quote = walker.peek();

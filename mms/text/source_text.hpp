@@ -9,6 +9,26 @@
 
 namespace tvbeam {
 
+/// Where in a text a line and column are, without reading all that stands before.
+class LineIndex {
+public:
+    /// Knows only where the text begins.
+    LineIndex() = default;
+    explicit LineIndex(std::string_view text);
+
+    struct Mark {
+        std::size_t offset;
+        int line;
+        int column; ///< in code points, as editors count
+    };
+
+    /// A place before the one asked for, at most 4 kB, or where the text begins.
+    [[nodiscard]] Mark before(int line, int column) const;
+
+private:
+    std::vector<Mark> marks_;
+};
+
 /// A text and the place of each of its characters in the file it was read from.
 class SourceText {
 public:
@@ -22,8 +42,9 @@ public:
     /// @param value    the string as the TOML reader understood it
     /// @param document the whole TOML document
     /// @param opening  where its opening quote stands in the document, as the TOML reader says
+    /// @param lines    of the document; without it, all that stands before the string is read
     static SourceText of_toml_string(std::string value, std::string_view document,
-                                     const Place& opening);
+                                     const Place& opening, const LineIndex& lines = {});
 
     [[nodiscard]] const std::string& text() const { return text_; }
 

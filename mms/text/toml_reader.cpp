@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <set>
+#include <string_view>
 #include <utility>
 
 namespace tvbeam {
@@ -48,7 +50,91 @@ std::string type_name(const toml::node& node) {
     }
 }
 
+/// Parts of a dotted key, and brackets within each other. Whoever writes a scene needs five; the
+/// parser and all that walks a table call themselves once a level, and a stack holds some 10 000.
+constexpr int deepest = 32;
+
+/// Throws InputError where keys or values are nested deeper than that: reads the text as far as
+/// strings, comments, brackets and dots go.
+class DepthCheck {
+public:
+    DepthCheck(std::string_view text, const std::string& file) : text_(text), file_(file) {}
+
+    void run() {
+        while (at_ < text_.size())
+            switch (text_[at_]) {
+            case '#':
+                at_ = std::min(text_.find('\n', at_), text_.size());
+                break;
+            case '"':
+            case '\'':
+                skip_string();
+                break;
+            default:
+                visit(text_[at_++]);
+            }
+    }
+
+private:
+    void visit(char c) {
+        switch (c) {
+        case '.':
+            if (++dots_ >= deepest)
+                refuse("a key has more than " + std::to_string(deepest) + " parts");
+            break;
+        case '[':
+        case '{':
+            dots_ = 0;
+            if (++open_ > deepest)
+                refuse("values are nested more than " + std::to_string(deepest) + " deep");
+            break;
+        case ']':
+        case '}':
+            open_ = std::max(open_ - 1, 0);
+            dots_ = 0;
+            break;
+        case '=':
+        case ',':
+        case '\n':
+            dots_ = 0;
+            break;
+        default:
+            break;
+        }
+    }
+
+    /// One that is not closed ends with its line, or with the text; the parser refuses it there.
+    void skip_string() {
+        const std::string_view quote = text_.substr(at_, 1);
+        const std::string triple(3, quote.front());
+        const bool many_lines = text_.substr(at_).starts_with(triple);
+        const std::string_view end = many_lines ? std::string_view(triple) : quote;
+        at_ += end.size();
+        while (at_ < text_.size() && !text_.substr(at_).starts_with(end)) {
+            if (!many_lines && text_[at_] == '\n')
+                return;
+            at_ += quote == "\"" && text_[at_] == '\\' ? 2 : 1;
+        }
+        at_ = std::min(at_ + end.size(), text_.size());
+    }
+
+    [[noreturn]] void refuse(const std::string& what) const {
+        const std::string_view before = text_.substr(0, at_ - 1);
+        const auto line = std::count(before.begin(), before.end(), '\n');
+        const auto begin = before.rfind('\n') + 1; // 0 on the first line
+        throw InputError({file_, static_cast<int>(line) + 1, static_cast<int>(at_ - begin)},
+                         what + "; no scene and no solution has so many");
+    }
+
+    std::string_view text_;
+    const std::string& file_;
+    std::size_t at_ = 0;
+    int dots_ = 0;
+    int open_ = 0;
+};
+
 toml::table parse(const std::string& text, const std::string& file) {
+    DepthCheck(text, file).run();
     try {
         return toml::parse(text, file);
     } catch (const toml::parse_error& error) {
@@ -66,7 +152,9 @@ TomlDocument read_toml(const std::string& file) {
 
 TomlDocument parse_toml(std::string text, const std::string& file) {
     toml::table table = parse(text, file);
-    return {.file = file, .text = std::move(text), .table = std::move(table)};
+    TomlDocument document{.file = file, .text = std::move(text), .table = std::move(table)};
+    document.lines = LineIndex(document.text);
+    return document;
 }
 
 namespace {
@@ -94,6 +182,8 @@ void override_key(TomlDocument& document, const std::string& assignment) {
     if (equals == std::string::npos || equals == 0)
         throw InputError(place, "an override reads key=value, e.g. --set beam.alpha=1e3");
     std::string path = assignment.substr(0, equals);
+    if (std::count(path.begin(), path.end(), '.') >= deepest)
+        throw InputError({"--set"}, "the key has more than " + std::to_string(deepest) + " parts");
     const std::string value = assignment.substr(equals + 1);
 
     toml::table parsed;
@@ -301,7 +391,7 @@ std::optional<SourceText> TableReader::expression(std::string_view key) {
     const std::string& value = node->as_string()->get();
     if (opening.line == 0) // an override
         return SourceText(value, opening);
-    return SourceText::of_toml_string(value, document_->text, opening);
+    return SourceText::of_toml_string(value, document_->text, opening, document_->lines);
 }
 
 std::optional<std::vector<double>> TableReader::numbers(std::string_view key, Infinity infinity) {
@@ -392,8 +482,9 @@ std::vector<TableReader> TableReader::tables(std::string_view key) {
 
 std::vector<std::string> TableReader::unread() const {
     std::vector<std::string> keys;
+    const std::set<std::string_view> known(known_.begin(), known_.end());
     for (const auto& [key, node] : *table_)
-        if (std::find(known_.begin(), known_.end(), key.str()) == known_.end())
+        if (!known.contains(key.str()))
             keys.emplace_back(key.str());
     return keys;
 }

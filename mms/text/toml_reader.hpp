@@ -20,6 +20,7 @@ struct TomlDocument {
     std::string file;
     std::string text;
     toml::table table;
+    LineIndex lines = {};
     AskedKeys* asked = nullptr; ///< where its readers note it; null: nowhere
 };
 

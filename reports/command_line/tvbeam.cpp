@@ -29,6 +29,7 @@
 #include "studies/data/data_check.hpp"
 #include "studies/data/data_file.hpp"
 #include "studies/gates/features.hpp"
+#include "studies/predicted_work.hpp"
 #include "studies/scene/shipped.hpp"
 #include "studies/scene/solution_setting.hpp"
 #include "studies/study.hpp"
@@ -68,6 +69,7 @@ struct RunOptions {
     std::string out;
     bool resume = false;
     bool quiet = false;
+    bool really_long = false;
     int jobs = 1;
 };
 
@@ -127,6 +129,18 @@ Destination destination(const std::string& name) {
     return opened([&] { return Destination(name); });
 }
 
+/// From here on a prediction is said: seconds.
+constexpr double worth_saying = 60.0;
+
+/// Refuses what would take too long, and says of what takes long how long.
+void predict(const Scene& scene, bool quiet, bool really_long) {
+    const PredictedWork predicted = predicted_work(scene);
+    if (!really_long)
+        require_short_enough(scene, predicted);
+    if (!quiet && predicted.seconds > worth_saying)
+        say(scene.name + " asks for " + predicted.text());
+}
+
 StudyResult run_shown(const Scene& scene, bool quiet, int jobs, std::optional<Checkpoint>& kept) {
     ProgressLine progress(!quiet);
     return run_study(scene,
@@ -144,6 +158,7 @@ std::string trouble_of(const StudyResult& result, bool kept) {
 int run_command(const RunOptions& options) {
     const Scene scene =
         read_scene(options.scene, options.overrides, {.report_files = report_format_names()});
+    predict(scene, options.quiet, options.really_long);
     std::optional<ReportDirectory> out;
     std::optional<Checkpoint> kept;
     if (!options.out.empty()) {
@@ -208,6 +223,7 @@ struct CheckOptions {
     std::string baseline;
     double tolerance = 1e-6;
     bool quiet = false;
+    bool really_long = false;
     int jobs = 1;
 };
 
@@ -236,6 +252,8 @@ int check_command(const CheckOptions& options) {
                                     {.short_form = options.short_form,
                                      .expectations = true,
                                      .report_files = report_format_names()}));
+    for (const auto& scene : scenes)
+        predict(scene, options.quiet, options.really_long);
     const auto baseline =
         options.baseline.empty() ? std::nullopt : std::optional<Baseline>(options.baseline);
     for (const auto& scene : scenes)
@@ -437,6 +455,11 @@ int features_command(const std::string& word) {
     return done;
 }
 
+void add_really_long(CLI::App& command, bool& really_long) {
+    command.add_flag("--yes-really-long", really_long,
+                     "also what is predicted to take more than 6 h or 4 GB");
+}
+
 void add_jobs(CLI::App& command, int& jobs) {
     constexpr int most = 1024;
     command
@@ -555,6 +578,7 @@ Command add_run(CLI::App& app) {
                   "directory of --out")
         ->needs("--out");
     run->add_flag("--quiet", options->quiet, "no table, and no progress line");
+    add_really_long(*run, options->really_long);
     add_jobs(*run, options->jobs);
     return {run, [options] {
                 require_apart("--json", options->json, "--csv", options->csv);
@@ -576,6 +600,7 @@ Command add_check(CLI::App& app) {
     add_file(*check, "--record", options->record, "write a baseline of every error found");
     add_baseline(*check, options->baseline, options->tolerance, "error");
     check->add_flag("--quiet", options->quiet, "only the scenes that fail, and no progress line");
+    add_really_long(*check, options->really_long);
     add_jobs(*check, options->jobs);
     return {check, [options] {
                 require_apart("--junit", options->junit, "--record", options->record);

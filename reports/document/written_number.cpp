@@ -2,16 +2,42 @@
 
 #include <algorithm>
 #include <cctype>
-#include <regex>
+#include <string_view>
 
 namespace tvbeam {
 
 std::optional<WrittenNumber> written_number(const std::string& text) {
-    static const std::regex form("(-?[0-9]+)(?:\\.([0-9]+))?(?:e(-?[0-9]+))?((?:µ|m|n)?\\*?)");
-    std::smatch parts;
-    if (!std::regex_match(text, parts, form))
+    std::string_view rest = text;
+    // What is at the front and goes with a number; it is taken away.
+    const auto digits = [&rest] {
+        const std::string_view found =
+            rest.substr(0, std::min(rest.find_first_not_of("0123456789"), rest.size()));
+        rest.remove_prefix(found.size());
+        return std::string(found);
+    };
+    const auto given = [&rest](std::string_view mark) {
+        const bool there = rest.starts_with(mark);
+        rest.remove_prefix(there ? mark.size() : 0);
+        return there ? std::string(mark) : std::string();
+    };
+    const auto integer = [&] {
+        const std::string sign = given("-");
+        const std::string number = digits();
+        return number.empty() ? number : sign + number;
+    };
+    WrittenNumber number;
+    number.whole = integer();
+    if (number.whole.empty())
         return std::nullopt;
-    return WrittenNumber{parts[1], parts[2], parts[3], parts[4]};
+    if (!given(".").empty() && (number.fraction = digits()).empty())
+        return std::nullopt;
+    if (!given("e").empty() && (number.exponent = integer()).empty())
+        return std::nullopt;
+    for (const char* prefix : {"µ", "m", "n"})
+        if (number.suffix.empty())
+            number.suffix = given(prefix);
+    number.suffix += given("*");
+    return rest.empty() ? std::optional(number) : std::nullopt;
 }
 
 std::vector<TextPiece> pieces_of(const std::string& text) {

@@ -20,6 +20,9 @@ using Json = nlohmann::ordered_json;
 constexpr const char* baseline_schema = "tvbeam-baseline/1";
 constexpr std::size_t largest_baseline = 64 << 20; // bytes
 
+/// Of values within each other, above what a baseline has.
+constexpr int deepest_baseline = 8;
+
 /// Figures of the size of round-off, which another compiler changes; they want a band of [expect].
 bool is_round_off(const std::string& figure) {
     return figure == "beyond_stops" || figure == "period_change" || figure == "moment_floor" ||
@@ -77,40 +80,56 @@ std::string baseline_of(const std::vector<BaselineEntry>& entries) {
 }
 
 Baseline::Baseline(const std::string& file) : file_(file) {
-    text_ = file_text(file, largest_baseline);
-    const Json json = Json::parse(text_, nullptr, false);
-    if (json.is_discarded() || !json.is_object() || !json.contains("schema") ||
-        json["schema"] != baseline_schema || !json.contains("scenes") ||
-        !json["scenes"].is_object())
-        throw InputError({file}, std::string("is not a baseline (schema ") + baseline_schema +
-                                     "); record one with --record");
+    const std::string text = file_text(file, largest_baseline);
+    const auto require = [&](bool holds) {
+        if (!holds)
+            throw InputError({file}, std::string("is not a baseline (schema ") + baseline_schema +
+                                         "); record one with --record");
+    };
+    // Its names are sorted: of many thousands each is found at once. A baseline has two levels, and
+    // a deep value would be copied and written by recursion.
+    const auto shallow = [&](int depth, nlohmann::json::parse_event_t /*event*/,
+                             nlohmann::json& /*value*/) {
+        require(depth <= deepest_baseline);
+        return true;
+    };
+    const auto json = nlohmann::json::parse(text, shallow, false);
+    require(!json.is_discarded() && json.is_object() && json.contains("schema") &&
+            json["schema"] == baseline_schema && json.contains("scenes") &&
+            json["scenes"].is_object());
+    for (const auto& [scene, figures] : json["scenes"].items()) {
+        auto& recorded = scenes_[scene];
+        for (const auto& [what, figure] : figures.items())
+            recorded[what] = {figure.is_number() ? std::optional<double>(figure) : std::nullopt,
+                              figure.dump(-1, ' ', false, Json::error_handler_t::replace)};
+    }
 }
 
 std::vector<CheckedExpectation> Baseline::check(const BaselineEntry& entry,
                                                 double tolerance) const {
     const Place place{file_};
-    const Json scenes = Json::parse(text_)["scenes"];
-    if (!scenes.contains(entry.name))
+    const auto scene = scenes_.find(entry.name);
+    if (scene == scenes_.end())
         return {
             {"baseline", "a record of this name", "none; record it with --record", place, false}};
-    const Json& recorded = scenes[entry.name];
+    const auto& recorded = scene->second;
     std::vector<CheckedExpectation> checked;
     const auto& errors = entry.figures;
     for (const auto& [what, error] : errors) {
-        const bool known = recorded.contains(what) && recorded[what].is_number();
+        const auto found = recorded.find(what);
         CheckedExpectation one{"baseline: " + what, "a recorded error", fmt::format("{}", error),
                                place, false};
-        if (known) {
-            const double before = recorded[what];
+        if (found != recorded.end() && found->second.number) {
+            const double before = *found->second.number;
             one.expected = fmt::format("{} within {}", before, tolerance);
             one.holds = std::abs(error - before) <= tolerance * std::abs(before);
         }
         checked.push_back(one);
     }
-    for (const auto& [what, before] : recorded.items())
+    for (const auto& [what, before] : recorded)
         if (!errors.contains(what))
-            checked.push_back({"baseline: " + what, before.dump(), "this run is not made any more",
-                               place, false});
+            checked.push_back(
+                {"baseline: " + what, before.text, "this run is not made any more", place, false});
     return checked;
 }
 

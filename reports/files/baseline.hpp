@@ -5,6 +5,7 @@
 #include "studies/study.hpp"
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -38,8 +39,14 @@ public:
                                                         double tolerance) const;
 
 private:
+    /// What stands for a figure: its number, or none where the run failed.
+    struct Recorded {
+        std::optional<double> number;
+        std::string text;
+    };
+
     std::string file_;
-    std::string text_;
+    std::map<std::string, std::map<std::string, Recorded>> scenes_;
 };
 
 } // namespace tvbeam

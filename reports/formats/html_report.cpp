@@ -1,12 +1,13 @@
 #include "reports/formats/html_report.hpp"
 
 #include "reports/document/html_text.hpp"
+#include "reports/document/raised_text.hpp"
 #include "reports/document/written_number.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <regex>
+#include <string_view>
 
 namespace tvbeam {
 
@@ -97,12 +98,11 @@ std::string html_number(const WrittenNumber& number, const NumberColumn& column)
 
 /// Its numbers with powers of ten, and what stands behind a ^ raised.
 std::string html_sentence(const std::string& text) {
-    static const std::regex raised("\\^([0-9A-Za-z]+)");
     std::string html;
     for (const auto& piece : pieces_of(text))
         html += piece.number
                     ? "<span class=\"number\">" + html_number(*piece.number, {}) + "</span>"
-                    : std::regex_replace(html_text(piece.text), raised, "<sup>$1</sup>");
+                    : with_raised(html_text(piece.text), "^", "<sup>", "</sup>");
     return html;
 }
 
@@ -279,20 +279,51 @@ std::string problem_of(const HtmlContents& contents) {
     return html + "</dl>\n</section>\n";
 }
 
+/// The text with a word behind each of the marks.
+std::string with_behind(std::string_view text, std::string_view mark, std::string_view word) {
+    std::string result;
+    for (auto at = text.find(mark); at != std::string_view::npos; at = text.find(mark)) {
+        result.append(text.substr(0, at + mark.size())).append(word);
+        text.remove_prefix(at + mark.size());
+    }
+    return result.append(text);
+}
+
+/// Without the elements of this name, which hold text alone.
+std::string without_element(std::string_view text, const std::string& name) {
+    const std::string begin = "<" + name + ">";
+    const std::string end = "</" + name + ">";
+    std::string result;
+    for (auto at = text.find(begin); at != std::string_view::npos; at = text.find(begin)) {
+        result += text.substr(0, at);
+        text.remove_prefix(at);
+        const auto behind = text.find('<', begin.size());
+        const bool whole = behind != std::string_view::npos && text.substr(behind).starts_with(end);
+        if (!whole)
+            result += begin;
+        text.remove_prefix(whole ? behind + end.size() : begin.size());
+    }
+    return result.append(text);
+}
+
 } // namespace
 
 std::string inline_svg(const Figure& figure) {
     std::string svg = figure.svg;
     svg.erase(0, std::min(svg.find("<svg"), svg.size()));
     const std::string prefix = figure.name + "-";
-    svg = std::regex_replace(svg, std::regex("(\\bid=[\"'])"), "$1" + prefix);
-    svg = std::regex_replace(svg, std::regex("((?:href=[\"']|url\\()#)"), "$1" + prefix);
+    for (const char* mark : {" id=\"", " id='", "href=\"#", "href='#", "url(#"})
+        svg = with_behind(svg, mark, prefix);
     // Its titles would pop up as hints; what a picture shows is said by its label.
-    svg = std::regex_replace(svg, std::regex("<title>[^<]*</title>|<desc>[^<]*</desc>"), "");
-    const std::regex size("\\swidth=\"[0-9]+\" height=\"[0-9]+\"");
-    return std::regex_replace(svg, size,
-                              " role=\"img\" aria-label=\"" + html_text(figure.caption) + "\"",
-                              std::regex_constants::format_first_only);
+    svg = without_element(without_element(svg, "title"), "desc");
+    // Its size is the page's matter.
+    const auto width = svg.find("width=\"");
+    const auto height = svg.find("\" height=\"", width);
+    const auto end = height == std::string::npos ? height : svg.find('"', height + 10);
+    if (end < svg.find('>'))
+        svg.replace(width - 1, end + 2 - width,
+                    " role=\"img\" aria-label=\"" + html_text(figure.caption) + "\"");
+    return svg;
 }
 
 std::string html_report(const HtmlContents& contents) {

@@ -1,5 +1,6 @@
 #include "reports/formats/latex_report.hpp"
 
+#include "reports/document/raised_text.hpp"
 #include "reports/document/text_table.hpp"
 #include "reports/document/visible_text.hpp"
 #include "reports/document/written_number.hpp"
@@ -11,7 +12,6 @@
 
 #include <algorithm>
 #include <map>
-#include <regex>
 
 namespace tvbeam {
 
@@ -123,7 +123,6 @@ std::string power_of_ten(const WrittenNumber& number) {
 
 /// A sentence, its numbers with an exponent as mathematics, and what stands behind a ^ raised.
 std::string latex_sentence(const std::string& text) {
-    static const std::regex raised("\\\\textasciicircum\\{\\}([0-9A-Za-z]+)");
     std::string latex;
     for (const auto& piece : pieces_of(text)) {
         if (const auto& number = piece.number)
@@ -131,7 +130,7 @@ std::string latex_sentence(const std::string& text) {
                      (number->fraction.empty() ? "" : "." + number->fraction) +
                      power_of_ten(*number) + "$";
         else
-            latex += std::regex_replace(latex_text(piece.text), raised, "$$^{$1}$$");
+            latex += with_raised(latex_text(piece.text), "\\textasciicircum{}", "$^{", "}$");
     }
     return latex;
 }

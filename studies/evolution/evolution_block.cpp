@@ -16,6 +16,9 @@ using Quantity = Probe::Quantity;
 /// Numbers that a result may hold: 800 MB.
 constexpr double most_values = 1e8;
 
+/// Each is compared with all others, and looked at in every step.
+constexpr std::size_t most_probes = 1000;
+
 std::optional<double> position(const std::string& text) {
     double x = 0.0;
     const char* end = text.data() + text.size();
@@ -50,6 +53,10 @@ std::vector<NamedProbe> read_probes(TableReader& table) {
         throw table.error("probes",
                           " is missing or empty; name what to look at, e.g. [\"theta@0.5\", "
                           "\"u@1\", \"stress\", \"energy\"]");
+    if (names->size() > most_probes)
+        throw table.error("probes", " names " + std::to_string(names->size()) +
+                                        "; an evolution has at most " +
+                                        std::to_string(most_probes));
     std::vector<NamedProbe> probes;
     for (std::size_t i = 0; i < names->size(); ++i) {
         const std::string& name = (*names)[i];

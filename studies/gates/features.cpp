@@ -31,6 +31,7 @@ namespace {
 /// Keys that change no number of a result.
 const std::vector<FeatureTable::Exception> without_numbers{
     {"key title", "what the scene is called"},
+    {"key long", "that it may take long"},
     {"key short", "its keys are those of the scene itself"},
     {"key report", "what --out writes"},
     {"key report.files", "what --out writes"},

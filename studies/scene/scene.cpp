@@ -41,6 +41,7 @@ void check_meshes(const Scene& scene, const TableReader& root) {
                          "a block [reference] wants uniform meshes, whose nodes are all nodes of "
                          "the reference; remove the block [mesh]");
     const auto intervals = static_cast<std::int64_t>(scene.mesh.nodes.size()) - 1;
+    std::int64_t finest = 0;
     for (const auto& series : scene.series())
         for (const Rung& rung : series.rungs) {
             if (intervals > 0 && rung.elements % intervals != 0)
@@ -48,17 +49,18 @@ void check_meshes(const Scene& scene, const TableReader& root) {
                                  "mesh.nodes has " + std::to_string(intervals) +
                                      " intervals, and a run has " + std::to_string(rung.elements) +
                                      " elements; every interval must get the same number");
-            if (scene.mesh.is_uniform())
-                continue;
-            const auto lengths = scene.mesh.with(rung.elements).lengths;
-            if (!(lengths.minCoeff() >= least_ratio * lengths.maxCoeff()))
-                throw InputError(root.place("mesh"),
-                                 "with " + std::to_string(rung.elements) +
-                                     " elements the shortest is " +
-                                     message_text(lengths.minCoeff()) + " and the longest " +
-                                     message_text(lengths.maxCoeff()) +
-                                     "; they must be within a factor of 1e8: grade less");
+            finest = std::max(finest, rung.elements);
         }
+    if (scene.mesh.is_uniform() || finest == 0)
+        return;
+    // Of graded meshes the finest has the greatest factor, of the others all have the same.
+    const auto lengths = scene.mesh.with(finest).lengths;
+    if (!(lengths.minCoeff() >= least_ratio * lengths.maxCoeff()))
+        throw InputError(root.place("mesh"),
+                         "with " + std::to_string(finest) + " elements the shortest is " +
+                             message_text(lengths.minCoeff()) + " and the longest " +
+                             message_text(lengths.maxCoeff()) +
+                             "; they must be within a factor of 1e8: grade less");
 }
 
 std::string json_of(const toml::table& table) {
@@ -209,6 +211,7 @@ Scene read_scene(const std::string& name_or_file, const std::vector<std::string>
     scene.json = json_of(document.table);
     TableReader root(document, document.table, "");
     scene.title = root.text("title").value_or(scene.name);
+    scene.is_long = root.flag("long").value_or(false);
     const auto kinds = kinds_in(root);
     // A file without any study is told so after its problem, which may be what is wrong with it.
     const bool brings_its_own =

@@ -32,9 +32,10 @@ struct Scene {
     std::vector<Expectation> expectations;   ///< empty unless they were asked for
     std::optional<GivenData> defect;         ///< that every run adds to the problem
     ReportBlock report;                      ///< what --out writes
-    std::string text;                        ///< the file as it stands, without overrides
-    std::vector<std::string> overrides;      ///< KEY=VALUE each, in their order
-    std::string json;                        ///< the scene with its overrides, as JSON
+    bool is_long = false;               ///< it may take as long as it does (predicted_work.hpp)
+    std::string text;                   ///< the file as it stands, without overrides
+    std::vector<std::string> overrides; ///< KEY=VALUE each, in their order
+    std::string json;                   ///< the scene with its overrides, as JSON
 
     [[nodiscard]] bool has_exact_solution() const {
         return std::holds_alternative<Solution>(problem);

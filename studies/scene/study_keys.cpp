@@ -69,6 +69,10 @@ std::vector<std::int64_t> read_elements(TableReader& table) {
                           " is missing; give the numbers of elements, e.g. [10, 20, 40]");
     if (elements->empty())
         throw table.error("elements", " is empty; it must hold a number of elements");
+    if (elements->size() > most_levels)
+        throw table.error("elements", " holds " + std::to_string(elements->size()) +
+                                          " numbers; at most " + std::to_string(most_levels) +
+                                          " are read");
     for (std::size_t i = 0; i < elements->size(); ++i)
         if ((*elements)[i] < 1 || (*elements)[i] > most_elements)
             throw table.error("elements",

@@ -24,6 +24,7 @@ struct SolverKeys {
 /// What a run may have.
 inline constexpr std::int64_t most_elements = 10'000'000;
 inline constexpr double most_steps = 1e12;
+inline constexpr std::size_t most_levels = 10'000; ///< of a ladder, or meshes of a grid
 
 /// Readers of the keys that the blocks of the studies share. Each throws InputError where a value
 /// is missing or breaks its rule.

@@ -18,7 +18,7 @@ namespace tvbeam {
 
 namespace {
 
-constexpr std::int64_t most_cases = 100'000;
+constexpr std::int64_t most_cases = 100'000; // of all sweeps
 constexpr std::int64_t most_work = 10'000'000'000;
 
 /// One list of values: sets the one at an index in a case.
@@ -282,8 +282,15 @@ RoundOffBlock read_roundoff(TableReader table) {
 StressBlock read_stress(TableReader& table) {
     StressBlock block;
     if (auto sweeps = table.table("sweep")) {
-        for (const auto& name : sweeps->unread())
+        std::size_t cases = 0;
+        for (const auto& name : sweeps->unread()) {
             block.sweeps.push_back(read_sweep(*sweeps->table(name), name));
+            cases += block.sweeps.back().cases.size();
+            if (cases > static_cast<std::size_t>(most_cases))
+                throw sweeps->error(name, " makes them more than " + std::to_string(most_cases) +
+                                              " cases, which all sweeps together may have; "
+                                              "shorten their lists");
+        }
         sweeps->finish();
     }
     if (auto contraction = table.table("contraction"))

@@ -9,6 +9,7 @@ namespace tvbeam {
 namespace {
 
 constexpr std::int64_t most_runs = 10'000;
+constexpr std::size_t most_schemes = 1000;
 /// In bytes. Names stand in tables of 80 columns.
 constexpr std::size_t longest_name = 28;
 
@@ -32,7 +33,12 @@ std::string read_name(TableReader& table, const Method& method,
 std::vector<TimedScheme> read_schemes(TableReader& block, double final_time,
                                       const SolverKeys& keys) {
     std::vector<TimedScheme> schemes;
-    for (auto& table : block.tables("scheme")) {
+    auto tables = block.tables("scheme");
+    if (tables.size() > most_schemes)
+        throw block.error("scheme", " stands " + std::to_string(tables.size()) +
+                                        " times; at most " + std::to_string(most_schemes) +
+                                        " schemes are timed");
+    for (auto& table : tables) {
         TimedScheme timed;
         timed.method = keys.read_method(table);
         timed.name = read_name(table, timed.method, schemes);

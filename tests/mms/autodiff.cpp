@@ -282,7 +282,7 @@ BOOST_AUTO_TEST_CASE(the_stops_and_the_sign_of_the_stress_are_checked_as_for_a_t
     const auto large = [](const auto& x, const auto& t) { return x * x * t; };
     contains(refusal({"mine", sine, large, none}),
              {"mine: (6): u(1,t) is 0.101562 at t = 0.101562; it must be at most g2 = 0.1",
-              "it is greatest, 2, at t = 2: multiply u by 0.05"});
+              "it is greatest, 2, at t = 2 as far as was seen: multiply u by 0.05"});
     const auto rising = [](const auto& t) { return t - 1.0; };
     contains(refusal({"mine", sine, small, rising}),
              {"mine: (7): sigma(1,t) is -1 at t = 0", "must be 0 strictly between the stops"});

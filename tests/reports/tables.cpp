@@ -3,6 +3,7 @@
 #include "core/norms/norms.hpp"
 #include "reports/document/html_text.hpp"
 #include "reports/document/json_text.hpp"
+#include "reports/document/raised_text.hpp"
 #include "reports/document/text_table.hpp"
 #include "reports/document/visible_text.hpp"
 #include "reports/document/written_number.hpp"
@@ -52,6 +53,30 @@ std::string words_of(const std::string& norm) {
 }
 
 } // namespace
+
+// As long as a scene may make them: nothing calls itself once a character.
+BOOST_AUTO_TEST_CASE(long_texts_are_written) {
+    const std::string digits(1'000'000, '1');
+    BOOST_TEST(written_number(digits + "." + digits + "e-" + digits)->fraction == digits);
+    BOOST_TEST(!written_number(digits + "x"));
+    Document document{"^" + digits, {"h^" + digits}, {}, {}, {}, {}};
+    document.sections.push_back({"Ladder", {Paragraph{"a^" + digits}}});
+    HtmlContents page;
+    page.document = document;
+    BOOST_TEST(has(html_report(page), "a<sup>" + digits + "</sup>"));
+    BOOST_TEST(has(latex_report(document), "a$^{" + digits + "}$"));
+    const std::string svg = "<svg \n width=\"600\" height=\"480\" id=\"a\"><title>" + digits +
+                            "</title><g id='b' fill='url(#b)'><desc>x</desc></g></svg>";
+    BOOST_TEST(inline_svg({"name", "what", svg}) ==
+               "<svg \n role=\"img\" aria-label=\"what\" id=\"name-a\"><g id='name-b' "
+               "fill='url(#name-b)'></g></svg>");
+}
+
+BOOST_AUTO_TEST_CASE(what_stands_behind_a_mark_is_raised) {
+    BOOST_TEST(with_raised("h^2 + x^{n} + y^", "^", "<sup>", "</sup>") ==
+               "h<sup>2</sup> + x^{n} + y^");
+    BOOST_TEST(with_raised("", "^", "<", ">").empty());
+}
 
 BOOST_AUTO_TEST_CASE(a_written_number_has_its_parts) {
     const auto number = written_number("-1.25e-3");

@@ -1,0 +1,99 @@
+#include "studies/predicted_work.hpp"
+
+#include "studies/evolution/evolution_block.hpp"
+#include "studies/runs/beam_runs.hpp"
+#include "studies/sensitivity/sensitivity.hpp"
+#include "studies/stress/stress_block.hpp"
+#include "studies/study.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace tvbeam {
+
+namespace {
+
+constexpr double steps_a_second = 1e8;
+constexpr double seconds_a_run = 2e-4;
+constexpr double bytes_a_run = 1e3;
+constexpr double bytes_a_node = 400.0;
+
+/// Of a contraction and of a floor of round-off: what is iterated, in steps.
+constexpr double steps_a_point = 100.0;
+
+void add_stress(const StressBlock& stress, PredictedWork& predicted) {
+    for (const auto& sweep : stress.sweeps)
+        predicted.runs += static_cast<double>(sweep.cases.size());
+    if (const auto& map = stress.contraction) {
+        const double points =
+            static_cast<double>(map->alpha.size()) * static_cast<double>(map->dt.size());
+        predicted.runs += points;
+        predicted.steps += points * steps_a_point * static_cast<double>(map->elements);
+    }
+    if (const auto& floors = stress.roundoff)
+        for (const std::int64_t elements : floors->elements)
+            predicted.steps +=
+                steps_a_point * static_cast<double>(floors->steps) * static_cast<double>(elements);
+}
+
+/// How often a sensitivity study runs all others: for each defect a scan of decades, and the
+/// bisections between two of them.
+double repetitions(const SensitivityBlock& block) {
+    constexpr double bisections = 8.0;
+    return static_cast<double>(block.defects.size()) *
+           (std::log10(block.largest / block.smallest) + bisections);
+}
+
+std::string time_text(double seconds) {
+    if (seconds < 120.0)
+        return fmt::format("{:.2g} s", seconds);
+    if (seconds < 120.0 * 60.0)
+        return fmt::format("{:.0f} min", seconds / 60.0);
+    return seconds < 1e9 ? fmt::format("{:.0f} h", seconds / 3600.0)
+                         : fmt::format("{:.2g} years", seconds / (365.25 * 24.0 * 3600.0));
+}
+
+} // namespace
+
+std::string PredictedWork::text() const {
+    return fmt::format(
+        "{:.2g} steps of elements in {:.6g} runs, about {} on one core and {:.0f} MB", steps, runs,
+        time_text(seconds), std::ceil(bytes / 1e6));
+}
+
+PredictedWork predicted_work(const Scene& scene) {
+    PredictedWork predicted;
+    predicted.steps = work_of(scene);
+    double largest = scene.reference ? static_cast<double>(scene.reference->elements) : 0.0;
+    for (const auto& series : scene.series()) {
+        predicted.runs += static_cast<double>(series.rungs.size());
+        for (const Rung& rung : series.rungs)
+            largest = std::max(largest, static_cast<double>(rung.elements));
+    }
+    if (const auto* stress = scene.get<StressBlock>())
+        add_stress(*stress, predicted);
+    predicted.bytes = bytes_a_run * predicted.runs + bytes_a_node * largest;
+    if (const auto* evolution = scene.get<EvolutionBlock>())
+        predicted.bytes += static_cast<double>(sizeof(double)) *
+                           static_cast<double>(evolution->probes.size()) *
+                           static_cast<double>(evolution->rung.steps / evolution->every);
+    if (const auto* sensitivity = scene.get<SensitivityBlock>()) {
+        predicted.steps *= 1.0 + repetitions(*sensitivity);
+        predicted.runs *= 1.0 + repetitions(*sensitivity);
+    }
+    predicted.seconds = predicted.steps / steps_a_second + predicted.runs * seconds_a_run;
+    return predicted;
+}
+
+void require_short_enough(const Scene& scene, const PredictedWork& predicted) {
+    if (scene.is_long || (predicted.seconds <= longest_work && predicted.bytes <= largest_work))
+        return;
+    throw InputError({scene.file},
+                     fmt::format("asks for {}; beyond {} or {:.0f} MB it runs only with "
+                                 "--yes-really-long, or long = true at the top of the scene",
+                                 predicted.text(), time_text(longest_work), largest_work / 1e6));
+}
+
+} // namespace tvbeam

@@ -1,0 +1,197 @@
+#include "tests/fuzz/targets.hpp"
+
+#include "mms/expression/agreement.hpp"
+#include "mms/expression/algebra.hpp"
+#include "mms/expression/expression_parser.hpp"
+#include "mms/expression/symbols.hpp"
+#include "mms/expression/tape_compiler.hpp"
+#include "mms/text/input_error.hpp"
+
+#include <boost/math/constants/constants.hpp>
+#include <boost/multiprecision/cpp_bin_float.hpp>
+
+#include <array>
+#include <numbers>
+#include <utility>
+
+namespace tvbeam::fuzz {
+
+namespace {
+
+using Digits = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<60>,
+                                             boost::multiprecision::et_off>;
+
+constexpr std::size_t points = 4;
+constexpr std::array<double, points> xs = {0.0625, 0.37109375, 0.7548828125, 0.9375};
+constexpr std::array<double, points> ts = {0.5703125, 1.140625, 0.0859375, 1.703125};
+
+/// A text and what it is worth at each point.
+struct Chosen {
+    std::string text;
+    std::array<Digits, points> values;
+};
+
+/// Chooses by the bytes, one after the other; where they end, the first of each choice.
+class Chooser {
+public:
+    explicit Chooser(std::span<const std::uint8_t> data) : data_(data) {}
+
+    Chosen expression(int depth = 0) {
+        constexpr int deepest = 6;
+        if (depth == deepest)
+            return leaf();
+        switch (pick(10)) {
+        case 0:
+        case 1:
+            return leaf();
+        case 2:
+            return joined(expression(depth + 1), "+", expression(depth + 1),
+                          [](const Digits& a, const Digits& b) { return Digits(a + b); });
+        case 3:
+            return joined(expression(depth + 1), "-", expression(depth + 1),
+                          [](const Digits& a, const Digits& b) { return Digits(a - b); });
+        case 4:
+            return joined(expression(depth + 1), "*", expression(depth + 1),
+                          [](const Digits& a, const Digits& b) { return Digits(a * b); });
+        case 5:
+            return joined(expression(depth + 1), "/", expression(depth + 1),
+                          [](const Digits& a, const Digits& b) { return Digits(a / b); });
+        case 6:
+            return power(expression(depth + 1));
+        case 7:
+            return of_one(expression(depth + 1), "-", [](const Digits& a) { return Digits(-a); });
+        default:
+            return function(expression(depth + 1));
+        }
+    }
+
+private:
+    unsigned pick(unsigned count) {
+        if (data_.empty())
+            return 0;
+        const unsigned chosen = data_.front() % count;
+        data_ = data_.subspan(1);
+        return chosen;
+    }
+
+    Chosen leaf() {
+        Chosen chosen;
+        const unsigned kind = pick(4);
+        const std::string number = kind == 3 ? decimal() : "";
+        for (std::size_t k = 0; k < points; ++k)
+            chosen.values[k] = kind == 0   ? Digits(xs[k])
+                               : kind == 1 ? Digits(ts[k])
+                               : kind == 2 ? boost::math::constants::pi<Digits>()
+                                           : Digits(number);
+        chosen.text = kind == 0 ? "x" : kind == 1 ? "t" : kind == 2 ? "pi" : number;
+        return chosen;
+    }
+
+    std::string decimal() {
+        static const std::array<const char*, 8> forms = {"",    "0.", "0.00", "1.",
+                                                         "12.", "1e", "3e-",  "100"};
+        return forms[pick(forms.size())] + std::to_string(1 + pick(20));
+    }
+
+    /// What binds less than the operation stands in brackets, by how the text was made.
+    template <typename Operation>
+    static Chosen joined(const Chosen& a, const std::string& sign, const Chosen& b,
+                         const Operation& operation) {
+        Chosen result{"(" + a.text + ")" + sign + "(" + b.text + ")", {}};
+        for (std::size_t k = 0; k < points; ++k)
+            result.values[k] = operation(a.values[k], b.values[k]);
+        return result;
+    }
+
+    template <typename Operation>
+    static Chosen of_one(const Chosen& a, const std::string& name, const Operation& operation) {
+        Chosen result{name + "(" + a.text + ")", {}};
+        for (std::size_t k = 0; k < points; ++k)
+            result.values[k] = operation(a.values[k]);
+        return result;
+    }
+
+    /// -a^n is -(a^n), and a^b^c is a^(b^c): without brackets.
+    Chosen power(const Chosen& a) {
+        const int exponent = 1 + static_cast<int>(pick(12));
+        const bool negative = pick(3) == 0;
+        Chosen result{"-(" + a.text + ")^" + (negative ? "(-" : "") + std::to_string(exponent) +
+                          (negative ? ")" : "") + "^1",
+                      {}};
+        for (std::size_t k = 0; k < points; ++k) {
+            Digits product = 1;
+            for (int n = 0; n < exponent; ++n)
+                product *= a.values[k];
+            result.values[k] = negative ? Digits(-1 / product) : Digits(-product);
+        }
+        return result;
+    }
+
+    Chosen function(const Chosen& a) {
+        using Function = Digits (*)(const Digits&);
+        static const std::array<std::pair<const char*, Function>, 12> functions = {
+            {{"sin", [](const Digits& v) { return Digits(sin(v)); }},
+             {"cos", [](const Digits& v) { return Digits(cos(v)); }},
+             {"tan", [](const Digits& v) { return Digits(tan(v)); }},
+             {"asin", [](const Digits& v) { return Digits(asin(v)); }},
+             {"acos", [](const Digits& v) { return Digits(acos(v)); }},
+             {"atan", [](const Digits& v) { return Digits(atan(v)); }},
+             {"sinh", [](const Digits& v) { return Digits(sinh(v)); }},
+             {"cosh", [](const Digits& v) { return Digits(cosh(v)); }},
+             {"tanh", [](const Digits& v) { return Digits(tanh(v)); }},
+             {"exp", [](const Digits& v) { return Digits(exp(v)); }},
+             {"log", [](const Digits& v) { return Digits(log(v)); }},
+             {"sqrt", [](const Digits& v) { return Digits(sqrt(v)); }}}};
+        const auto& [name, value] = functions[pick(functions.size())];
+        return of_one(a, name, [&](const Digits& v) {
+            // Of larger arguments 60 digits are too few, or take too long.
+            return abs(v) < Digits(1e4) ? value(v)
+                                        : Digits(std::numeric_limits<double>::quiet_NaN());
+        });
+    }
+
+    std::span<const std::uint8_t> data_;
+};
+
+template <typename Real>
+Bounded<Real> at(const PlainExpression& plain, std::size_t k, const Real& pi) {
+    return evaluated<Real>(plain, {{"x", BoundedJet<Real>::x(Real(xs[k]), 0)},
+                                   {"t", BoundedJet<Real>::t(Real(ts[k]), 0)},
+                                   {"pi", BoundedJet<Real>(Bounded<Real>{pi, pi})}})
+        .derivative(0, 0);
+}
+
+} // namespace
+
+void grammar(std::span<const std::uint8_t> data) {
+    const Chosen chosen = Chooser(data).expression();
+    PlainExpression plain;
+    GiNaC::ex formula;
+    try {
+        formula =
+            parse_expression(SourceText(chosen.text, {"fuzz", 1, 1}), model_symbol_table(), &plain);
+        const Eigen::ArrayXd x = Eigen::Map<const Eigen::ArrayXd>(xs.data(), points);
+        const Eigen::ArrayXd t = Eigen::Map<const Eigen::ArrayXd>(ts.data(), points);
+        const ComputedValues computed =
+            ComputedValues::of(compile_tape({formula}).evaluate(x, t).row(0));
+        std::vector<Bounded<long double>> written_values;
+        for (std::size_t k = 0; k < points; ++k)
+            written_values.push_back(at(plain, k, std::numbers::pi_v<long double>));
+        if (first_disagreement(written_values, computed))
+            return;
+        for (std::size_t k = 0; k < points; ++k) {
+            const Digits terms = at(plain, k, boost::math::constants::pi<Digits>()).bound;
+            const double value = computed.values(static_cast<Eigen::Index>(k));
+            const Digits& expected = chosen.values[k];
+            // What is beyond doubles is refused where it is used.
+            if (!isfinite(expected) || !isfinite(terms) || !std::isfinite(value))
+                continue;
+            require(abs(value - expected) <= 1e-12 * terms + 1e-290,
+                    chosen.text + " is " + std::to_string(value) + ", not " + expected.str(20));
+        }
+    } catch (const InputError&) {
+    } catch (const AlgebraError&) {
+    }
+}
+
+} // namespace tvbeam::fuzz

@@ -1,0 +1,151 @@
+#include "tests/fuzz/targets.hpp"
+
+#include "mms/text/input_error.hpp"
+#include "reports/files/baseline.hpp"
+#include "reports/files/checkpoint.hpp"
+#include "reports/files/run_identity.hpp"
+#include "studies/data/data_analysis.hpp"
+#include "studies/data/data_file.hpp"
+#include "studies/predicted_work.hpp"
+#include "tests/temporary_directory.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <stdexcept>
+#include <string_view>
+
+#include <sys/mman.h>
+#include <unistd.h>
+
+namespace tvbeam::fuzz {
+
+namespace {
+
+const Scene& kept_scene() {
+    static const Scene scene = [] {
+        constexpr std::string_view text =
+            "solution = \"copetti-fernandez-2011\"\n"
+            "[beam]\nalpha = 0.017\nzeta = 0.1\nstops = [-0.02, 0.1]\n"
+            "[ladder]\nfinal_time = 1.0\nelements = [4, 8]\n"
+            "dt = [0.5, 0.25]\nnorms = [\"theta_L2L2\", "
+            "\"u_LinfH2semi\"]\n"
+            "[stress.sweep.a]\nalpha = [0.1, 1.0, 10.0]\n";
+        const MemoryFile file({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+        return read_scene(file.name());
+    }();
+    return scene;
+}
+
+/// The first line of a checkpoint of kept_scene().
+const std::string& first_line() {
+    static const std::string line = [] {
+        const TemporaryDirectory directory;
+        Checkpoint checkpoint(directory.path(), kept_scene(), true);
+        checkpoint.add_case(0, {});
+        checkpoint.write();
+        const std::string text = directory.read("unfinished.jsonl");
+        return text.substr(0, text.find('\n') + 1);
+    }();
+    return line;
+}
+
+void require_fitting(Checkpoint& checkpoint) {
+    for (std::size_t index = 0; index < 2; ++index)
+        if (const auto run = checkpoint.find("ladder", index)) {
+            const bool failed = run->status != RungStatus::ok;
+            require(run->errors.size() == (failed ? 0 : 2), "errors of another number of norms");
+            require(run->rung.elements == (index == 0 ? 4 : 8), "a run of other elements");
+            require(run->uncertainties.empty() || run->uncertainties.size() == run->errors.size(),
+                    "uncertainties of another number of norms");
+            for (const double error : run->errors)
+                require(std::isfinite(error) && error >= 0.0, "an error that is no norm");
+            for (const auto& count : run->counters)
+                require(count.value >= 0, "a negative count");
+        }
+    for (std::size_t index = 0; index < 3; ++index)
+        if (const auto one = checkpoint.find_case(index))
+            require(one->checks.has_value() ==
+                        (one->outcome == Outcome::certified || one->outcome == Outcome::failed),
+                    "checks that do not belong to the outcome");
+    require(!checkpoint.find("ladder", 2) && !checkpoint.find("orders", 0) &&
+                !checkpoint.find_case(3),
+            "a run that the scene does not have");
+}
+
+} // namespace
+
+MemoryFile::MemoryFile(std::span<const std::uint8_t> data)
+    : descriptor_(memfd_create("fuzz", MFD_CLOEXEC)) {
+    if (descriptor_ < 0 ||
+        ::write(descriptor_, data.data(), data.size()) != static_cast<ssize_t>(data.size()))
+        throw std::runtime_error("no file in memory");
+}
+
+MemoryFile::~MemoryFile() {
+    close(descriptor_);
+}
+
+std::string MemoryFile::name() const {
+    return "/proc/self/fd/" + std::to_string(descriptor_);
+}
+
+void scene(std::span<const std::uint8_t> data) {
+    const MemoryFile file(data);
+    try {
+        const Scene read = read_scene(file.name(), {}, {.expectations = true});
+        const PredictedWork predicted = predicted_work(read);
+        require(predicted.seconds >= 0.0 && predicted.bytes >= 0.0, "a prediction below zero");
+        require(!run_identity(read).empty(), "a scene without identity");
+    } catch (const InputError&) {
+    }
+}
+
+void table(std::span<const std::uint8_t> data) {
+    const std::uint8_t choice = taken(data);
+    const MemoryFile file(data);
+    DataChoice chosen;
+    if ((choice & 1U) != 0U)
+        chosen.dimension = 2.0;
+    if ((choice & 2U) != 0U)
+        chosen.errors = {"L2"};
+    if ((choice & 4U) != 0U)
+        chosen.values = {"drag"};
+    if ((choice & 8U) != 0U)
+        chosen.sizes = {"ndofs"};
+    if ((choice & 16U) != 0U)
+        chosen.sigma = "sigma";
+    try {
+        const DataFile read = read_data(file.name(), chosen);
+        const std::size_t rows = read.widths.front().numbers.size();
+        for (const auto& columns : {read.widths, read.errors, read.values})
+            for (const auto& column : columns)
+                require(column.numbers.size() == rows, "columns of several lengths");
+        constexpr std::size_t short_table = 8;
+        if (rows <= short_table && read.errors.size() + read.values.size() == 1)
+            analyse(read);
+    } catch (const InputError&) {
+    }
+}
+
+void kept(std::span<const std::uint8_t> data) {
+    const std::uint8_t kind = taken(data);
+    try {
+        if (kind % 4 == 0) {
+            const MemoryFile file(data);
+            const Baseline baseline(file.name());
+            const auto checked =
+                baseline.check({"table1", {"fuzz"}, {{"a", 1.0}, {"b", 2.0}}}, 1e-6);
+            require(!checked.empty(), "a baseline that nothing is held against");
+        } else {
+            static const TemporaryDirectory directory;
+            std::string text(text_of(data));
+            directory.write("unfinished.jsonl", kind % 4 == 1 ? text : first_line() + text);
+            Checkpoint checkpoint(directory.path(), kept_scene(), true);
+            require_fitting(checkpoint);
+        }
+    } catch (const InputError&) {
+    }
+}
+
+} // namespace tvbeam::fuzz

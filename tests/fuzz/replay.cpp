@@ -1,0 +1,43 @@
+// Puts every file of the corpora through its target: replay CORPUS, with a folder for each target.
+
+#include "tests/fuzz/targets.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <iterator>
+#include <vector>
+
+int main(int argc, char** argv) {
+    using namespace tvbeam::fuzz;
+    if (argc != 2) {
+        std::cerr << "usage: replay CORPUS\n";
+        return 2;
+    }
+    using Target = void (*)(std::span<const std::uint8_t>);
+    const std::vector<std::pair<std::string, Target>> targets = {{"solution", solution},
+                                                                 {"scene", scene},
+                                                                 {"table", table},
+                                                                 {"kept", kept},
+                                                                 {"grammar", grammar}};
+    for (const auto& [name, target] : targets) {
+        std::vector<std::filesystem::path> files;
+        for (const auto& entry :
+             std::filesystem::directory_iterator(std::filesystem::path(argv[1]) / name))
+            files.push_back(entry.path());
+        std::sort(files.begin(), files.end());
+        for (const auto& file : files) {
+            // Named before it runs: what ends the program is the last one.
+            std::cout << name << ' ' << file.filename().string() << std::endl;
+            std::ifstream stream(file, std::ios::binary);
+            const std::vector<char> bytes{std::istreambuf_iterator<char>(stream), {}};
+            target({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()});
+        }
+        if (files.empty()) {
+            std::cerr << "no files for " << name << '\n';
+            return 1;
+        }
+    }
+    return 0;
+}
