@@ -278,8 +278,9 @@ struct FlushToZero {
     }
 }
 
-// What is inlined is compiled for the units that the function is for.
-#ifdef __x86_64__
+// What is inlined is compiled for the units that the function is for. clang 14 cannot ask for
+// levels.
+#if defined(__x86_64__) && !defined(__clang__)
 [[gnu::target("arch=x86-64-v4")]] void march_v4(const SineBlock& block) {
     march_with_these_units(block);
 }
@@ -295,7 +296,7 @@ void march_anywhere(const SineBlock& block) {
 
 std::span<const SineKernel> sine_kernels() {
     static const SineKernel kernels[] = {
-#ifdef __x86_64__
+#if defined(__x86_64__) && !defined(__clang__)
         {"x86-64-v4", __builtin_cpu_supports("x86-64-v4") != 0, &march_v4},
         {"x86-64-v3", __builtin_cpu_supports("x86-64-v3") != 0, &march_v3},
 #endif

@@ -23,8 +23,8 @@ struct GreatestValue {
 ///     f ≤ min(f(a) + U⁺ (b − a), f(b) + L⁻ (b − a), the enclosure of its values),
 ///
 /// and the part whose bound is greatest is halved next, until no bound is above the limit, or above
-/// what was seen by more than the tolerance, or 1e-12 of it. A peak of any width is found. Not proven: `most_parts`
-/// were not enough, or doubles have no time between two neighbours.
+/// what was seen by more than the tolerance, or 1e-12 of it. A peak of any width is found. Not
+/// proven: `most_parts` were not enough, or doubles have no time between two neighbours.
 GreatestValue greatest_value(const EnclosedFunction& function, double begin, double end,
                              double limit, double tolerance, std::int64_t most_parts);
 

@@ -73,6 +73,26 @@ BOOST_DATA_TEST_CASE(a_run_that_is_asked_to_end_keeps_what_it_finished, data::ma
                        rungs.at(2).at("errors").at("theta_L2L2_sq"));
 }
 
+// 400 000 elements and 8 million steps: nine hours.
+BOOST_AUTO_TEST_CASE(what_takes_very_long_is_refused_unless_it_is_wanted) {
+    const TemporaryDirectory directory;
+    const std::string run = ladder(directory, "400000");
+    for (const std::string& command : {run, "check" + run.substr(3)}) {
+        const Called refused = call(directory, command);
+        BOOST_TEST(refused.exit == 2);
+        BOOST_TEST(has(refused.errors, "asks for 3.2e+12 steps of elements in 1 runs, about 9 h on "
+                                       "one core and 161 MB; beyond 6 h or 4000 MB it runs only "
+                                       "with --yes-really-long, or long = true"),
+                   refused.errors);
+    }
+    for (const std::string wanted : {" --yes-really-long", " --set long=true"}) {
+        const Called begun = call(directory, run + wanted, "timeout -s INT 1 ");
+        BOOST_TEST(begun.exit == 124);
+        BOOST_TEST(has(begun.errors, "ladder asks for 3.2e+12 steps"), begun.errors);
+        BOOST_TEST(!has(begun.errors, "beyond"), begun.errors);
+    }
+}
+
 BOOST_AUTO_TEST_CASE(an_attempt_that_was_cut_short_is_neither_lost_nor_mixed_with_another) {
     const TemporaryDirectory directory;
     const std::string out = " --out " + (directory.path() / "out").string();

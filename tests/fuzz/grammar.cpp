@@ -142,10 +142,10 @@ private:
              {"exp", [](const Digits& v) { return Digits(exp(v)); }},
              {"log", [](const Digits& v) { return Digits(log(v)); }},
              {"sqrt", [](const Digits& v) { return Digits(sqrt(v)); }}}};
-        const auto& [name, value] = functions[pick(functions.size())];
-        return of_one(a, name, [&](const Digits& v) {
+        const auto& chosen = functions[pick(functions.size())];
+        return of_one(a, chosen.first, [&](const Digits& v) {
             // Of larger arguments 60 digits are too few, or take too long.
-            return abs(v) < Digits(1e4) ? value(v)
+            return abs(v) < Digits(1e4) ? chosen.second(v)
                                         : Digits(std::numeric_limits<double>::quiet_NaN());
         });
     }
