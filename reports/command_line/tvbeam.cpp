@@ -318,6 +318,8 @@ int check_command(const CheckOptions& options) {
                                     [](const StudyResult& result) { return result.failed(); });
     const bool passed = std::all_of(checked.begin(), checked.end(),
                                     [](const CheckedScene& scene) { return scene.passed(); });
+    if (failed && !results.back().interrupted())
+        say("a run failed; the report says which and why");
     return failed ? run_failed : passed ? done : violated;
 }
 

@@ -50,8 +50,8 @@ std::vector<nlohmann::ordered_json> kept_lines(const TemporaryDirectory& directo
 } // namespace
 
 // Ctrl-C is SIGINT; a polite kill is SIGTERM; SIGHUP comes when the terminal goes.
-BOOST_DATA_TEST_CASE(a_run_that_is_asked_to_end_keeps_what_it_finished, data::make({"INT", "TERM", "HUP"}),
-                     signal) {
+BOOST_DATA_TEST_CASE(a_run_that_is_asked_to_end_keeps_what_it_finished,
+                     data::make({"INT", "TERM", "HUP"}), signal) {
     const TemporaryDirectory directory;
     const std::string out = (directory.path() / "out").string();
     const Called cut = call(directory, ladder(directory, many) + " --out " + out,
