@@ -93,8 +93,8 @@ BOOST_AUTO_TEST_CASE(a_run_that_is_being_set_up_ends_at_the_first_signal) {
         const Called called =
             call(directory,
                  "run " + directory.write("scene.toml", scene("")) +
-                     " --set 'ladder.elements=[4, 3000000]' --set scheme.basis=" + basis +
-                     " --out " + out + basis,
+                     " --yes-really-long --set 'ladder.elements=[4, 3000000]' --set scheme.basis=" +
+                     basis + " --out " + out + basis,
                  asked_to_end("INT", "1.5"));
         BOOST_TEST(called.exit == heard, called.errors);
         BOOST_TEST(has(called.errors, "tvbeam: interrupted"), called.errors);
