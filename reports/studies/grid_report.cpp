@@ -59,7 +59,7 @@ Json json_of(const OrdersResult& orders, const OrdersBlock& block) {
         runs.push_back(std::move(entry));
     }
     Json json{
-        {"final_time", block.final_time}, {"norms", std::move(norms)}, {"runs", std::move(runs)}};
+        {"final_time", block.final_time > 0.0 ? Json(block.final_time) : Json()}, {"norms", std::move(norms)}, {"runs", std::move(runs)}};
     if (orders.corollary)
         json["corollary_constant"] = {{"least", orders.corollary->least},
                                       {"greatest", orders.corollary->greatest},

@@ -6,7 +6,7 @@ namespace tvbeam {
 
 OrdersBlock read_orders(TableReader& table, const SolverKeys& keys) {
     OrdersBlock orders;
-    orders.final_time = read_final_time(table);
+    orders.final_time = read_final_time(table, keys);
     const auto elements = read_elements(table);
     const auto dt = table.numbers("dt");
     if (!dt || dt->empty())
