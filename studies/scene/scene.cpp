@@ -132,7 +132,7 @@ void read_solver_of(Scene& scene, TableReader& root) {
             foreign.push_back(kind->name());
     for (const auto& key : foreign)
         if (root.has(key))
-            throw InputError(root.place_of_key(key),
+            throw InputError(root.place(key),
                              key + " is of a scene of the beam, and this one has a block [solver]; "
                                    "remove one of the two");
     scene.solver =
