@@ -70,7 +70,9 @@ std::vector<Table::Group> counter_groups(const SchemeRuns& scheme, const Method&
         groups.push_back({"", {count("iter.", [&](const RungResult& run) {
                               return run.count(method.iterations);
                           })}});
-    else
+    else if (std::any_of(scheme.runs.begin(), scheme.runs.end(), [](const RungResult& run) {
+                 return run.count("heat_solves") > 0;
+             }))
         groups.push_back({"heat", {count("solves", [](const RungResult& run) {
                               return run.count("heat_solves");
                           })}});

@@ -85,7 +85,8 @@ std::string schema_of(const std::string& path) {
         const bool name = words[i - 1] == "sweep" || path.starts_with("expect.work_precision.") ||
                           is_named_by_solver(words, i);
         // Errors and values of an external solver are called as it likes.
-        if (is_norm(words[i]) || (gated && i == 2 && words[i] != "ended_by"))
+        if (is_norm(words[i]) || (gated && i == 2 && words[i] != "ended_by") ||
+            (path.starts_with("expect.work_precision.") && i == 3))
             words[i] = "NORM";
         else if (number || (name && i == 2) || is_single_case(words, i) ||
                  (i > 2 && words[i - 1] == "parameters"))

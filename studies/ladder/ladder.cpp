@@ -45,6 +45,15 @@ LadderNorm analysed(const Measure& norm, const std::vector<RungResult>& rungs, s
     return result;
 }
 
+/// The order along the ladder with its interval, in the width that is refined.
+std::string order_sentence(const std::string& width, const ColumnAnalysis& column) {
+    const OrderInterval& order = column.by_width.front();
+    return order.determined ? fmt::format("{}: order {:.3f} ± {:.3f} (95 %) in {}.", column.name,
+                                          order.value, order.half_width(), width)
+                            : fmt::format("{}: its order in {} is not determined: {}.", column.name,
+                                          width, order.status);
+}
+
 /// The rungs whose orders mean something: not those close to the reference.
 std::vector<RungResult> telling(const std::optional<ReferenceBlock>& reference,
                                 const std::vector<RungResult>& rungs) {
@@ -108,8 +117,10 @@ LadderResult analyse_ladder(const LadderBlock& block, const Method& method,
             shown.remarks = order_remarks(norm, roots, fit != nullptr ? &fit->model : nullptr);
         if (result.analysis) {
             const ColumnAnalysis& column = result.analysis->columns[k];
-            shown.remarks.insert(shown.remarks.end(), column.findings.begin(),
-                                 column.findings.end());
+            if (norm.is_value)
+                shown.remarks = column.findings;
+            else
+                shown.remarks.push_back(order_sentence(result.analysis->widths.front().name, column));
             if (fit == nullptr && !norm.is_value && !column.verdicts.empty())
                 shown.verdicts = column.verdicts;
         }
