@@ -14,8 +14,8 @@ namespace tvbeam {
 /// status in words beside it.
 std::string analysis_json(const DataAnalysis& analysis);
 
-/// What a column shows, as more keys of an object: orders, findings; of values limit, uncertainty and
-/// methods.
+/// What a column shows, as more keys of an object: orders, findings; of values limit, uncertainty
+/// and methods.
 void add_analysis(nlohmann::ordered_json& json, const DataAnalysis& analysis,
                   const ColumnAnalysis& column);
 

@@ -143,8 +143,7 @@ public:
                                     solver_->path().string() + "; remove it to make them anew";
         }
         return !resume ? ""
-                       : "goes on with " + std::to_string(checkpoint_->found()) +
-                             " finished runs" +
+                       : "goes on with " + std::to_string(checkpoint_->found()) + " finished runs" +
                              (checkpoint_->was_torn() ? "; one that was being written when it was "
                                                         "cut short is run again"
                                                       : "");
@@ -377,9 +376,10 @@ int new_command(const std::string& name) {
 int new_solver_command(const std::string& name) {
     const auto files = solver_starter_files(name);
     write_starter_files(files, ".");
-    write_standard_output("wrote " + files[0].name + " (a solver to put your own in place of) and " +
-                          files[1].name + " (the scene); now\n  tvbeam run " + files[1].name +
-                          "\n  tvbeam check " + files[1].name + "\n");
+    write_standard_output("wrote " + files[0].name +
+                          " (a solver to put your own in place of) and " + files[1].name +
+                          " (the scene); now\n  tvbeam run " + files[1].name + "\n  tvbeam check " +
+                          files[1].name + "\n");
     return done;
 }
 
@@ -658,14 +658,14 @@ Command add_new(CLI::App& app) {
         "new", "Write a solution to start from, NAME.toml, and a scene that runs it, "
                "NAME-scene.toml, into the current directory.\nExample: tvbeam new my-solution");
     const auto solver = std::make_shared<bool>(false);
-    make->add_flag("--solver", *solver,
-                   "a small solver in Python, NAME.py, and a scene that runs it, NAME.toml: to study "
-                   "a solver of your own");
+    make->add_flag(
+        "--solver", *solver,
+        "a small solver in Python, NAME.py, and a scene that runs it, NAME.toml: to study "
+        "a solver of your own");
     const auto name = std::make_shared<std::string>();
     make->add_option("name", *name, "letters, digits, - and _")->required()->type_name("NAME");
-    return {make, [name, solver] {
-                return *solver ? new_solver_command(*name) : new_command(*name);
-            }};
+    return {make,
+            [name, solver] { return *solver ? new_solver_command(*name) : new_command(*name); }};
 }
 
 Command add_list(CLI::App& app) {

@@ -125,9 +125,7 @@ Table ladder_table(const LadderResult& ladder, const LadderBlock& block, const M
 } // namespace
 
 Section ladder_section(const LadderResult& ladder, const LadderBlock& block, const Method& method) {
-    Section section{"Errors and observed orders",
-                    {ladder_table(ladder, block, method)},
-                    {}};
+    Section section{"Errors and observed orders", {ladder_table(ladder, block, method)}, {}};
     if (block.final_time > 0.0) {
         section.head.push_back(what_is_shown(block));
         section.head.back().front() = static_cast<char>(std::tolower(section.head.back().front()));

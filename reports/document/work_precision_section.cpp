@@ -70,9 +70,8 @@ std::vector<Table::Group> counter_groups(const SchemeRuns& scheme, const Method&
         groups.push_back({"", {count("iter.", [&](const RungResult& run) {
                               return run.count(method.iterations);
                           })}});
-    else if (std::any_of(scheme.runs.begin(), scheme.runs.end(), [](const RungResult& run) {
-                 return run.count("heat_solves") > 0;
-             }))
+    else if (std::any_of(scheme.runs.begin(), scheme.runs.end(),
+                         [](const RungResult& run) { return run.count("heat_solves") > 0; }))
         groups.push_back({"heat", {count("solves", [](const RungResult& run) {
                               return run.count("heat_solves");
                           })}});
@@ -89,8 +88,8 @@ std::vector<Block> rows_blocks(const SchemeRuns& scheme, const TimedScheme& time
             return std::to_string(scheme.runs[i].rung.elements);
         }));
     if (timed.rungs.front().has_steps())
-        key.columns.push_back(column(
-            scheme, "dt", [&](std::size_t i) { return shortest(scheme.runs[i].rung.dt); }));
+        key.columns.push_back(
+            column(scheme, "dt", [&](std::size_t i) { return shortest(scheme.runs[i].rung.dt); }));
     std::vector<Table::Group> groups;
     for (std::size_t k = 0; k < norms.size(); ++k)
         groups.push_back({norms[k].name, {column(scheme, "error", [&](std::size_t i) {

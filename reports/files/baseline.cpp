@@ -36,11 +36,11 @@ BaselineEntry baseline_entry(const StudyResult& result) {
     for (const auto& [series, results] : result.runs())
         for (const auto& run : *results)
             for (std::size_t k = 0; k < series.measures.size(); ++k)
-                errors[fmt::format(
-                    "{}.{}: {} at {}", series.study, series.measures[k].name,
-                    series.measures[k].is_value ? "value" : "error",
-                    run.rung.name([](double dt) { return fmt::format("{}", dt); }))] =
-                    error_of(run, k).value_or(std::nan(""));
+                errors[fmt::format("{}.{}: {} at {}", series.study, series.measures[k].name,
+                                   series.measures[k].is_value ? "value" : "error",
+                                   run.rung.name([](double dt) {
+                                       return fmt::format("{}", dt);
+                                   }))] = error_of(run, k).value_or(std::nan(""));
     return {result.scene.name, {result.scene.file}, std::move(errors)};
 }
 

@@ -13,8 +13,8 @@
 
 namespace tvbeam {
 
-/// What the runs of an external solver gave that have ended well, in the file solver-runs.jsonl of a
-/// directory, a line of JSON each. They are found again by what they depend on (RunIdentities),
+/// What the runs of an external solver gave that have ended well, in the file solver-runs.jsonl of
+/// a directory, a line of JSON each. They are found again by what they depend on (RunIdentities),
 /// whichever scene or study asks for them: a ladder that gets one more level makes one run. Those
 /// that failed are made again.
 class SolverRuns final : public FinishedRuns {

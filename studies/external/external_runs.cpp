@@ -173,8 +173,8 @@ public:
 
 private:
     void run(const RunTask& task, RungResult& result) {
-        const auto values = placeholders_of(task.rung, task.level, task.final_time,
-                                            parameters_of(task.method));
+        const auto values =
+            placeholders_of(task.rung, task.level, task.final_time, parameters_of(task.method));
         Prepared run = prepared(solver_, values);
         const RunDirectory directory(keeper_.directory() / std::to_string(next_++));
         fill(solver_, values, directory.path());
@@ -189,21 +189,20 @@ private:
         std::optional<OutputReading> clock;
         if (solver_.seconds)
             clock.emplace(*solver_.seconds);
-        const ProcessResult process = run_process(
-            {.program = run.program,
-             .arguments = run.arguments,
-             .directory = directory.path(),
-             .environment = solver_.environment,
-             .timeout = solver_.timeout,
-             .line =
-                 [&](const std::string& line) {
-                     for (auto& reading : readings)
-                         reading.take(line);
-                     if (clock)
-                         clock->take(line);
-                 },
-             .go_on = [&] { return task.advance(0); }},
-            keeper_);
+        const ProcessResult process = run_process({.program = run.program,
+                                                   .arguments = run.arguments,
+                                                   .directory = directory.path(),
+                                                   .environment = solver_.environment,
+                                                   .timeout = solver_.timeout,
+                                                   .line =
+                                                       [&](const std::string& line) {
+                                                           for (auto& reading : readings)
+                                                               reading.take(line);
+                                                           if (clock)
+                                                               clock->take(line);
+                                                       },
+                                                   .go_on = [&] { return task.advance(0); }},
+                                                  keeper_);
         result.seconds = process.seconds;
         std::string failure = process.failure;
         if (process.interrupted) {
@@ -225,9 +224,9 @@ private:
         if (failure.empty())
             return;
         result.status = RungStatus::failed;
-        result.reason = failure + (process.last_lines.empty()
-                                       ? "; it wrote nothing"
-                                       : "; it wrote: " + process.last_lines);
+        result.reason =
+            failure + (process.last_lines.empty() ? "; it wrote nothing"
+                                                  : "; it wrote: " + process.last_lines);
     }
 
     /// Reads what is measured; why not, where it is not all there.
@@ -292,9 +291,8 @@ void require_programs(const SolverBlock& solver, const std::vector<Series>& all)
     std::set<std::string> names;
     for (const auto& series : all)
         for (std::size_t level = 0; level < series.rungs.size(); ++level)
-            names.insert(solver.command.front().filled(
-                placeholders_of(series.rungs[level], level, series.final_time,
-                                parameters_of(series.method))));
+            names.insert(solver.command.front().filled(placeholders_of(
+                series.rungs[level], level, series.final_time, parameters_of(series.method))));
     for (const auto& name : names)
         program_of(solver, name);
 }

@@ -22,9 +22,10 @@ void require_programs(const SolverBlock& solver, const std::vector<Series>& all)
 /// with it. Both must outlive the result.
 StudiedSolver external_runs(const SolverBlock& solver, const Keeper& keeper);
 
-/// What runs are known again by: a digest of whatever their figures depend on, which is the command,
-/// the contents of the files, the environment that the block gives, how figures are read, and the
-/// program's path, size and time. Several threads may call at a time. The block must outlive it.
+/// What runs are known again by: a digest of whatever their figures depend on, which is the
+/// command, the contents of the files, the environment that the block gives, how figures are read,
+/// and the program's path, size and time. Several threads may call at a time. The block must
+/// outlive it.
 class RunIdentities {
 public:
     explicit RunIdentities(const SolverBlock& solver);

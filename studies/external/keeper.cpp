@@ -1,14 +1,16 @@
 #include "studies/external/keeper.hpp"
 
 #include <cerrno>
+#include <chrono>
 #include <csignal>
-#include <cstdlib>
+#include <random>
 #include <set>
 #include <string>
 #include <system_error>
 #include <thread>
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -58,10 +60,11 @@ void remove_whole(const std::filesystem::path& directory) {
 } // namespace
 
 Keeper::Keeper() {
-    std::string name = (std::filesystem::temp_directory_path() / "tvbeam-XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr)
-        throw std::system_error(errno, std::generic_category(), "cannot make " + name);
-    directory_ = name;
+    // Its name is known to both before it is there: no moment is without somebody to remove it.
+    std::random_device random;
+    directory_ = std::filesystem::temp_directory_path() /
+                 ("tvbeam-runs-" + std::to_string(getpid()) + "-" + std::to_string(random()) +
+                  std::to_string(random()));
     int ends[2] = {-1, -1};
     if (pipe2(ends, O_CLOEXEC) != 0)
         throw std::system_error(errno, std::generic_category(), "cannot make a pipe");
@@ -74,6 +77,14 @@ Keeper::Keeper() {
     }
     close(ends[0]);
     pipe_ = ends[1];
+    if (mkdir(directory_.c_str(), S_IRWXU) != 0) {
+        const int error = errno;
+        kill(process_, SIGKILL); // it would remove what is not its own
+        close(pipe_);
+        waitpid(process_, nullptr, 0);
+        throw std::system_error(error, std::generic_category(),
+                                "cannot make the directory " + directory_.string());
+    }
 }
 
 Keeper::~Keeper() {

@@ -11,9 +11,9 @@ namespace tvbeam {
 namespace {
 
 bool is_name(std::string_view text) {
-    return !text.empty() && !is_digit(text.front()) && std::all_of(text.begin(), text.end(), [](char c) {
-        return is_letter(c) || is_digit(c) || c == '_';
-    });
+    return !text.empty() && !is_digit(text.front()) &&
+           std::all_of(text.begin(), text.end(),
+                       [](char c) { return is_letter(c) || is_digit(c) || c == '_'; });
 }
 
 Place place_in(const Template& whole, std::size_t offset) {
@@ -21,9 +21,10 @@ Place place_in(const Template& whole, std::size_t offset) {
         return whole.place;
     const auto before = std::string_view(whole.text).substr(0, offset);
     const auto line_start = before.rfind('\n');
-    return {whole.place.file, 1 + static_cast<int>(std::count(before.begin(), before.end(), '\n')),
-            static_cast<int>(line_start == std::string_view::npos ? offset : offset - line_start - 1) +
-                1};
+    return {
+        whole.place.file, 1 + static_cast<int>(std::count(before.begin(), before.end(), '\n')),
+        static_cast<int>(line_start == std::string_view::npos ? offset : offset - line_start - 1) +
+            1};
 }
 
 } // namespace
@@ -56,10 +57,10 @@ std::string Template::filled(const Placeholders& values) const {
                 names.push_back(known);
                 list += (list.empty() ? "" : ", ") + known;
             }
-            throw InputError(place_in(*this, brace),
-                             "there is no placeholder {" + name + "}" + did_you_mean(name, names) +
-                                 "; known: " + list +
-                                 "; a parameter is given in [solver.parameters], and {{ is a brace");
+            throw InputError(
+                place_in(*this, brace),
+                "there is no placeholder {" + name + "}" + did_you_mean(name, names) + "; known: " +
+                    list + "; a parameter is given in [solver.parameters], and {{ is a brace");
         }
         if (!found->second)
             throw InputError(place_in(*this, brace),

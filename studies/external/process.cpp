@@ -132,8 +132,7 @@ private:
         while ((count = read(failure.read.number(), &error, sizeof error)) < 0 && errno == EINTR) {
         }
         if (count == sizeof error)
-            result_.failure =
-                "cannot be run: " + std::generic_category().message(error);
+            result_.failure = "cannot be run: " + std::generic_category().message(error);
         // The declaration of glibc 2.36 is for C alone.
         ended_.set(static_cast<int>(syscall(SYS_pidfd_open, process_, 0)));
         if (ended_.number() < 0) {

@@ -13,7 +13,7 @@ namespace tvbeam {
 
 /// A program to be run.
 struct ProcessTask {
-    std::filesystem::path program; ///< absolute
+    std::filesystem::path program;      ///< absolute
     std::vector<std::string> arguments; ///< without the program's name
     std::filesystem::path directory;
     std::map<std::string, std::string> environment; ///< besides this process's own

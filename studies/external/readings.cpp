@@ -22,8 +22,9 @@ constexpr int deepest_json = 32;
 std::string trimmed(const std::string& text) {
     constexpr const char* blanks = " \t\r\n";
     const auto first = text.find_first_not_of(blanks);
-    return first == std::string::npos ? ""
-                                      : text.substr(first, text.find_last_not_of(blanks) - first + 1);
+    return first == std::string::npos
+               ? ""
+               : text.substr(first, text.find_last_not_of(blanks) - first + 1);
 }
 
 /// The whole text as one number, also with Fortran's exponent.
@@ -117,8 +118,9 @@ ReadFigure figure_in_csv(const std::filesystem::path& file, const std::string& n
     if (column == names.end())
         return {{}, "its header has no " + name};
     if (row.size() != names.size())
-        return {{}, "its last row has " + std::to_string(row.size()) + " fields and its header " +
-                        std::to_string(names.size())};
+        return {{},
+                "its last row has " + std::to_string(row.size()) + " fields and its header " +
+                    std::to_string(names.size())};
     return number_of(name, row[static_cast<std::size_t>(column - names.begin())]);
 }
 
@@ -129,8 +131,8 @@ OutputPattern::OutputPattern(std::string its_name, std::string its_text, const P
     try {
         // Its time is no more than that of the line times that of the pattern, and it needs no
         // stack for a long line.
-        regex = std::regex(text, std::regex_constants::ECMAScript |
-                                     std::regex_constants::__polynomial);
+        regex =
+            std::regex(text, std::regex_constants::ECMAScript | std::regex_constants::__polynomial);
     } catch (const std::regex_error& error) {
         throw InputError(place, "'" + text + "' is no regular expression: " + error.what());
     }

@@ -52,9 +52,8 @@ SolverFile read_file(const TableReader& table, std::size_t i, const std::string&
     file.source = folder / name;
     std::error_code error;
     if (!std::filesystem::exists(file.source, error))
-        throw table.error("files", " names '" + name + "', and there is no file " +
-                                       file.source.string(),
-                          i);
+        throw table.error("files",
+                          " names '" + name + "', and there is no file " + file.source.string(), i);
     if (!std::filesystem::is_regular_file(file.source, error))
         throw table.error("files", " names '" + name + "', which is no file; name the files in it",
                           i);
@@ -81,8 +80,9 @@ std::vector<SolverFile> read_files(TableReader& table, const std::filesystem::pa
     for (std::size_t i = 0; i < given.size(); ++i) {
         files.push_back(read_file(table, i, given[i], folder));
         if (!names.insert(files.back().name).second)
-            throw table.error("files", " holds two that become '" + files.back().name +
-                                           "' in the directory of a run; remove one",
+            throw table.error("files",
+                              " holds two that become '" + files.back().name +
+                                  "' in the directory of a run; remove one",
                               i);
     }
     return files;
@@ -115,8 +115,9 @@ FigureSource read_source(TableReader& table, const std::string& key) {
     for (const auto& name : patterns->unread()) {
         if (!is_name(name))
             throw InputError(patterns->place_of_key(name),
-                             "'" + name + "' is no name for a number; it must be of letters, "
-                                          "digits and _, no digit first");
+                             "'" + name +
+                                 "' is no name for a number; it must be of letters, "
+                                 "digits and _, no digit first");
         source.patterns.emplace_back(name, *patterns->text(name), patterns->place(name));
     }
     if (source.patterns.empty())
@@ -132,20 +133,22 @@ Parameters read_parameters(TableReader& table, const Parameters* known) {
     for (const auto& name : given->unread()) {
         if (!is_name(name))
             throw InputError(given->place_of_key(name),
-                             "'" + name + "' is no name for a parameter; it must be of letters, "
-                                          "digits and _, no digit first");
+                             "'" + name +
+                                 "' is no name for a parameter; it must be of letters, "
+                                 "digits and _, no digit first");
         if (std::find(own_placeholders.begin(), own_placeholders.end(), name) !=
             own_placeholders.end())
             throw InputError(given->place_of_key(name),
-                             "{" + name + "} is filled in by the studies; give the parameter "
-                                          "another name");
+                             "{" + name +
+                                 "} is filled in by the studies; give the parameter "
+                                 "another name");
         if (known != nullptr && !known->contains(name)) {
             std::vector<std::string> names;
             for (const auto& [own, value] : *known)
                 names.push_back(own);
-            throw InputError(given->place_of_key(name),
-                             "[solver.parameters] has no " + name + did_you_mean(name, names) +
-                                 "; give its usual value there");
+            throw InputError(given->place_of_key(name), "[solver.parameters] has no " + name +
+                                                            did_you_mean(name, names) +
+                                                            "; give its usual value there");
         }
         parameters[name] = *given->word(name);
     }

@@ -120,7 +120,8 @@ LadderResult analyse_ladder(const LadderBlock& block, const Method& method,
             if (norm.is_value)
                 shown.remarks = column.findings;
             else
-                shown.remarks.push_back(order_sentence(result.analysis->widths.front().name, column));
+                shown.remarks.push_back(
+                    order_sentence(result.analysis->widths.front().name, column));
             if (fit == nullptr && !norm.is_value && !column.verdicts.empty())
                 shown.verdicts = column.verdicts;
         }

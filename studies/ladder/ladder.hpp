@@ -27,8 +27,9 @@ struct LadderNorm {
 struct LadderResult {
     std::vector<RungResult> rungs;
     std::vector<LadderNorm> norms = {};
-    std::string quadrature_remark = {}; ///< rungs whose errors quadrature leaves uncertain; or empty
-    std::string reference_remark = {};  ///< rungs too close to the reference; empty without such
+    std::string quadrature_remark =
+        {};                            ///< rungs whose errors quadrature leaves uncertain; or empty
+    std::string reference_remark = {}; ///< rungs too close to the reference; empty without such
     std::optional<DataAnalysis> analysis = {}; ///< where LadderBlock::says_orders, or of values
     std::optional<RefiningEnd> refined = {};   ///< why it was refined no further; with `until`
 };

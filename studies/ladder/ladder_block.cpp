@@ -42,9 +42,9 @@ std::optional<Rung> next_level(const std::vector<Rung>& rungs, double final_time
     }
     if (!last.has_steps())
         return next;
-    next.dt =
-        formula ? number_from_expression(*formula, {{"s", static_cast<double>(next.elements)}})
-                : last.dt * (last.dt / before.dt);
+    next.dt = formula
+                  ? number_from_expression(*formula, {{"s", static_cast<double>(next.elements)}})
+                  : last.dt * (last.dt / before.dt);
     if (!(next.dt > 0.0) || final_time / next.dt > most_steps)
         return std::nullopt;
     if (final_time > 0.0) {

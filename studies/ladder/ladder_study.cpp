@@ -93,8 +93,7 @@ using FindInterval = std::function<const OrderInterval&(const ColumnAnalysis&)>;
 
 /// KEY = [lo, hi], and what expect_interval reads, of an interval in the analysis of measure k.
 void expect_found(TableReader& table, const std::string& key, const std::string& what,
-                  std::size_t k, const FindInterval& find,
-                  std::vector<Expectation>& expectations) {
+                  std::size_t k, const FindInterval& find, std::vector<Expectation>& expectations) {
     const auto found = [k, find](const StudyResult& result) -> const OrderInterval& {
         return find(result.get<LadderResult>()->analysis->columns[k]);
     };
@@ -129,12 +128,11 @@ void expect_analysis(TableReader& table, const Measure& measure, std::size_t k,
         [](const ColumnAnalysis& column) -> const OrderInterval& { return column.limit->limit; },
         expectations);
     expect_band(table, "uncertainty", expectations, [name, k](const StudyResult& result) {
-        const LimitEstimate& estimate =
-            *result.get<LadderResult>()->analysis->columns[k].limit;
-        return std::vector{Metric{name + "uncertainty of the finest value",
-                                  estimate.limit.determined ? std::optional(estimate.uncertainty)
-                                                            : std::nullopt,
-                                  estimate.limit.status}};
+        const LimitEstimate& estimate = *result.get<LadderResult>()->analysis->columns[k].limit;
+        return std::vector{
+            Metric{name + "uncertainty of the finest value",
+                   estimate.limit.determined ? std::optional(estimate.uncertainty) : std::nullopt,
+                   estimate.limit.status}};
     });
 }
 

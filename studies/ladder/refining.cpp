@@ -9,13 +9,13 @@ namespace tvbeam {
 namespace {
 
 bool all_are_known(const Until& until, const DataAnalysis& analysis) {
-    return std::all_of(
-        analysis.columns.begin(), analysis.columns.end(), [&](const ColumnAnalysis& column) {
-            const auto& wanted = column.is_value ? until.limit : until.order;
-            const OrderInterval& found = column.is_value ? column.limit->limit
-                                                         : column.by_width.front();
-            return !wanted || (found.determined && found.half_width() <= *wanted);
-        });
+    return std::all_of(analysis.columns.begin(), analysis.columns.end(),
+                       [&](const ColumnAnalysis& column) {
+                           const auto& wanted = column.is_value ? until.limit : until.order;
+                           const OrderInterval& found =
+                               column.is_value ? column.limit->limit : column.by_width.front();
+                           return !wanted || (found.determined && found.half_width() <= *wanted);
+                       });
 }
 
 double seconds_of(const std::vector<RungResult>& rungs) {
@@ -50,7 +50,8 @@ std::string name_of(RefiningEnd end) {
 }
 
 DataAnalysis analysis_of(const Series& series, const std::vector<RungResult>& rungs) {
-    DataFile data{.name = series.study, .widths = {}, .errors = {}, .values = {}, .sigma = {}, .remarks = {}};
+    DataFile data{
+        .name = series.study, .widths = {}, .errors = {}, .values = {}, .sigma = {}, .remarks = {}};
     const auto add_width = [&](const std::string& name, const auto& width) {
         DataColumn column{name, {}};
         for (const auto& rung : rungs)

@@ -57,8 +57,8 @@ struct Execution {
                                                              const Rung& rung) const;
 };
 
-/// The result of run `index` of a series: one that was kept, or else a new one, which is kept unless
-/// it was interrupted.
+/// The result of run `index` of a series: one that was kept, or else a new one, which is kept
+/// unless it was interrupted.
 RungResult run_or_find(const Series& series, std::size_t index, const RunCall& run,
                        const Execution& execution);
 

@@ -29,9 +29,9 @@ struct Rung {
 
 /// What a run measures: the norm of an error, or its square; or a value whose limit is not known.
 struct Measure {
-    std::string name;       ///< e.g. "theta_L2L2_sq"
-    bool squared = false;   ///< a square, which has twice the order
-    std::string words = {}; ///< for display, e.g. "temperature in L²(0,T; L²), squared"
+    std::string name;         ///< e.g. "theta_L2L2_sq"
+    bool squared = false;     ///< a square, which has twice the order
+    std::string words = {};   ///< for display, e.g. "temperature in L²(0,T; L²), squared"
     std::string theorem = {}; ///< by which it is at most C (h² + Δt²); empty: none
     bool is_value = false;    ///< not of an error
 
@@ -97,7 +97,7 @@ using RunCall = std::function<RungResult(const RunTask&)>;
 
 /// Runs of one method that belong together: a ladder, or a grid.
 struct Series {
-    std::string study; ///< by which its runs are kept, e.g. "ladder", "work_precision.BDF2"
+    std::string study;       ///< by which its runs are kept, e.g. "ladder", "work_precision.BDF2"
     double final_time = 0.0; ///< 0: none, of a solver that does not ask for it
     Method method;
     std::vector<Measure> measures;

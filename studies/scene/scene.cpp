@@ -94,12 +94,13 @@ void read_problem(Scene& scene, TableReader& root, bool wanted, bool own_problem
     const std::filesystem::path path(scene.file);
     auto beam = root.table("beam");
     if (!beam && wanted)
-        throw InputError({scene.file},
-                         root.has("theta") || root.has("u") || root.has("phase")
-                             ? "is a solution, not a scene; a scene names it: solution = \"./" +
-                                   path.filename().string() + "\" (tvbeam new writes both)"
-                             : "the block [beam] is missing; it holds alpha, zeta and the stops; or "
-                               "a block [solver], of a program of your own");
+        throw InputError(
+            {scene.file},
+            root.has("theta") || root.has("u") || root.has("phase")
+                ? "is a solution, not a scene; a scene names it: solution = \"./" +
+                      path.filename().string() + "\" (tvbeam new writes both)"
+                : "the block [beam] is missing; it holds alpha, zeta and the stops; or "
+                  "a block [solver], of a program of your own");
     if (beam)
         scene.beam = read_beam(*std::move(beam));
     if (auto mesh = root.table("mesh"))

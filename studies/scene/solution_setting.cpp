@@ -40,8 +40,7 @@ std::optional<Scene> scene_that_runs(const Solution& solution) {
     for (const auto& file : shipped_files(Shipped::scene)) {
         Scene scene = read_scene(file.path.string());
         const auto* own = std::get_if<Solution>(&scene.problem);
-        if (own == nullptr || own->name != solution.name || !scene.poses_problem() ||
-            scene.solver)
+        if (own == nullptr || own->name != solution.name || !scene.poses_problem() || scene.solver)
             continue;
         if (scene.name == solution.name)
             return scene;

@@ -55,8 +55,8 @@ std::string unknown_norm(const std::string& name, const SolverKeys& keys, bool i
 }
 
 /// The measures that a list names, behind those that are there.
-void add_measures(TableReader& table, const std::string& key, bool is_value,
-                  const SolverKeys& keys, std::vector<Measure>& measures) {
+void add_measures(TableReader& table, const std::string& key, bool is_value, const SolverKeys& keys,
+                  std::vector<Measure>& measures) {
     const bool any = is_value ? keys.any_value : keys.any_error;
     const auto names = table.texts(key).value_or(std::vector<std::string>{});
     for (std::size_t i = 0; i < names.size(); ++i) {

@@ -39,8 +39,8 @@ double read_final_time(TableReader& table, const SolverKeys& keys);
 /// elements: a list that is not empty, each from 1 to most_elements.
 std::vector<std::int64_t> read_elements(TableReader& table);
 
-/// The number of steps of length dt > 0 in final_time; they must fill it to 1e-9 of itself. index: of
-/// dt in its list, for the place of a message. 0 without a final time.
+/// The number of steps of length dt > 0 in final_time; they must fill it to 1e-9 of itself. index:
+/// of dt in its list, for the place of a message. 0 without a final time.
 std::int64_t steps_of(const TableReader& table, std::size_t index, double final_time, double dt);
 
 /// The rungs of a ladder, from coarse to fine: elements, and dt as a list of one number a rung or

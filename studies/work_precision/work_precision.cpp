@@ -79,7 +79,11 @@ private:
     RungResult run_unmeasured(std::size_t scheme, std::size_t level) {
         const Series& series = all_[scheme];
         const Rung& rung = series.rungs[level];
-        return run_({level, rung, series.final_time, series.method, {},
+        return run_({level,
+                     rung,
+                     series.final_time,
+                     series.method,
+                     {},
                      execution_.steps_of(series.method, rung)});
     }
 
