@@ -353,8 +353,10 @@ void add_setting(const Setting& setting, Uses& uses, Uses& pairs) {
 
 /// The first level of every ladder and grid: of what a run consists, the others have as well.
 Scene shortest_form(Scene scene) {
-    if (auto* ladder = scene.get<LadderBlock>())
+    if (auto* ladder = scene.get<LadderBlock>()) {
         ladder->rungs.resize(1);
+        ladder->until.reset();
+    }
     if (auto* orders = scene.get<OrdersBlock>())
         orders->grid.resize(1);
     if (auto* race = scene.get<WorkPrecisionBlock>()) {
