@@ -59,8 +59,9 @@ std::string OutputLines::last_lines(std::size_t count) const {
         rest = end == std::string_view::npos ? std::string_view() : rest.substr(0, end);
     }
     std::string text;
-    for (auto line = lines.rbegin(); line != lines.rend(); ++line)
-        text += (text.empty() ? "" : " | ") + *line;
+    std::reverse(lines.begin(), lines.end());
+    for (const auto& line : lines)
+        text += (text.empty() ? "" : " | ") + line;
     return text;
 }
 

@@ -2,6 +2,8 @@
 
 #include "studies/external/output.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cerrno>
@@ -70,6 +72,7 @@ struct Pipe {
 /// Texts as exec wants them.
 std::vector<char*> pointers(std::vector<std::string>& texts) {
     std::vector<char*> result;
+    result.reserve(texts.size() + 1);
     for (auto& text : texts)
         result.push_back(text.data());
     result.push_back(nullptr);
@@ -84,7 +87,7 @@ std::vector<std::string> environment_with(const std::map<std::string, std::strin
             all.push_back(text);
     }
     for (const auto& [name, value] : own)
-        all.push_back(name + "=" + value);
+        all.push_back(fmt::format("{}={}", name, value));
     return all;
 }
 
