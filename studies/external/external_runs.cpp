@@ -53,7 +53,7 @@ std::optional<fs::path> found_in_path(const SolverBlock& solver, const std::stri
                                                        : "/usr/bin:/bin";
     path += ':';
     for (std::size_t at = 0, end = 0; (end = path.find(':', at)) != std::string::npos; at = end + 1)
-        if (const fs::path file = fs::path(path.substr(at, end - at)) / name;
+        if (fs::path file = fs::path(path.substr(at, end - at)) / name;
             file.is_absolute() && is_program(file))
             return file;
     return std::nullopt;

@@ -3,6 +3,8 @@
 #include "mms/text/characters.hpp"
 #include "mms/text/nearest_name.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <vector>
 
@@ -59,13 +61,15 @@ std::string Template::filled(const Placeholders& values) const {
             }
             throw InputError(
                 place_in(*this, brace),
-                "there is no placeholder {" + name + "}" + did_you_mean(name, names) + "; known: " +
-                    list + "; a parameter is given in [solver.parameters], and {{ is a brace");
+                fmt::format("there is no placeholder {{{}}}{}; known: {}; a parameter is given in "
+                            "[solver.parameters], and {{{{ is a brace",
+                            name, did_you_mean(name, names), list));
         }
         if (!found->second)
             throw InputError(place_in(*this, brace),
-                             "{" + name + "} has nothing to stand for: a study gives no " + name +
-                                 "; give it, or remove the placeholder");
+                             fmt::format("{{{0}}} has nothing to stand for: a study gives no {0}; "
+                                         "give it, or remove the placeholder",
+                                         name));
         result += *found->second;
         at = end + 1;
     }
