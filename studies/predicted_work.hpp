@@ -7,7 +7,7 @@
 namespace tvbeam {
 
 /// What the runs of a scene take, before any of them is made. Within a factor of ten: processors
-/// differ, contact and norms cost more than steps without them.
+/// differ, contact and norms cost more than steps without them. Of a [solver] only the runs count.
 struct PredictedWork {
     double runs = 0.0;    ///< single ones, of all studies
     double steps = 0.0;   ///< elements times time steps (work_of)

@@ -1,6 +1,7 @@
 #include "studies/study.hpp"
 
 #include "core/run.hpp"
+#include "studies/external/external_runs.hpp"
 #include "studies/phase_remarks.hpp"
 #include "studies/runs/beam_runs.hpp"
 #include "studies/runs/defects.hpp"
@@ -24,7 +25,7 @@ Ending StudyResult::ending() const {
 }
 
 std::vector<MeasuredRuns> StudyResult::runs() const {
-    const Method own = method_of(scene.scheme);
+    const Method own = scene.method();
     std::vector<MeasuredRuns> all;
     for (const auto& [kind, record] : records.entries()) {
         const auto results = kind->runs(record);
@@ -55,7 +56,7 @@ double work_of(const ReferenceBlock& reference, double final_time) {
 } // namespace
 
 double work_of(const Scene& scene) {
-    const Method own = method_of(scene.scheme);
+    const Method own = scene.method();
     double work =
         scene.reference ? work_of(*scene.reference, longest_time(scene.measured_series())) : 0.0;
     for (const auto& [kind, block] : scene.blocks.entries())
@@ -85,6 +86,28 @@ std::vector<Algorithm> algorithms_of(const Scene& scene) {
     return algorithms;
 }
 
+void run_studies(const StudyContext& context, StudyResult& result) {
+    const Scene& scene = context.scene;
+    for (const auto* entry : in_running_order(scene, context.method))
+        result.records.set(*entry->kind, entry->kind->run(entry->value, context));
+    for (auto& [kind, record] : result.records.entries())
+        kind->conclude(*scene.blocks.find(*kind), record, result, context);
+}
+
+/// A scene of a program that nobody here wrote.
+StudyResult run_on_solver(const Scene& scene, const Execution& execution) {
+    require_runnable(scene);
+    execution.expect(work_of(scene));
+    StudyResult result{.scene = scene};
+    const Keeper keeper;
+    const StudiedSolver solver = external_runs(*scene.solver, keeper);
+    const Method own = scene.method();
+    const ProblemData no_data;
+    const Defects no_defects;
+    run_studies({scene, no_data, solver, own, execution, no_defects}, result);
+    return result;
+}
+
 } // namespace
 
 StudyResult run_study(const Scene& scene, const ProblemData& data, const Execution& execution) {
@@ -97,7 +120,7 @@ StudyResult run_study(const Scene& scene, const ProblemData& data, const Defects
                       const Execution& execution) {
     execution.expect(work_of(scene));
     StudyResult result{.scene = scene, .law_distance = data.exact ? data.exact->law_distance : 0.0};
-    const Method own = method_of(scene.scheme);
+    const Method own = scene.method();
     ProblemData resolved = data;
     if (scene.poses_problem())
         resolved.resolution = std::make_shared<const Resolution>(resolution_of(
@@ -117,15 +140,18 @@ StudyResult run_study(const Scene& scene, const ProblemData& data, const Defects
                 "and is not proven: a peak that is narrower than the time between them may pass a "
                 "stop unseen.");
     }
-    const StudyContext context{scene, resolved, solver, own, execution, defects};
-    for (const auto* entry : in_running_order(scene, own))
-        result.records.set(*entry->kind, entry->kind->run(entry->value, context));
-    for (auto& [kind, record] : result.records.entries())
-        kind->conclude(*scene.blocks.find(*kind), record, result, context);
+    run_studies({scene, resolved, solver, own, execution, defects}, result);
     return result;
 }
 
+void require_runnable(const Scene& scene) {
+    if (scene.solver)
+        require_programs(*scene.solver, scene.series());
+}
+
 StudyResult run_study(const Scene& scene, const Execution& execution) {
+    if (scene.solver)
+        return run_on_solver(scene, execution);
     return run_study(
         scene, scene.poses_problem() ? problem_of(scene, scene.longest_time()) : ProblemData{},
         execution);

@@ -50,6 +50,10 @@ struct StudyResult {
 /// What the studies of a scene cost, about, in the unit of work_of(Method, Rung).
 double work_of(const Scene& scene);
 
+/// Refuses what is there to be told before anything runs, besides what a reader told: throws
+/// InputError where there is no such program as [solver] calls.
+void require_runnable(const Scene& scene);
+
 /// Runs the studies of a scene, their runs in up to `execution.jobs` threads; those that are
 /// timed, of [work_precision], one at a time and after all others. Throws InputError when its
 /// problem is not admissible; nothing has run then.

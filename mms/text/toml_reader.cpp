@@ -366,6 +366,21 @@ std::optional<double> TableReader::number(std::string_view key, Infinity infinit
     return node == nullptr ? std::nullopt : std::optional(checked_number(key, *node, infinity));
 }
 
+std::optional<std::string> TableReader::word(std::string_view key) {
+    const toml::node* node = find(key);
+    if (node == nullptr)
+        return std::nullopt;
+    if (node->is_integer())
+        return fmt::format("{}", node->as_integer()->get());
+    if (node->is_floating_point())
+        return fmt::format("{}", checked_number(key, *node, Infinity::refused));
+    if (node->is_boolean())
+        return node->as_boolean()->get() ? "true" : "false";
+    if (!node->is_string())
+        throw wrong_type(key, *node, "a string, a number, true or false");
+    return node->as_string()->get();
+}
+
 bool TableReader::is_table(std::string_view key) const {
     const toml::node* node = table_->get(key);
     return node != nullptr && node->is_table();

@@ -57,6 +57,8 @@ public:
     std::optional<std::int64_t> integer(std::string_view key);
     std::optional<bool> flag(std::string_view key);
     std::optional<std::string> text(std::string_view key);
+    /// A text, or a number, true or false as it is written shortest.
+    std::optional<std::string> word(std::string_view key);
     /// An expression: a string, or a number as it is.
     std::optional<SourceText> expression(std::string_view key);
     std::optional<std::vector<double>> numbers(std::string_view key,

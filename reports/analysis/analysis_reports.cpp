@@ -58,21 +58,10 @@ Json json_of(const DataAnalysis& analysis, const ColumnAnalysis& column) {
         }
         rows.push_back(std::move(row));
     }
-    Json orders = Json::object();
-    for (std::size_t i = 0; i < analysis.widths.size(); ++i)
-        orders[analysis.widths[i].name] = json_of(column.by_width[i]);
     Json json{{"name", column.name},
               {"kind", column.is_value ? "value" : "error"},
-              {"rows", std::move(rows)},
-              {"orders", std::move(orders)},
-              {"findings", column.findings}};
-    if (column.limit) {
-        json["limit"] = json_of(column.limit->limit);
-        json["uncertainty"] = number_json(column.limit->uncertainty);
-        json["methods"] = {{"gci", json_of(column.limit->gci)},
-                           {"celik", json_of(column.limit->celik)},
-                           {"eca_hoekstra", json_of(column.limit->eca_hoekstra)}};
-    }
+              {"rows", std::move(rows)}};
+    add_analysis(json, analysis, column);
     return json;
 }
 
@@ -144,6 +133,29 @@ Plot value_plot(const DataColumn& width, const ColumnAnalysis& column) {
 
 } // namespace
 
+void add_analysis(Json& json, const DataAnalysis& analysis, const ColumnAnalysis& column) {
+    Json orders = Json::object();
+    for (std::size_t i = 0; i < analysis.widths.size(); ++i)
+        orders[analysis.widths[i].name] = json_of(column.by_width[i]);
+    json["orders"] = std::move(orders);
+    json["findings"] = column.findings;
+    if (column.limit) {
+        json["limit"] = json_of(column.limit->limit);
+        json["uncertainty"] = number_json(column.limit->uncertainty);
+        json["methods"] = {{"gci", json_of(column.limit->gci)},
+                           {"celik", json_of(column.limit->celik)},
+                           {"eca_hoekstra", json_of(column.limit->eca_hoekstra)}};
+    }
+}
+
+std::vector<Plot> value_plots(const DataAnalysis& analysis) {
+    std::vector<Plot> plots;
+    for (const auto& column : analysis.columns)
+        if (column.is_value)
+            plots.push_back(value_plot(refined(analysis), column));
+    return plots;
+}
+
 std::string analysis_json(const DataAnalysis& analysis) {
     Json sizes = Json::array();
     for (const auto& width : analysis.widths)
@@ -186,15 +198,13 @@ std::string analysis_csv(const DataAnalysis& analysis) {
 std::vector<Plot> analysis_plots(const DataAnalysis& analysis) {
     const DataColumn& width = refined(analysis);
     const auto along = static_cast<std::size_t>(&width - analysis.widths.data());
-    std::vector<Plot> plots;
+    auto plots = value_plots(analysis);
     Drawing drawing;
     std::vector<double> errors;
     for (std::size_t k = 0; k < analysis.columns.size(); ++k) {
         const auto& column = analysis.columns[k];
-        if (column.is_value) {
-            plots.push_back(value_plot(width, column));
+        if (column.is_value)
             continue;
-        }
         std::copy_if(column.numbers.begin(), column.numbers.end(), std::back_inserter(errors),
                      is_positive);
         const SeriesStyle style = series_style(k);

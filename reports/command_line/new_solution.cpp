@@ -2,9 +2,14 @@
 
 #include "mms/text/input_error.hpp"
 #include "reports/files/output_file.hpp"
+#include "studies/scene/shipped.hpp"
+
+#include <boost/algorithm/string/replace.hpp>
 
 #include <algorithm>
 #include <cctype>
+#include <fstream>
+#include <iterator>
 #include <string_view>
 
 namespace tvbeam {
@@ -102,6 +107,18 @@ std::array<StarterFile, 2> starter_files(const std::string& name) {
     require_name(name);
     return {{{name + ".toml", with_name(solution_text, name)},
              {name + "-scene.toml", with_name(scene_text, name)}}};
+}
+
+std::array<StarterFile, 2> solver_starter_files(const std::string& name) {
+    require_name(name);
+    const std::string shipped = "heat-solver";
+    const auto scene = find_file(Shipped::scene, shipped);
+    const auto read = [&](const std::string& ending) {
+        std::ifstream stream(scene.parent_path() / (shipped + ending));
+        const std::string text{std::istreambuf_iterator<char>(stream), {}};
+        return StarterFile{name + ending, boost::algorithm::replace_all_copy(text, shipped, name)};
+    };
+    return {read(".py"), read(".toml")};
 }
 
 void write_starter_files(const std::array<StarterFile, 2>& files,

@@ -17,6 +17,11 @@ struct StarterFile {
 /// for a name that is not of letters, digits, - and _, or is longer than 64 characters.
 std::array<StarterFile, 2> starter_files(const std::string& name);
 
+/// The two files of `tvbeam new --solver NAME`: the program NAME.py and the scene NAME.toml, which
+/// runs it and checks its orders. They are the shipped heat-solver. Throws InputError as above, and
+/// where what is shipped is not found.
+std::array<StarterFile, 2> solver_starter_files(const std::string& name);
+
 /// Writes both files into the directory, or none. Throws InputError, having written nothing, where
 /// one of them is there already; OutputError where they cannot be written.
 void write_starter_files(const std::array<StarterFile, 2>& files,

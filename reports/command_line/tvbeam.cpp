@@ -20,6 +20,7 @@
 #include "reports/files/checkpoint.hpp"
 #include "reports/files/output_file.hpp"
 #include "reports/files/report_directory.hpp"
+#include "reports/files/solver_runs.hpp"
 #include "reports/formats/csv_report.hpp"
 #include "reports/formats/formula_report.hpp"
 #include "reports/formats/json_report.hpp"
@@ -141,17 +142,65 @@ void predict(const Scene& scene, bool quiet, bool really_long) {
         say(scene.name + " asks for " + predicted.text());
 }
 
-StudyResult run_shown(const Scene& scene, bool quiet, int jobs, std::optional<Checkpoint>& kept) {
+StudyResult run_shown(const Scene& scene, bool quiet, int jobs, FinishedRuns* finished) {
     ProgressLine progress(!quiet);
-    return run_study(scene,
-                     {.jobs = jobs, .progress = &progress, .finished = kept ? &*kept : nullptr});
+    return run_study(scene, {.jobs = jobs, .progress = &progress, .finished = finished});
 }
 
+/// The finished runs in the directory of --out: of an attempt that was cut short, or those of an
+/// external solver.
+class KeptRuns {
+public:
+    KeptRuns(const RunOptions& options, const Scene& scene) {
+        if (scene.solver)
+            solver_.emplace(options.out, scene);
+        else
+            checkpoint_.emplace(options.out, scene, options.resume);
+    }
+    FinishedRuns* finished() {
+        return solver_ ? static_cast<FinishedRuns*>(&*solver_) : &*checkpoint_;
+    }
+    /// What is said before anything runs; empty: nothing.
+    std::string greeting(bool resume) {
+        if (solver_) {
+            const std::size_t found = solver_->found();
+            return found == 0 ? ""
+                              : "goes on with " + std::to_string(found) + " finished runs from " +
+                                    solver_->path().string() + "; remove it to make them anew";
+        }
+        return !resume ? ""
+                       : "goes on with " + std::to_string(checkpoint_->found()) + " finished runs" +
+                             (checkpoint_->was_torn() ? "; one that was being written when it was "
+                                                        "cut short is run again"
+                                                      : "");
+    }
+    /// What is said after an interruption.
+    [[nodiscard]] std::string advice() const {
+        if (solver_)
+            return solver_->holds_runs() ? "; the same command goes on from the runs that are kept"
+                                         : "";
+        return checkpoint_->holds_runs() ? "; --resume goes on from the runs that are kept" : "";
+    }
+    void write() { solver_ ? solver_->write() : checkpoint_->write(); }
+    /// Why results could not be kept; empty: they are.
+    [[nodiscard]] const std::string& failure() const {
+        return solver_ ? solver_->failure() : checkpoint_->failure();
+    }
+    /// The study has come to its end.
+    void end() {
+        if (checkpoint_)
+            checkpoint_->remove();
+    }
+
+private:
+    std::optional<Checkpoint> checkpoint_;
+    std::optional<SolverRuns> solver_;
+};
+
 /// What there is to say of a run that did not go well; empty when it did.
-std::string trouble_of(const StudyResult& result, bool kept) {
+std::string trouble_of(const StudyResult& result, const std::optional<KeptRuns>& kept) {
     if (result.interrupted())
-        return std::string("interrupted; the result holds what was finished") +
-               (kept ? "; --resume goes on from the runs that are kept" : "");
+        return "interrupted; the result holds what was finished" + (kept ? kept->advice() : "");
     return result.failed() ? "a run failed; the result says which and why" : "";
 }
 
@@ -160,17 +209,16 @@ int run_command(const RunOptions& options) {
         read_scene(options.scene, options.overrides, {.report_files = report_format_names()});
     predict(scene, options.quiet, options.really_long);
     std::optional<ReportDirectory> out;
-    std::optional<Checkpoint> kept;
+    std::optional<KeptRuns> kept;
+    require_runnable(scene);
     if (!options.out.empty()) {
         opened([&] {
             out.emplace(options.out, scene.report);
-            kept.emplace(options.out, scene, options.resume);
+            kept.emplace(options, scene);
         });
-        if (options.resume && !options.quiet)
-            say("goes on with " + std::to_string(kept->found()) + " finished runs" +
-                (kept->was_torn()
-                     ? "; one that was being written when it was cut short is run again"
-                     : ""));
+        if (const auto greeting = kept->greeting(options.resume);
+            !greeting.empty() && !options.quiet)
+            say(greeting);
     }
     Destination json = destination(options.json);
     Destination csv = destination(options.csv);
@@ -178,13 +226,13 @@ int run_command(const RunOptions& options) {
         say("the CSV holds results with a deliberate defect, not the problem's");
     // From here on there is something to keep.
     EndRequests end_requests([&] {
-        const bool goes_on = kept && kept->holds_runs();
+        const std::string advice = kept ? kept->advice() : "";
         out.reset();
-        say_interrupted(std::string("interrupted in what could not be left in time; no report is "
-                                    "written") +
-                        (goes_on ? "; --resume goes on from the runs that are kept" : ""));
+        say_interrupted("interrupted in what could not be left in time; no report is written" +
+                        advice);
     });
-    const StudyResult result = run_shown(scene, options.quiet, options.jobs, kept);
+    const StudyResult result =
+        run_shown(scene, options.quiet, options.jobs, kept ? kept->finished() : nullptr);
     end_requests.settle();
     // Files first: what standard output goes to may be gone.
     if (out) {
@@ -192,9 +240,9 @@ int run_command(const RunOptions& options) {
         if (const std::string left_out = out->write(reported(result)); !left_out.empty())
             say(left_out);
         if (!kept->failure().empty())
-            say(kept->failure() + "; the runs behind it are not kept for --resume");
+            say(kept->failure() + "; the runs behind it are not kept");
         if (!result.interrupted())
-            kept->remove();
+            kept->end();
     }
     if (json.wanted() && !json.standard_output())
         json.write(json_report(result));
@@ -206,8 +254,7 @@ int run_command(const RunOptions& options) {
         csv.write(csv_report(result));
     else if (!options.quiet)
         write_standard_output(text_document(result_document(result)));
-    if (const std::string trouble = trouble_of(result, kept && kept->holds_runs());
-        !trouble.empty()) {
+    if (const std::string trouble = trouble_of(result, kept); !trouble.empty()) {
         say(trouble);
         return run_failed;
     }
@@ -262,6 +309,8 @@ int check_command(const CheckOptions& options) {
                 {scene.file},
                 "has no [expect] block, so there is nothing to check; add one, or record a "
                 "baseline with --record");
+    for (const auto& scene : scenes)
+        require_runnable(scene);
     Destination junit = destination(options.junit);
     Destination record = destination(options.record);
 
@@ -289,8 +338,7 @@ int check_command(const CheckOptions& options) {
     for (const auto& scene : scenes) {
         const std::string shown = scene.name + (scene.defect ? " (with a deliberate defect)" : "");
         const auto start = std::chrono::steady_clock::now();
-        std::optional<Checkpoint> none;
-        results.push_back(run_shown(scene, options.quiet, options.jobs, none));
+        results.push_back(run_shown(scene, options.quiet, options.jobs, nullptr));
         const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
         if (results.back().interrupted()) {
             add({shown, elapsed.count(), interrupted_reason, {}});
@@ -391,6 +439,16 @@ int new_command(const std::string& name) {
     write_standard_output("wrote " + files[0].name + " (the solution) and " + files[1].name +
                           " (the scene); now\n  tvbeam run " + files[1].name +
                           "\n  tvbeam derive " + files[0].name + "\n");
+    return done;
+}
+
+int new_solver_command(const std::string& name) {
+    const auto files = solver_starter_files(name);
+    write_starter_files(files, ".");
+    write_standard_output("wrote " + files[0].name +
+                          " (a solver to put your own in place of) and " + files[1].name +
+                          " (the scene); now\n  tvbeam run " + files[1].name + "\n  tvbeam check " +
+                          files[1].name + "\n");
     return done;
 }
 
@@ -685,9 +743,15 @@ Command add_new(CLI::App& app) {
     auto* make = app.add_subcommand(
         "new", "Write a solution to start from, NAME.toml, and a scene that runs it, "
                "NAME-scene.toml, into the current directory.\nExample: tvbeam new my-solution");
+    const auto solver = std::make_shared<bool>(false);
+    make->add_flag(
+        "--solver", *solver,
+        "a small solver in Python, NAME.py, and a scene that runs it, NAME.toml: to study "
+        "a solver of your own");
     const auto name = std::make_shared<std::string>();
     make->add_option("name", *name, "letters, digits, - and _")->required()->type_name("NAME");
-    return {make, [name] { return new_command(*name); }};
+    return {make,
+            [name, solver] { return *solver ? new_solver_command(*name) : new_command(*name); }};
 }
 
 Command add_list(CLI::App& app) {

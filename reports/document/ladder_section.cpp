@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <cctype>
 #include <functional>
 
 namespace tvbeam {
@@ -29,6 +30,12 @@ Table::Group norm_group(const LadderResult& ladder, const LadderBlock& block, st
     };
     const std::string& name = ladder.norms[k].norm.name;
     Table::Group group{name, {}};
+    if (ladder.norms[k].norm.is_value) {
+        group.columns.push_back(column(ladder, "value", [&](std::size_t i) {
+            return error(i) ? scientific(error(i), 8) : name_of(ladder.rungs[i].status);
+        }));
+        return group;
+    }
     group.columns.push_back(column(ladder, "error", [&](std::size_t i) {
         return error(i) ? scientific(error(i), 4) : name_of(ladder.rungs[i].status);
     }));
@@ -58,12 +65,46 @@ std::string seconds_text(double seconds) {
     return fixed(seconds, seconds < 99.95 ? 1 : 0);
 }
 
+/// "Errors up to T = 2": of errors, values or both, and until when, if that is known.
+std::string what_is_shown(const LadderBlock& block) {
+    bool errors = block.norms.empty();
+    bool values = false;
+    for (const auto& measure : block.norms)
+        (measure.is_value ? values : errors) = true;
+    const std::string what = errors && values ? "Errors and values" : values ? "Values" : "Errors";
+    return block.final_time > 0.0 ? what + " up to T = " + shortest(block.final_time) : what;
+}
+
+/// Why a ladder was refined no further.
+std::string ending_text(RefiningEnd end, const LadderBlock& block, std::size_t levels) {
+    std::string text = fmt::format("Refined to {} levels: ", levels);
+    switch (end) {
+    case RefiningEnd::known:
+        return text + "what was to be known is, as closely as the scene asks.";
+    case RefiningEnd::levels:
+        return text + "the budget of levels is spent, and not all is known that the scene asks.";
+    case RefiningEnd::seconds:
+        return text +
+               fmt::format("another would not fit into the budget of {} s, and not all is known "
+                           "that the scene asks.",
+                           shortest(*block.until->seconds));
+    case RefiningEnd::finest:
+        return text + "no run may be finer, and not all is known that the scene asks.";
+    default:
+        return text + "a run did not end well.";
+    }
+}
+
 Table ladder_table(const LadderResult& ladder, const LadderBlock& block, const Method& method) {
     Table::Group key{"", {}};
-    key.columns.push_back(column(
-        ladder, "s", [&](std::size_t i) { return std::to_string(ladder.rungs[i].rung.elements); }));
-    key.columns.push_back(
-        column(ladder, "dt", [&](std::size_t i) { return shortest(ladder.rungs[i].rung.dt); }));
+    const Rung& first = block.rungs.front();
+    if (first.has_mesh())
+        key.columns.push_back(column(ladder, "s", [&](std::size_t i) {
+            return std::to_string(ladder.rungs[i].rung.elements);
+        }));
+    if (first.has_steps())
+        key.columns.push_back(
+            column(ladder, "dt", [&](std::size_t i) { return shortest(ladder.rungs[i].rung.dt); }));
     std::vector<Table::Group> groups;
     for (std::size_t k = 0; k < ladder.norms.size(); ++k)
         groups.push_back(norm_group(ladder, block, k));
@@ -75,18 +116,20 @@ Table ladder_table(const LadderResult& ladder, const LadderBlock& block, const M
     cost.columns.push_back(column(
         ladder, "sec", [&](std::size_t i) { return seconds_text(ladder.rungs[i].seconds); }));
     groups.push_back(cost);
-    return {fmt::format("Errors up to T = {} on s elements with the step dt; {}; sec: seconds of "
-                        "a run, error norms included.",
-                        shortest(block.final_time), method.words),
+    return {fmt::format("{}{}{}; {}; sec: seconds of a run, error norms included.",
+                        what_is_shown(block), first.has_mesh() ? " on s elements" : "",
+                        first.has_steps() ? " with the step dt" : "", method.words),
             key, groups};
 }
 
 } // namespace
 
 Section ladder_section(const LadderResult& ladder, const LadderBlock& block, const Method& method) {
-    Section section{"Errors and observed orders",
-                    {ladder_table(ladder, block, method)},
-                    {"errors up to T = " + shortest(block.final_time)}};
+    Section section{"Errors and observed orders", {ladder_table(ladder, block, method)}, {}};
+    if (block.final_time > 0.0) {
+        section.head.push_back(what_is_shown(block));
+        section.head.back().front() = static_cast<char>(std::tolower(section.head.back().front()));
+    }
     auto& blocks = section.blocks;
     const auto add = [&blocks](Block&& block) {
         blocks.emplace_back(BlankLine{});
@@ -97,12 +140,14 @@ Section ladder_section(const LadderResult& ladder, const LadderBlock& block, con
                       "; ratio: error / published; ord.: observed order"});
     for (const auto& rung : ladder.rungs)
         if (rung.status != RungStatus::ok)
-            add(Finding{fmt::format("s = {}, dt = {} {}: {}", rung.rung.elements,
-                                    shortest(rung.rung.dt), name_of(rung.status), rung.reason)});
+            add(Finding{fmt::format("{} {}: {}", rung.rung.name(shortest), name_of(rung.status),
+                                    rung.reason)});
     if (!ladder.quadrature_remark.empty())
         add(Finding{ladder.quadrature_remark});
     if (!ladder.reference_remark.empty())
         add(Finding{ladder.reference_remark});
+    if (ladder.refined)
+        add(Finding{ending_text(*ladder.refined, block, ladder.rungs.size())});
     for (const auto& norm : ladder.norms)
         for (std::size_t i = 0; i < norm.remarks.size(); ++i)
             if (i == 0)

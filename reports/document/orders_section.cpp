@@ -94,8 +94,7 @@ Section orders_section(const OrdersResult& orders) {
     for (const auto& run : orders.runs)
         if (run.status != RungStatus::ok)
             notes.emplace_back(
-                Paragraph{fmt::format("s = {}, dt = {} failed: {}", run.rung.elements,
-                                      shortest(run.rung.dt), run.reason)});
+                Paragraph{fmt::format("{} failed: {}", run.rung.name(shortest), run.reason)});
     Section section{"Orders in h and dt",
                     {Paragraph{fmt::format("Orders from {} runs: e^2 = a^2 h^2p + 2 rho a b h^p "
                                            "dt^q + b^2 dt^2q (±: 95 %)",

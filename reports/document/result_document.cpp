@@ -2,7 +2,6 @@
 
 #include "reports/files/provenance.hpp"
 #include "reports/studies/study_report.hpp"
-#include "studies/runs/beam_runs.hpp"
 #include "studies/text/number_text.hpp"
 
 #include <fmt/format.h>
@@ -60,7 +59,7 @@ std::string basis_words(const StudyResult& result) {
                     steps += run.count("steps");
                     sine_steps += run.count("sine_steps");
                 }
-    if (steps == 0 || result.scene.scheme.algorithm != Algorithm::direct)
+    if (steps == 0 || result.scene.solver || result.scene.scheme.algorithm != Algorithm::direct)
         return "";
     return sine_steps == 0       ? ", nodal values"
            : sine_steps == steps ? ", sine basis"
@@ -136,10 +135,10 @@ Document result_document(const StudyResult& result) {
     if (scene.defect)
         document.head.push_back(defect_line(*scene.defect));
     // A stress study has problems of its own.
-    if (scene.poses_problem())
+    if (scene.poses_problem() && !scene.solver)
         document.head.push_back(problem_line(scene, result.law_distance));
     if (has_own_scheme(result))
-        document.head.push_back(method_of(scene.scheme).words + basis_words(result));
+        document.head.push_back(scene.method().words + basis_words(result));
     if (result.reference)
         document.head.push_back(reference_line(scene, *result.reference));
     std::size_t of_problem = 0; // sections on the scene's own problem, which come first

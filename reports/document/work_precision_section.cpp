@@ -70,7 +70,8 @@ std::vector<Table::Group> counter_groups(const SchemeRuns& scheme, const Method&
         groups.push_back({"", {count("iter.", [&](const RungResult& run) {
                               return run.count(method.iterations);
                           })}});
-    else
+    else if (std::any_of(scheme.runs.begin(), scheme.runs.end(),
+                         [](const RungResult& run) { return run.count("heat_solves") > 0; }))
         groups.push_back({"heat", {count("solves", [](const RungResult& run) {
                               return run.count("heat_solves");
                           })}});
@@ -81,11 +82,14 @@ std::vector<Table::Group> counter_groups(const SchemeRuns& scheme, const Method&
 std::vector<Block> rows_blocks(const SchemeRuns& scheme, const TimedScheme& timed,
                                const WorkPrecisionBlock& block) {
     const auto& norms = block.norms;
-    Table::Group key{
-        "",
-        {column(scheme, "s",
-                [&](std::size_t i) { return std::to_string(scheme.runs[i].rung.elements); }),
-         column(scheme, "dt", [&](std::size_t i) { return shortest(scheme.runs[i].rung.dt); })}};
+    Table::Group key{"", {}};
+    if (timed.rungs.front().has_mesh())
+        key.columns.push_back(column(scheme, "s", [&](std::size_t i) {
+            return std::to_string(scheme.runs[i].rung.elements);
+        }));
+    if (timed.rungs.front().has_steps())
+        key.columns.push_back(
+            column(scheme, "dt", [&](std::size_t i) { return shortest(scheme.runs[i].rung.dt); }));
     std::vector<Table::Group> groups;
     for (std::size_t k = 0; k < norms.size(); ++k)
         groups.push_back({norms[k].name, {column(scheme, "error", [&](std::size_t i) {
@@ -103,8 +107,7 @@ std::vector<Block> rows_blocks(const SchemeRuns& scheme, const TimedScheme& time
     for (const auto& run : scheme.runs)
         if (run.status != RungStatus::ok)
             blocks.emplace_back(
-                Paragraph{fmt::format("s = {}, dt = {} failed: {}", run.rung.elements,
-                                      shortest(run.rung.dt), run.reason)});
+                Paragraph{fmt::format("{} failed: {}", run.rung.name(shortest), run.reason)});
     return blocks;
 }
 

@@ -40,9 +40,11 @@ BaselineEntry baseline_entry(const StudyResult& result) {
     for (const auto& [series, results] : result.runs())
         for (const auto& run : *results)
             for (std::size_t k = 0; k < series.measures.size(); ++k)
-                errors[fmt::format("{}.{}: error at s = {}, dt = {}", series.study,
-                                   series.measures[k].name, run.rung.elements, run.rung.dt)] =
-                    error_of(run, k).value_or(std::nan(""));
+                errors[fmt::format("{}.{}: {} at {}", series.study, series.measures[k].name,
+                                   series.measures[k].is_value ? "value" : "error",
+                                   run.rung.name([](double dt) {
+                                       return fmt::format("{}", dt);
+                                   }))] = error_of(run, k).value_or(std::nan(""));
     return {result.scene.name, {result.scene.file}, std::move(errors)};
 }
 

@@ -4,6 +4,7 @@
 #include "reports/files/kept_result.hpp"
 #include "reports/files/output_file.hpp"
 #include "reports/files/run_identity.hpp"
+#include "studies/ladder/ladder_block.hpp"
 #include "studies/stress/stress_block.hpp"
 
 #include <fmt/format.h>
@@ -20,11 +21,20 @@ using Json = nlohmann::ordered_json;
 constexpr const char* schema = "tvbeam-unfinished/2";
 constexpr const char* advice = "; remove the file to begin anew";
 
-/// The runs that the scene asks for, by Series::study.
+/// More levels than `until` can add before they are too fine.
+constexpr std::size_t most_levels = 200;
+
+/// The runs that the scene may ask for, by Series::study.
 std::map<std::string, Series> asked_runs(const Scene& scene) {
     std::map<std::string, Series> asked;
     for (auto& series : scene.series())
         asked.emplace(series.study, series);
+    if (const auto* ladder = scene.get<LadderBlock>(); ladder != nullptr && ladder->until) {
+        auto& rungs = asked.at("ladder").rungs;
+        for (auto next = ladder->next(rungs); next && rungs.size() < most_levels;
+             next = ladder->next(rungs))
+            rungs.push_back(*next);
+    }
     return asked;
 }
 
@@ -64,11 +74,13 @@ Checkpoint::Checkpoint(const std::filesystem::path& directory, const Scene& scen
 
 void Checkpoint::read(const Scene& scene) {
     const Place place{file_.path().string()};
+    const auto asked = asked_runs(scene);
+    const std::size_t cases = asked_cases(scene);
     torn_ = file_.read([&](std::size_t number, const std::string& line) {
         try {
             const Json json = parsed(line);
             if (number > 1) {
-                read_entry(scene, json);
+                read_entry(asked, cases, json);
                 return;
             }
             begun_ = true;
@@ -90,7 +102,7 @@ void Checkpoint::read(const Scene& scene) {
     holds_runs_ = found() > 0;
 }
 
-void Checkpoint::read_entry(const Scene& scene, const Json& entry) {
+void Checkpoint::read_entry(const Asked& asked, std::size_t cases, const Json& entry) {
     if (!entry.is_object() || !entry.contains("study") || !entry["study"].is_string() ||
         !entry.contains("index") || !entry["index"].is_number_unsigned() ||
         !entry.contains("result"))
@@ -102,11 +114,10 @@ void Checkpoint::read_entry(const Scene& scene, const Json& entry) {
             throw std::invalid_argument(fmt::format("the scene has no run {} of {}", index, study));
     };
     if (study == "stress") {
-        require_asked(asked_cases(scene));
+        require_asked(cases);
         cases_.emplace(index, kept_case(entry["result"]));
         return;
     }
-    const auto asked = asked_runs(scene);
     const auto runs = asked.find(study);
     require_asked(runs == asked.end() ? 0 : runs->second.rungs.size());
     runs_.emplace(std::pair(study, index), kept_run(entry["result"], runs->second.rungs[index],
@@ -129,13 +140,13 @@ void Checkpoint::add_entry(const std::string& study, std::size_t index, const Js
     }
 }
 
-std::optional<RungResult> Checkpoint::find(const std::string& study, std::size_t index) {
-    const auto kept = runs_.find({study, index});
+std::optional<RungResult> Checkpoint::find(const Series& series, std::size_t index) {
+    const auto kept = runs_.find({series.study, index});
     return kept == runs_.end() ? std::nullopt : std::optional(kept->second);
 }
 
-void Checkpoint::add(const std::string& study, std::size_t index, const RungResult& result) {
-    add_entry(study, index, kept(result));
+void Checkpoint::add(const Series& series, std::size_t index, const RungResult& result) {
+    add_entry(series.study, index, kept(result));
 }
 
 std::optional<StressCase> Checkpoint::find_case(std::size_t index) {

@@ -27,8 +27,8 @@ public:
     /// gives. Throws OutputError where nothing can be written.
     Checkpoint(const std::filesystem::path& directory, const Scene& scene, bool resume);
 
-    std::optional<RungResult> find(const std::string& study, std::size_t index) override;
-    void add(const std::string& study, std::size_t index, const RungResult& result) override;
+    std::optional<RungResult> find(const Series& series, std::size_t index) override;
+    void add(const Series& series, std::size_t index, const RungResult& result) override;
     std::optional<StressCase> find_case(std::size_t index) override;
     void add_case(std::size_t index, const StressCase& result) override;
 
@@ -55,8 +55,9 @@ public:
     void remove();
 
 private:
+    using Asked = std::map<std::string, Series>;
     void read(const Scene& scene);
-    void read_entry(const Scene& scene, const nlohmann::ordered_json& entry);
+    void read_entry(const Asked& asked, std::size_t cases, const nlohmann::ordered_json& entry);
     void add_entry(const std::string& study, std::size_t index,
                    const nlohmann::ordered_json& result);
 

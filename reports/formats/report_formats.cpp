@@ -43,7 +43,7 @@ Reported reported(const StudyResult& result) {
                  .interrupted = result.interrupted(),
                  .source_text = result.scene.text};
     // A stress study has problems of its own.
-    if (result.scene.poses_problem())
+    if (result.scene.poses_problem() && !result.scene.solver)
         all.formulas = problem_formulas(result.scene);
     return all;
 }

@@ -26,16 +26,22 @@ bool all_equal(const std::vector<double>& values) {
 struct LadderWidths {
     explicit LadderWidths(const LadderResult& ladder) {
         for (const auto& rung : ladder.rungs) {
-            h.push_back(1.0 / static_cast<double>(rung.rung.elements));
-            dt.push_back(rung.rung.dt);
+            h.push_back(rung.rung.h());
+            dt.push_back(rung.rung.step());
         }
-        in_time = all_equal(h) && !all_equal(dt);
+        has_mesh = !std::isnan(h.front());
+        has_steps = !std::isnan(dt.front());
+        in_time = !has_mesh || (has_steps && all_equal(h) && !all_equal(dt));
     }
 
     [[nodiscard]] const std::vector<double>& abscissa() const { return in_time ? dt : h; }
 
     /// Says what becomes of the other width.
     [[nodiscard]] std::string axis_title() const {
+        if (!has_mesh)
+            return "time step Δt";
+        if (!has_steps)
+            return "mesh width h";
         if (in_time)
             return fmt::format("time step Δt   (h = 1/{})", std::llround(1.0 / h.front()));
         const std::string title = "mesh width h   (";
@@ -54,6 +60,8 @@ struct LadderWidths {
 
     std::vector<double> h;
     std::vector<double> dt;
+    bool has_mesh = true;
+    bool has_steps = true;
     bool in_time = false;
 };
 
@@ -242,9 +250,9 @@ private:
 
     [[nodiscard]] std::string caption() const {
         return fmt::format(
-            "Errors up to T = {} along the ladder, on logarithmic axes, with fitted lines and "
+            "Errors{} along the ladder, on logarithmic axes, with fitted lines and "
             "their slopes{}{}.",
-            shortest(block_.final_time),
+            block_.final_time > 0.0 ? " up to T = " + shortest(block_.final_time) : "",
             has_printed_ ? "; open squares: published in " + block_.printed->source : "",
             predicted_ ? "; dotted: predicted by the fits of [orders]" : "");
     }
@@ -268,7 +276,9 @@ std::vector<Plot> convergence_plots(const StudyResult& result) {
     const auto* ladder = result.get<LadderResult>();
     if (ladder == nullptr || ladder->norms.empty())
         return {};
-    return ConvergencePlot(*ladder, *result.scene.get<LadderBlock>()).plots();
+    LadderResult errors = *ladder;
+    std::erase_if(errors.norms, [](const LadderNorm& norm) { return norm.norm.is_value; });
+    return ConvergencePlot(errors, *result.scene.get<LadderBlock>()).plots();
 }
 
 } // namespace tvbeam

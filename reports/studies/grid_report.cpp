@@ -58,8 +58,9 @@ Json json_of(const OrdersResult& orders, const OrdersBlock& block) {
         add_errors(entry, run, block.norms);
         runs.push_back(std::move(entry));
     }
-    Json json{
-        {"final_time", block.final_time}, {"norms", std::move(norms)}, {"runs", std::move(runs)}};
+    Json json{{"final_time", block.final_time > 0.0 ? Json(block.final_time) : Json()},
+              {"norms", std::move(norms)},
+              {"runs", std::move(runs)}};
     if (orders.corollary)
         json["corollary_constant"] = {{"least", orders.corollary->least},
                                       {"greatest", orders.corollary->greatest},

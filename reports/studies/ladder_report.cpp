@@ -1,9 +1,9 @@
+#include "reports/analysis/analysis_reports.hpp"
 #include "reports/document/ladder_section.hpp"
 #include "reports/studies/run_fields.hpp"
 #include "reports/studies/study_report.hpp"
 #include "studies/gates/expectation.hpp"
 #include "studies/ladder/ladder.hpp"
-#include "studies/runs/beam_runs.hpp"
 #include "studies/table_row.hpp"
 
 #include <nlohmann/json.hpp>
@@ -27,6 +27,8 @@ Json json_of(const LadderResult& ladder, const LadderBlock& block) {
         Json reason = Json::object();
         for (const auto& norm : ladder.norms) {
             const std::string& name = norm.norm.name;
+            if (norm.norm.is_value)
+                continue;
             orders[name] = number_json(norm.orders[i]);
             if (block.printed && block.printed->figures.contains(name))
                 printed[name] = block.printed->figures.at(name)[i];
@@ -50,7 +52,13 @@ Json json_of(const LadderResult& ladder, const LadderBlock& block) {
         entry["counters"] = counters_json(ladder.rungs[i]);
         rungs.push_back(std::move(entry));
     }
-    Json json{{"final_time", block.final_time}, {"rungs", std::move(rungs)}};
+    Json json{{"final_time", block.final_time > 0.0 ? Json(block.final_time) : Json()},
+              {"rungs", std::move(rungs)}};
+    if (ladder.refined)
+        json["ended_by"] = name_of(*ladder.refined);
+    if (ladder.analysis)
+        for (const auto& column : ladder.analysis->columns)
+            add_analysis(json["analysis"][column.name], *ladder.analysis, column);
     if (block.printed)
         json["printed_source"] = block.printed->source;
     Json remarks = Json::array();
@@ -75,7 +83,8 @@ std::string ladder_csv(const LadderResult& ladder, const std::optional<Published
         text += "," + name;
         if (has_figures(name))
             text += "," + name + "_printed";
-        text += "," + name + "_order";
+        if (!norm.norm.is_value)
+            text += "," + name + "_order";
         if (!norm.predictions.empty())
             for (const char* figure : {"_predicted", "_predicted_low", "_predicted_high"})
                 text += "," + name + figure;
@@ -88,7 +97,8 @@ std::string ladder_csv(const LadderResult& ladder, const std::optional<Published
             text += number_field(error_of(ladder.rungs[i], k));
             if (has_figures(norm.norm.name))
                 text += number_field(printed->figures.at(norm.norm.name)[i]);
-            text += number_field(norm.orders[i]);
+            if (!norm.norm.is_value)
+                text += number_field(norm.orders[i]);
             if (!norm.predictions.empty())
                 for (const double figure :
                      {norm.predictions[i].value, norm.predictions[i].low, norm.predictions[i].high})
@@ -105,7 +115,7 @@ struct LadderReport final : StudyReport {
     std::string study() const override { return "ladder"; }
     std::vector<Section> sections(const StudyResult& result) const override {
         return {ladder_section(*result.get<LadderResult>(), *result.scene.get<LadderBlock>(),
-                               method_of(result.scene.scheme))};
+                               result.scene.method())};
     }
     Json json(const StudyResult& result) const override {
         return json_of(*result.get<LadderResult>(), *result.scene.get<LadderBlock>());
@@ -115,7 +125,11 @@ struct LadderReport final : StudyReport {
                                      result.scene.get<LadderBlock>()->printed)}};
     }
     std::vector<Plot> plots(const StudyResult& result) const override {
-        return convergence_plots(result);
+        auto plots = convergence_plots(result);
+        if (const auto& analysis = result.get<LadderResult>()->analysis)
+            for (auto& plot : value_plots(*analysis))
+                plots.push_back(std::move(plot));
+        return plots;
     }
     std::vector<std::pair<std::string, std::string>> csv_heads() const override {
         return {{study(), run_columns}};

@@ -12,9 +12,10 @@ namespace tvbeam {
 using Json = nlohmann::ordered_json;
 
 Json run_json(const RungResult& run) {
-    Json json{{"elements", run.rung.elements},
-              {"dt", run.rung.dt},
-              {"steps", run.rung.steps},
+    const Rung& rung = run.rung;
+    Json json{{"elements", rung.has_mesh() ? Json(rung.elements) : Json()},
+              {"dt", number_json(rung.step())},
+              {"steps", rung.steps > 0 ? Json(rung.steps) : Json()},
               {"status", name_of(run.status)}};
     if (!run.reason.empty())
         json["reason"] = run.reason;
@@ -24,9 +25,10 @@ Json run_json(const RungResult& run) {
 }
 
 void add_errors(Json& entry, const RungResult& run, const std::vector<Measure>& measures) {
-    Json& errors = entry["errors"] = Json::object();
+    entry["errors"] = Json::object();
     for (std::size_t k = 0; k < measures.size(); ++k)
-        errors[measures[k].name] = run.errors.empty() ? Json() : Json(run.errors[k]);
+        entry[measures[k].is_value ? "values" : "errors"][measures[k].name] =
+            run.errors.empty() ? Json() : Json(run.errors[k]);
     for (std::size_t k = 0; k < run.uncertainties.size(); ++k)
         entry["uncertainty"][measures[k].name] = run.uncertainties[k];
 }
@@ -55,9 +57,11 @@ std::string quoted(const std::string& given) {
 }
 
 std::string run_fields(const RungResult& run) {
-    return fmt::format("{},{},{},{},{}", run.rung.elements,
-                       1.0 / static_cast<double>(run.rung.elements), run.rung.dt, run.rung.steps,
-                       name_of(run.status));
+    const auto field = [](bool is, auto number) { return is ? fmt::format("{}", number) : ""; };
+    const Rung& rung = run.rung;
+    return fmt::format("{},{},{},{},{}", field(rung.has_mesh(), rung.elements),
+                       field(rung.has_mesh(), rung.h()), field(rung.has_steps(), rung.dt),
+                       field(rung.steps > 0, rung.steps), name_of(run.status));
 }
 
 std::string number_field(std::optional<double> value) {

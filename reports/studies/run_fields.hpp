@@ -10,7 +10,8 @@
 
 namespace tvbeam {
 
-/// What every run of a study says of itself in JSON; and its errors by name, its counters.
+/// What every run of a study says of itself in JSON, null for what it does not have; and its errors
+/// and values by name, its counters.
 nlohmann::ordered_json run_json(const RungResult& run);
 void add_errors(nlohmann::ordered_json& entry, const RungResult& run,
                 const std::vector<Measure>& measures);

@@ -75,7 +75,7 @@ Json json_of(const WorkPrecisionResult& result, const WorkPrecisionBlock& block)
         for (const auto& remark : norm.remarks)
             remarks.push_back(remark);
     }
-    return {{"final_time", block.final_time},
+    return {{"final_time", block.final_time > 0.0 ? Json(block.final_time) : Json()},
             {"schemes", std::move(schemes)},
             {"time_to_reach", std::move(costs)},
             {"remarks", std::move(remarks)}};

@@ -132,7 +132,7 @@ std::vector<Probe> EvolutionBlock::quantities() const {
 
 EvolutionBlock read_evolution(TableReader& table) {
     EvolutionBlock block;
-    block.final_time = read_final_time(table);
+    block.final_time = read_final_time(table, {});
     block.rung = read_rung(table, block.final_time);
     block.probes = read_probes(table);
     block.every = read_every(table, block);

@@ -90,8 +90,8 @@ std::optional<double> error_of(const RungResult& run, std::size_t k) {
 Metric row_metric(const Series& series, const RungResult& run, std::size_t k,
                   const std::string& name, std::optional<double> value,
                   const std::string& otherwise) {
-    return {series.study + "." + series.measures[k].name + ": " + name + " at s = " +
-                std::to_string(run.rung.elements) + ", dt = " + metric_text(run.rung.dt),
+    return {series.study + "." + series.measures[k].name + ": " + name + " at " +
+                run.rung.name(metric_text),
             value, run.reason.empty() ? otherwise : "no error: " + run.reason};
 }
 

@@ -39,6 +39,8 @@ const std::vector<FeatureTable::Exception> without_numbers{
     {"key work_precision.runs", "how often a run is timed"},
     {"key work_precision.targets", "errors whose times are compared"},
     {"key work_precision.targets.NORM", "errors whose times are compared"},
+    {"key solver.timeout", "how long a run may take: tests/external"},
+    {"key ladder.until.seconds", "how long all runs may take: tests/external"},
     {"key stress.sweep.NAME.work", "how many steps a case may have: tests/studies/stress.cpp"},
 };
 
@@ -61,6 +63,11 @@ bool is_single_case(const std::vector<std::string>& words, std::size_t i) {
            (words.back() == "time" || words.back() == "thermal_mass");
 }
 
+/// [solver] has tables of names that a scene is free to choose.
+bool is_named_by_solver(const std::vector<std::string>& words, std::size_t i) {
+    return words[0] == "solver" && i == 2;
+}
+
 /// The path of a key with NORM, NAME and FIGURE for what scenes call as they like.
 std::string schema_of(const std::string& path) {
     // [sensitivity.defect.NAME] is read as [defect] is.
@@ -73,12 +80,17 @@ std::string schema_of(const std::string& path) {
         if (path.starts_with(figures) && path != "expect.evolution.events")
             return figures + "FIGURE";
     auto words = words_of(path);
+    const bool gated = path.starts_with("expect.ladder.") || path.starts_with("expect.orders.");
     for (std::size_t i = 1; i < words.size(); ++i) {
         const bool number = words[i].find_first_not_of("0123456789") == std::string::npos;
-        const bool name = words[i - 1] == "sweep" || path.starts_with("expect.work_precision.");
-        if (is_norm(words[i]))
+        const bool name = words[i - 1] == "sweep" || path.starts_with("expect.work_precision.") ||
+                          is_named_by_solver(words, i);
+        // Errors and values of an external solver are called as it likes.
+        if (is_norm(words[i]) || (gated && i == 2 && words[i] != "ended_by") ||
+            (path.starts_with("expect.work_precision.") && i == 3))
             words[i] = "NORM";
-        else if (number || (name && i == 2) || is_single_case(words, i))
+        else if (number || (name && i == 2) || is_single_case(words, i) ||
+                 (i > 2 && words[i - 1] == "parameters"))
             words[i] = "NAME";
     }
     return boost::algorithm::join(words, ".");
@@ -103,6 +115,8 @@ std::vector<SourceText> texts_of(const Scene& scene) {
         if (text)
             texts.push_back(*text);
     };
+    if (scene.solver)
+        return texts;
     if (const auto* data = std::get_if<GivenData>(&scene.problem))
         for (const auto& text : {data->theta0, data->u0, data->heat_source, data->body_force})
             add(text);
@@ -340,8 +354,10 @@ void add_setting(const Setting& setting, Uses& uses, Uses& pairs) {
 
 /// The first level of every ladder and grid: of what a run consists, the others have as well.
 Scene shortest_form(Scene scene) {
-    if (auto* ladder = scene.get<LadderBlock>())
+    if (auto* ladder = scene.get<LadderBlock>()) {
         ladder->rungs.resize(1);
+        ladder->until.reset();
+    }
     if (auto* orders = scene.get<OrdersBlock>())
         orders->grid.resize(1);
     if (auto* race = scene.get<WorkPrecisionBlock>()) {
@@ -413,7 +429,7 @@ FeatureTable feature_table(const std::vector<ShippedFile>& files) {
         add_keys(asked, uses);
         add_functions(scene, uses);
         add_measures(scene, asked, uses);
-        if (!scene.expectations.empty() && scene.poses_problem())
+        if (!scene.expectations.empty() && scene.poses_problem() && !scene.solver)
             add_runs(scene, asked, uses, used_pairs);
         if (scene.expectations.empty())
             for (auto& [name, used] : uses)

@@ -12,7 +12,7 @@ constexpr std::size_t largest_grid = 1'000'000;
 
 OrdersBlock read_orders(TableReader& table, const SolverKeys& keys) {
     OrdersBlock orders;
-    orders.final_time = read_final_time(table);
+    orders.final_time = read_final_time(table, keys);
     const auto elements = read_elements(table);
     const auto dt = table.numbers("dt");
     if (!dt || dt->empty())

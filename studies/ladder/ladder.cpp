@@ -25,6 +25,8 @@ LadderNorm analysed(const Measure& norm, const std::vector<RungResult>& rungs, s
     const TwoTermModel* model = fit != nullptr ? &fit->model : nullptr;
     LadderNorm result;
     result.norm = norm;
+    if (norm.is_value)
+        return result;
     result.orders = observed_orders(records_of(rungs, k));
     // Verdicts rest on the norm itself, in which the two terms of the error add up.
     const auto roots = root_records_of(rungs, k, norm);
@@ -41,6 +43,15 @@ LadderNorm analysed(const Measure& norm, const std::vector<RungResult>& rungs, s
             result.predictions.push_back(std::move(prediction));
         }
     return result;
+}
+
+/// The order along the ladder with its interval, in the width that is refined.
+std::string order_sentence(const std::string& width, const ColumnAnalysis& column) {
+    const OrderInterval& order = column.by_width.front();
+    return order.determined ? fmt::format("{}: order {:.3f} ± {:.3f} (95 %) in {}.", column.name,
+                                          order.value, order.half_width(), width)
+                            : fmt::format("{}: its order in {} is not determined: {}.", column.name,
+                                          width, order.status);
 }
 
 /// The rungs whose orders mean something: not those close to the reference.
@@ -77,10 +88,22 @@ Series series_of(const LadderBlock& block, const Method& method) {
     return {"ladder", block.final_time, method, block.norms, block.rungs};
 }
 
-LadderResult analyse_ladder(const Series& series, std::vector<RungResult> rungs,
-                            const StudiedSolver& solver, const OrdersResult* orders) {
-    LadderResult result;
-    result.rungs = std::move(rungs);
+LadderResult make_runs(const LadderBlock& block, const Method& method, const RunCall& run,
+                       const Execution& execution) {
+    Series series = series_of(block, method);
+    LadderResult result{.rungs = run_series(series, run, execution)};
+    if (block.until)
+        result.refined = refine(block, series, result.rungs, run, execution);
+    return result;
+}
+
+LadderResult analyse_ladder(const LadderBlock& block, const Method& method,
+                            std::vector<RungResult> rungs, const StudiedSolver& solver,
+                            const OrdersResult* orders) {
+    const Series series = series_of(block, method);
+    LadderResult result{.rungs = std::move(rungs)};
+    if (block.says_orders && !series.measures.empty())
+        result.analysis = analysis_of(series, result.rungs);
     const auto remarked = telling(solver.reference, result.rungs);
     const auto widths = solver.reference ? solver.reference->widths() : std::nullopt;
     for (std::size_t k = 0; k < series.measures.size(); ++k) {
@@ -89,11 +112,22 @@ LadderResult analyse_ladder(const Series& series, std::vector<RungResult> rungs,
         result.norms.push_back(analysed(norm, result.rungs, k, fit, widths));
         auto roots = root_records_of(remarked, k, norm);
         std::erase_if(roots, [](const Refinement& record) { return !record.is_resolved(); });
-        result.norms.back().remarks =
-            order_remarks(norm, roots, fit != nullptr ? &fit->model : nullptr);
+        LadderNorm& shown = result.norms.back();
+        if (!norm.is_value)
+            shown.remarks = order_remarks(norm, roots, fit != nullptr ? &fit->model : nullptr);
+        if (result.analysis) {
+            const ColumnAnalysis& column = result.analysis->columns[k];
+            if (norm.is_value)
+                shown.remarks = column.findings;
+            else
+                shown.remarks.push_back(
+                    order_sentence(result.analysis->widths.front().name, column));
+            if (fit == nullptr && !norm.is_value && !column.verdicts.empty())
+                shown.verdicts = column.verdicts;
+        }
         if (auto remark = solver.remark ? solver.remark(series, result.rungs, k) : "";
             !remark.empty())
-            result.norms.back().remarks.push_back(std::move(remark));
+            shown.remarks.push_back(std::move(remark));
     }
     result.quadrature_remark = quadrature_remark(result.rungs, series.measures);
     if (!series.measures.empty() && solver.reference)
@@ -103,8 +137,10 @@ LadderResult analyse_ladder(const Series& series, std::vector<RungResult> rungs,
 
 LadderResult run_ladder(const LadderBlock& block, const Method& method, const StudiedSolver& solver,
                         const OrdersResult* orders, const Execution& execution) {
-    const Series series = series_of(block, method);
-    return analyse_ladder(series, run_series(series, solver.run, execution), solver, orders);
+    LadderResult made = make_runs(block, method, solver.run, execution);
+    LadderResult result = analyse_ladder(block, method, std::move(made.rungs), solver, orders);
+    result.refined = made.refined;
+    return result;
 }
 
 } // namespace tvbeam

@@ -2,6 +2,8 @@
 
 #include "studies/scene/study_keys.hpp"
 
+#include <cstdint>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -15,17 +17,35 @@ struct PublishedFigures {
     std::map<std::string, std::vector<double>> figures;
 };
 
+/// Until when a ladder is refined beyond the levels that it names. A bound that is absent is none;
+/// seconds or levels are there.
+struct Until {
+    std::optional<double> order; ///< half of the 95 % interval of the order of every norm
+    std::optional<double> limit; ///< the same of the limit of every value
+    std::optional<double> seconds;
+    std::optional<std::int64_t> levels; ///< all together
+};
+
 /// The block [ladder]: the same problem on a sequence of meshes and steps.
 struct LadderBlock {
-    double final_time = 0.0;
+    double final_time = 0.0; ///< 0: none
     std::vector<Rung> rungs;
-    std::vector<Measure> norms;
-    std::optional<PublishedFigures> printed;
+    std::vector<Measure> norms; ///< and values
+    std::optional<PublishedFigures> printed = {};
+    std::optional<Until> until = {};
+    /// The level behind those that there are, which goes on as the last two do; none where a run
+    /// may not have it. Only with `until`.
+    std::function<std::optional<Rung>(const std::vector<Rung>&)> next = {};
+    /// Orders along the ladder are wanted with their intervals: nothing is known of them
+    /// beforehand, or `until` asks for it.
+    bool says_orders = false;
 };
 
 /// Reads the block:
 ///
 ///     final_time, elements, dt, norms     as study_keys.hpp says; norms may be absent
+///     values                              of solvers that compute any
+///     until                               order, limit, seconds, levels (Until)
 ///     [ladder.printed]
 ///     source                              default "published"
 ///     NORM                                one value a level

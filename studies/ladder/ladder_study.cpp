@@ -89,6 +89,53 @@ std::vector<Metric> predicted_metrics(const Series& series, std::size_t k, bool 
     return metrics;
 }
 
+using FindInterval = std::function<const OrderInterval&(const ColumnAnalysis&)>;
+
+/// KEY = [lo, hi], and what expect_interval reads, of an interval in the analysis of measure k.
+void expect_found(TableReader& table, const std::string& key, const std::string& what,
+                  std::size_t k, const FindInterval& find, std::vector<Expectation>& expectations) {
+    const auto found = [k, find](const StudyResult& result) -> const OrderInterval& {
+        return find(result.get<LadderResult>()->analysis->columns[k]);
+    };
+    expect_band(table, key, expectations, [what, found](const StudyResult& result) {
+        const OrderInterval& interval = found(result);
+        return std::vector{
+            Metric{what, interval.determined ? std::optional(interval.value) : std::nullopt,
+                   "not determined: " + interval.status}};
+    });
+    expect_interval(table, key, [&](const JudgeInterval& judge) {
+        expectations.push_back([what, found, judge](const StudyResult& result) {
+            return std::vector{judge(what, found(result))};
+        });
+    });
+}
+
+/// Of an error the order along the ladder; of a value its limit, and the uncertainty of the finest.
+void expect_analysis(TableReader& table, const Measure& measure, std::size_t k,
+                     std::vector<Expectation>& expectations) {
+    const std::string name = "ladder." + measure.name + ": ";
+    if (!measure.is_value) {
+        expect_found(
+            table, "order", name + "order along the ladder", k,
+            [](const ColumnAnalysis& column) -> const OrderInterval& {
+                return column.by_width.front();
+            },
+            expectations);
+        return;
+    }
+    expect_found(
+        table, "limit", name + "limit", k,
+        [](const ColumnAnalysis& column) -> const OrderInterval& { return column.limit->limit; },
+        expectations);
+    expect_band(table, "uncertainty", expectations, [name, k](const StudyResult& result) {
+        const LimitEstimate& estimate = *result.get<LadderResult>()->analysis->columns[k].limit;
+        return std::vector{
+            Metric{name + "uncertainty of the finest value",
+                   estimate.limit.determined ? std::optional(estimate.uncertainty) : std::nullopt,
+                   estimate.limit.status}};
+    });
+}
+
 } // namespace
 
 /// The block [ladder].
@@ -103,23 +150,30 @@ struct LadderStudy final : KindOf<LadderBlock, LadderResult> {
         return {series_of(block_in(block), own)};
     }
     std::any run(const std::any& block, const StudyContext& context) const override {
-        return LadderResult{.rungs = run_series(series_of(block_in(block), context.method),
-                                                context.solver.run, context.execution),
-                            .norms = {},
-                            .quadrature_remark = {},
-                            .reference_remark = {}};
+        return make_runs(block_in(block), context.method, context.solver.run, context.execution);
     }
     void conclude(const std::any& block, std::any& record, const StudyResult& all,
                   const StudyContext& context) const override {
-        record = analyse_ladder(series_of(block_in(block), context.method), record_in(record).rungs,
-                                context.solver, orders_beside(block_in(block), all));
+        const auto refined = record_in(record).refined;
+        auto analysed = analyse_ladder(block_in(block), context.method, record_in(record).rungs,
+                                       context.solver, orders_beside(block_in(block), all));
+        analysed.refined = refined;
+        record = std::move(analysed);
     }
     Runs runs(const std::any& record) const override { return {&record_in(record).rungs}; }
 
     void expect(TableReader& table, const std::any& block,
                 std::vector<Expectation>& expectations) const override {
         const Series series = series_of(block_in(block), {});
+        if (block_in(block).until)
+            expect_words(table, "ended_by", expectations, [](const StudyResult& result) {
+                return std::vector{name_of(*result.get<LadderResult>()->refined)};
+            });
         const auto read = [&](TableReader& norm, std::size_t k) {
+            if (block_in(block).says_orders)
+                expect_analysis(norm, series.measures[k], k, expectations);
+            if (series.measures[k].is_value)
+                return;
             expect_orders(norm, series, k, expectations);
             expect_ratios(norm, series, k, block_in(block).printed, expectations);
             expect_errors(norm, series, k, expectations);

@@ -16,7 +16,7 @@ std::string order_text(double value) {
 
 /// A rung by what is refined along the ladder.
 std::string rung_name(std::span<const Refinement> ladder, const Refinement& rung) {
-    if (ladder.front().h == ladder.back().h)
+    if (std::isnan(ladder.front().h) || ladder.front().h == ladder.back().h)
         return "dt = " + fmt::format("{:.3g}", rung.dt);
     return "s = " + fmt::format("{:.0f}", 1.0 / rung.h);
 }

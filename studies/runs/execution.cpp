@@ -2,27 +2,35 @@
 
 #include "studies/runs/parallel.hpp"
 
+#include <algorithm>
+
 namespace tvbeam {
 
 std::function<bool(std::int64_t)> Execution::steps_of(const Method& method,
                                                       const Rung& rung) const {
-    const double step_work = work_of(method, rung) / static_cast<double>(rung.steps);
+    const double step_work =
+        work_of(method, rung) / static_cast<double>(std::max<std::int64_t>(rung.steps, 1));
     return [*this, step_work](std::int64_t steps) {
         return advance(static_cast<double>(steps) * step_work);
     };
 }
 
-RungResult run_or_find(const std::string& study, std::size_t index, const Execution& execution,
-                       double work, const std::function<RungResult()>& run) {
+RungResult run_or_find(const Series& series, std::size_t index, const RunCall& run,
+                       const Execution& execution) {
+    const Rung& rung = series.rungs[index];
+    const auto made = [&] {
+        return run({index, rung, series.final_time, series.method, series.measures,
+                    execution.steps_of(series.method, rung)});
+    };
     if (execution.finished == nullptr)
-        return run();
-    if (auto kept = execution.finished->find(study, index)) {
-        execution.expect(-work);
+        return made();
+    if (auto kept = execution.finished->find(series, index)) {
+        execution.expect(-work_of(series.method, rung));
         return *std::move(kept);
     }
-    RungResult result = run();
+    RungResult result = made();
     if (result.status != RungStatus::interrupted)
-        execution.finished->add(study, index, result);
+        execution.finished->add(series, index, result);
     return result;
 }
 
@@ -34,11 +42,7 @@ std::vector<RungResult> run_series(const Series& series, const RunCall& run,
         costs.push_back(work_of(series.method, rung));
     std::vector<RungResult> results(series.rungs.size());
     for_each_longest_first(costs, execution.jobs, [&](std::size_t i) {
-        const Rung& rung = series.rungs[i];
-        results[i] = run_or_find(series.study, i, execution, costs[i], [&] {
-            return run({rung, series.final_time, series.method, series.measures,
-                        execution.steps_of(series.method, rung)});
-        });
+        results[i] = run_or_find(series, i, run, execution);
     });
     return results;
 }

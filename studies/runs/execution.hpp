@@ -30,9 +30,9 @@ class FinishedRuns {
 public:
     virtual ~FinishedRuns() = default;
 
-    /// The result of run `index` of a series (Series::study), if it is there.
-    virtual std::optional<RungResult> find(const std::string& study, std::size_t index) = 0;
-    virtual void add(const std::string& study, std::size_t index, const RungResult& result) = 0;
+    /// The result of run `index` of a series, if it is there.
+    virtual std::optional<RungResult> find(const Series& series, std::size_t index) = 0;
+    virtual void add(const Series& series, std::size_t index, const RungResult& result) = 0;
 
     /// The same for the cases of [stress], all sweeps in turn; found without its parameters.
     virtual std::optional<StressCase> find_case(std::size_t index) = 0;
@@ -57,10 +57,10 @@ struct Execution {
                                                              const Rung& rung) const;
 };
 
-/// The result of run `index` of a series that was kept; or else what `run` gives, which is kept
-/// unless it was interrupted. work: of the run.
-RungResult run_or_find(const std::string& study, std::size_t index, const Execution& execution,
-                       double work, const std::function<RungResult()>& run);
+/// The result of run `index` of a series: one that was kept, or else a new one, which is kept
+/// unless it was interrupted.
+RungResult run_or_find(const Series& series, std::size_t index, const RunCall& run,
+                       const Execution& execution);
 
 /// Makes every run of the series, in up to `execution.jobs` threads; the results stand in the order
 /// of the rungs and do not depend on the number of jobs, but for their seconds.

@@ -6,13 +6,30 @@
 
 namespace tvbeam {
 
+double Rung::h() const {
+    return has_mesh() ? 1.0 / static_cast<double>(elements)
+                      : std::numeric_limits<double>::quiet_NaN();
+}
+
+double Rung::step() const {
+    return has_steps() ? dt : std::numeric_limits<double>::quiet_NaN();
+}
+
+std::string Rung::name(const std::function<std::string(double)>& text) const {
+    std::string name = has_mesh() ? "s = " + std::to_string(elements) : "";
+    if (has_steps())
+        name += (has_mesh() ? ", dt = " : "dt = ") + text(dt);
+    return name;
+}
+
 std::string Measure::root() const {
     constexpr std::string_view suffix = "_sq";
-    return name.ends_with(suffix) ? name.substr(0, name.size() - suffix.size()) : name;
+    return squared && name.ends_with(suffix) ? name.substr(0, name.size() - suffix.size()) : name;
 }
 
 double work_of(const Method& method, const Rung& rung) {
-    return static_cast<double>(rung.elements) * static_cast<double>(rung.steps) * method.cost;
+    return static_cast<double>(std::max<std::int64_t>(rung.elements, 1)) *
+           static_cast<double>(std::max<std::int64_t>(rung.steps, 1)) * method.cost;
 }
 
 std::string name_of(RungStatus status) {
@@ -44,8 +61,8 @@ std::vector<Refinement> records_of(const std::vector<RungResult>& rungs, std::si
     records.reserve(rungs.size());
     for (const auto& rung : rungs)
         records.push_back(
-            {.h = 1.0 / static_cast<double>(rung.rung.elements),
-             .dt = rung.rung.dt,
+            {.h = rung.rung.h(),
+             .dt = rung.rung.step(),
              .error =
                  rung.errors.empty() ? std::numeric_limits<double>::quiet_NaN() : rung.errors[k],
              .seconds = rung.seconds,

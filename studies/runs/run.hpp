@@ -3,6 +3,7 @@
 #include "studies/orders/observed_order.hpp"
 
 #include <any>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -14,17 +15,25 @@ namespace tvbeam {
 /// One level of a refinement: s elements, h = 1/s, and N steps of length dt. On a mesh that is not
 /// uniform h is the mean length, to which those of a family of meshes are in proportion.
 struct Rung {
-    std::int64_t elements = 0;
-    std::int64_t steps = 0;
-    double dt = 0.0; ///< as the scene gives it; steps · dt = final_time to rounding
+    std::int64_t elements = 0; ///< 0: the solver has no mesh
+    std::int64_t steps = 0;    ///< 0: not known, as there is no final time
+    double dt = 0.0; ///< as the scene gives it; steps · dt = final_time to rounding. 0: steady
+
+    [[nodiscard]] bool has_mesh() const { return elements > 0; }
+    [[nodiscard]] bool has_steps() const { return dt > 0.0; }
+    [[nodiscard]] double h() const;    ///< NaN without a mesh
+    [[nodiscard]] double step() const; ///< dt; NaN without steps
+    /// What is there: "s = 10, dt = 1e-3", with dt as `text` writes it.
+    [[nodiscard]] std::string name(const std::function<std::string(double)>& text) const;
 };
 
-/// What a run measures: the norm of an error, or its square.
+/// What a run measures: the norm of an error, or its square; or a value whose limit is not known.
 struct Measure {
-    std::string name;     ///< e.g. "theta_L2L2_sq"
-    bool squared = false; ///< a square, which has twice the order
-    std::string words;    ///< for display, e.g. "temperature in L²(0,T; L²), squared"
-    std::string theorem;  ///< by which it is at most C (h² + Δt²); empty: none
+    std::string name;         ///< e.g. "theta_L2L2_sq"
+    bool squared = false;     ///< a square, which has twice the order
+    std::string words = {};   ///< for display, e.g. "temperature in L²(0,T; L²), squared"
+    std::string theorem = {}; ///< by which it is at most C (h² + Δt²); empty: none
+    bool is_value = false;    ///< not of an error
 
     /// The name of the norm itself, without `_sq`.
     [[nodiscard]] std::string root() const;
@@ -39,7 +48,8 @@ struct Method {
     std::string iterations; ///< the counter of its iterations; empty: it does not iterate
 };
 
-/// What a run of the method costs, about: elements times steps times cost.
+/// What a run of the method costs, about: elements times steps times cost; of what is not there, or
+/// not known, once.
 double work_of(const Method& method, const Rung& rung);
 
 /// How a run ended.
@@ -60,7 +70,7 @@ struct RungResult {
     std::string reason = {}; ///< why it failed; empty when ok
     double seconds = 0.0;    ///< wall clock, measuring included
     std::vector<Count> counters = {};
-    std::vector<double> errors = {}; ///< one a measure; empty when failed
+    std::vector<double> errors = {}; ///< or values, one a measure; empty when failed
     /// The part of each error that its solver knows to be uncertain, e.g. by its quadrature; empty:
     /// none of any.
     std::vector<double> uncertainties = {};
@@ -71,8 +81,9 @@ struct RungResult {
 
 /// One run that a study wants.
 struct RunTask {
+    std::size_t level; ///< of the rung in its series, from 0
     const Rung& rung;
-    double final_time;
+    double final_time; ///< 0: none
     const Method& method;
     const std::vector<Measure>& measures; ///< empty: nothing is measured
     /// Told at the start, and then every few steps, how many more have been made; false: the run
@@ -86,8 +97,8 @@ using RunCall = std::function<RungResult(const RunTask&)>;
 
 /// Runs of one method that belong together: a ladder, or a grid.
 struct Series {
-    std::string study; ///< by which its runs are kept, e.g. "ladder", "work_precision.BDF2"
-    double final_time = 0.0;
+    std::string study;       ///< by which its runs are kept, e.g. "ladder", "work_precision.BDF2"
+    double final_time = 0.0; ///< 0: none, of a solver that does not ask for it
     Method method;
     std::vector<Measure> measures;
     std::vector<Rung> rungs;

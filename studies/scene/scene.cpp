@@ -3,6 +3,8 @@
 #include "core/norms/error_norms.hpp"
 #include "mms/manufactured_problem.hpp"
 #include "mms/text/toml_reader.hpp"
+#include "studies/external/external_runs.hpp"
+#include "studies/ladder/ladder_block.hpp"
 #include "studies/reference/reference_solution.hpp"
 #include "studies/runs/beam_runs.hpp"
 #include "studies/scene/model_keys.hpp"
@@ -33,6 +35,17 @@ Solution read_scene_solution(TableReader& root, const std::filesystem::path& bes
 
 /// The shortest element against the longest, below which a mesh is refused: half the digits.
 constexpr double least_ratio = 1e-8;
+
+/// Levels that are added to a ladder of the beam are on uniform meshes, against the exact solution.
+void check_until(const Scene& scene, const TableReader& root) {
+    const auto* ladder = scene.get<LadderBlock>();
+    if (ladder == nullptr || !ladder->until)
+        return;
+    for (const char* key : {"mesh", "reference", "defect"})
+        if (root.has(key))
+            throw InputError(root.place(key), std::string("ladder.until adds levels, for which ") +
+                                                  key + " is not made; remove one of the two");
+}
 
 /// Meshes that the studies of the scene cannot have.
 void check_meshes(const Scene& scene, const TableReader& root) {
@@ -83,11 +96,13 @@ void read_problem(Scene& scene, TableReader& root, bool wanted, bool own_problem
     const std::filesystem::path path(scene.file);
     auto beam = root.table("beam");
     if (!beam && wanted)
-        throw InputError({scene.file},
-                         root.has("theta") || root.has("u") || root.has("phase")
-                             ? "is a solution, not a scene; a scene names it: solution = \"./" +
-                                   path.filename().string() + "\" (tvbeam new writes both)"
-                             : "the block [beam] is missing; it holds alpha, zeta and the stops");
+        throw InputError(
+            {scene.file},
+            root.has("theta") || root.has("u") || root.has("phase")
+                ? "is a solution, not a scene; a scene names it: solution = \"./" +
+                      path.filename().string() + "\" (tvbeam new writes both)"
+                : "the block [beam] is missing; it holds alpha, zeta and the stops; or "
+                  "a block [solver], of a program of your own");
     if (beam)
         scene.beam = read_beam(*std::move(beam));
     if (auto mesh = root.table("mesh"))
@@ -111,9 +126,25 @@ void read_problem(Scene& scene, TableReader& root, bool wanted, bool own_problem
         scene.problem = read_scene_solution(root, path.parent_path());
 }
 
+/// [solver], and nothing that is about the beam.
+void read_solver_of(Scene& scene, TableReader& root) {
+    std::vector<std::string> foreign{"beam",     "mesh",      "scheme", "data",
+                                     "solution", "reference", "defect"};
+    for (const auto& kind : study_kinds())
+        if (!kind->measures())
+            foreign.push_back(kind->name());
+    for (const auto& key : foreign)
+        if (root.has(key))
+            throw InputError(root.place(key),
+                             key + " is of a scene of the beam, and this one has a block [solver]; "
+                                   "remove one of the two");
+    scene.solver =
+        read_solver(*root.table("solver"), std::filesystem::path(scene.file).parent_path());
+}
+
 /// The blocks of the studies.
 void read_studies(Scene& scene, TableReader& root) {
-    const SolverKeys keys = beam_keys(scene.scheme);
+    const SolverKeys keys = scene.solver ? solver_keys(*scene.solver) : beam_keys(scene.scheme);
     std::string known;
     for (const auto& kind : study_kinds()) {
         if (auto table = root.table(kind->name()))
@@ -217,10 +248,17 @@ Scene read_scene(const std::string& name_or_file, const std::vector<std::string>
     const bool brings_its_own =
         !kinds.empty() && std::none_of(kinds.begin(), kinds.end(),
                                        [](const StudyKind* kind) { return kind->poses_problem(); });
-    read_problem(scene, root, !brings_its_own, reading.own_problem);
-    read_studies(scene, root);
-    read_reference(scene, root);
-    check_meshes(scene, root);
+    if (root.has("solver")) {
+        read_solver_of(scene, root);
+        read_studies(scene, root);
+        require_placeholders(*scene.solver, scene.series());
+    } else {
+        read_problem(scene, root, !brings_its_own, reading.own_problem);
+        read_studies(scene, root);
+        read_reference(scene, root);
+        check_meshes(scene, root);
+        check_until(scene, root);
+    }
     if (auto defect = root.table("defect")) {
         if (!scene.poses_problem())
             throw InputError(defect->place(), "the block [defect] adds to the scene's problem, and "
@@ -264,6 +302,9 @@ ErrorConstants forecast_constants(const Scene& scene, double final_time) {
 }
 
 void require_runnable(const Scene& scene, const ProblemData& data) {
+    if (scene.solver)
+        throw InputError({scene.file}, "the scene has a block [solver], which brings its problem; "
+                                       "run it without another");
     if (!data.exact && !scene.reference && !scene.measures().empty())
         throw InputError({scene.file},
                          "the norms ask for errors, but the problem has no exact solution; give it "
@@ -285,8 +326,12 @@ bool Scene::poses_problem() const {
                        [](const ByKind::Entry& entry) { return entry.kind->poses_problem(); });
 }
 
+Method Scene::method() const {
+    return solver ? method_of(*solver, solver->parameters) : method_of(scheme);
+}
+
 std::vector<Series> Scene::series() const {
-    const Method own = method_of(scheme);
+    const Method own = method();
     std::vector<Series> all;
     for (const auto& [kind, block] : blocks.entries())
         for (auto& one : kind->series(block, own))

@@ -7,6 +7,7 @@
 #include "mms/given_problem.hpp"
 #include "mms/solution.hpp"
 #include "mms/text/asked_keys.hpp"
+#include "studies/external/solver_block.hpp"
 #include "studies/reference/reference_block.hpp"
 #include "studies/scene/report_block.hpp"
 #include "studies/study_kind.hpp"
@@ -23,6 +24,8 @@ struct Scene {
     std::string file;
     std::string name;  ///< the file's name without .toml
     std::string title; ///< the name where the scene has none
+    /// In place of the beam: then beam, mesh, problem and scheme mean nothing.
+    std::optional<SolverBlock> solver;
     Beam beam;
     MeshFamily mesh;
     std::variant<Solution, GivenData> problem;
@@ -49,6 +52,9 @@ struct Scene {
     [[nodiscard]] Block* get() {
         return blocks.get<Block>();
     }
+
+    /// How the scene's own runs are made: by its scheme, or its solver.
+    [[nodiscard]] Method method() const;
 
     /// All runs of the scene's own problem that its studies ask for; and those that are measured.
     [[nodiscard]] std::vector<Series> series() const;

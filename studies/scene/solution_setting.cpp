@@ -15,10 +15,14 @@ namespace tvbeam {
 namespace {
 
 bool is_scene_file(const std::filesystem::path& file) {
-    return read_toml(file.string()).table.contains("beam");
+    const auto table = read_toml(file.string()).table;
+    return table.contains("beam") || table.contains("solver");
 }
 
 SolutionSetting setting_of(const Scene& scene) {
+    if (scene.solver)
+        throw InputError({scene.file}, "the scene runs a solver of its own, with its own solution: "
+                                       "there is none to derive from");
     if (!scene.poses_problem())
         throw InputError({scene.file},
                          "[stress] poses problems of its own: there is no solution to derive "
@@ -36,7 +40,7 @@ std::optional<Scene> scene_that_runs(const Solution& solution) {
     for (const auto& file : shipped_files(Shipped::scene)) {
         Scene scene = read_scene(file.path.string());
         const auto* own = std::get_if<Solution>(&scene.problem);
-        if (own == nullptr || own->name != solution.name || !scene.poses_problem())
+        if (own == nullptr || own->name != solution.name || !scene.poses_problem() || scene.solver)
             continue;
         if (scene.name == solution.name)
             return scene;

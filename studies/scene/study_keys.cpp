@@ -11,23 +11,23 @@ namespace tvbeam {
 
 namespace {
 
-/// dt as a list of one number a rung, or one expression in s.
+/// dt as a list of one number a rung, or one expression in s; empty where it is absent.
 std::vector<double> read_dt(TableReader& table, const std::vector<std::int64_t>& elements) {
     std::vector<double> dt;
     if (table.is_string("dt")) {
         const SourceText formula = *table.expression("dt");
+        if (elements.empty())
+            throw table.error("dt", " is an expression in s, the number of elements, and there "
+                                    "are no elements; give a list");
         for (const std::int64_t s : elements)
             dt.push_back(number_from_expression(formula, {{"s", static_cast<double>(s)}}));
     } else if (const auto list = table.numbers("dt")) {
-        if (list->size() != elements.size())
+        if (!elements.empty() && list->size() != elements.size())
             throw table.error(
                 "dt", " has " + std::to_string(list->size()) + " values, " +
                           table.full("elements") + " has " + std::to_string(elements.size()) +
                           "; give one dt a level, or one expression in s, e.g. \"0.01/s\"");
         dt = *list;
-    } else {
-        throw table.error("dt", " is missing; give one dt a level, or one "
-                                "expression in s, e.g. \"0.01/s\"");
     }
     return dt;
 }
@@ -38,23 +38,44 @@ const Measure* named(const std::vector<Measure>& measures, const std::string& na
     return found == measures.end() ? nullptr : &*found;
 }
 
-std::string unknown_norm(const std::string& name, const SolverKeys& keys) {
+std::string unknown_norm(const std::string& name, const SolverKeys& keys, bool is_value) {
     std::vector<std::string> roots;
     std::string list;
-    for (const auto& measure : keys.measures)
-        if (measure.name == measure.root()) {
+    bool squares = false;
+    for (const auto& measure : keys.measures) {
+        squares = squares || measure.squared;
+        if (measure.is_value == is_value && measure.name == measure.root()) {
             roots.push_back(measure.name);
             list += (list.empty() ? "" : ", ") + measure.name;
         }
-    const bool squares = roots.size() < keys.measures.size();
-    return "unknown norm '" + name + "'" + did_you_mean(name, roots) + "; known: " + list +
+    }
+    return std::string("unknown ") + (is_value ? "value" : "norm") + " '" + name + "'" +
+           did_you_mean(name, roots) + "; known: " + list +
            (squares ? ", and their squares with _sq behind the name" : "");
+}
+
+/// The measures that a list names, behind those that are there.
+void add_measures(TableReader& table, const std::string& key, bool is_value, const SolverKeys& keys,
+                  std::vector<Measure>& measures) {
+    const bool any = is_value ? keys.any_value : keys.any_error;
+    const auto names = table.texts(key).value_or(std::vector<std::string>{});
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        const Measure* measure = named(keys.measures, names[i]);
+        const bool known = measure != nullptr && measure->is_value == is_value;
+        if ((!known && !any) || names[i].empty())
+            throw InputError(table.place(key, i), unknown_norm(names[i], keys, is_value));
+        if (named(measures, names[i]) != nullptr)
+            throw table.error(key, " names '" + names[i] + "' twice; remove one", i);
+        measures.push_back(known ? *measure : Measure{.name = names[i], .is_value = is_value});
+    }
 }
 
 } // namespace
 
-double read_final_time(TableReader& table) {
+double read_final_time(TableReader& table, const SolverKeys& keys) {
     const auto final_time = table.number("final_time");
+    if (!final_time && keys.any_widths)
+        return 0.0;
     if (!final_time)
         throw table.error("final_time", " is missing; give the time at which the run ends");
     if (!(*final_time > 0.0))
@@ -86,6 +107,8 @@ std::int64_t steps_of(const TableReader& table, std::size_t index, double final_
     const Place place = table.place("dt", index);
     if (!(dt > 0.0))
         throw InputError(place, table.full("dt") + " is " + message_text(dt) + "; it must be > 0");
+    if (final_time == 0.0)
+        return 0;
     const double ratio = final_time / dt;
     const double steps = std::max(1.0, std::round(ratio));
     if (!(steps <= most_steps))
@@ -99,40 +122,54 @@ std::int64_t steps_of(const TableReader& table, std::size_t index, double final_
     return static_cast<std::int64_t>(steps);
 }
 
-std::vector<Rung> read_rungs(TableReader& table, double final_time) {
-    const auto elements = read_elements(table);
+std::vector<Rung> read_rungs(TableReader& table, double final_time, const SolverKeys& keys) {
+    const auto elements = keys.any_widths && !table.has("elements") && table.has("dt")
+                              ? std::vector<std::int64_t>()
+                              : read_elements(table);
     const auto dt = read_dt(table, elements);
-    for (std::size_t i = 1; i < elements.size(); ++i)
-        if (elements[i] < elements[i - 1] || dt[i] > dt[i - 1])
+    if (dt.empty() && (!keys.any_widths || elements.empty() || table.has("dt")))
+        throw table.error("dt", " is missing; give one dt a level, or one "
+                                "expression in s, e.g. \"0.01/s\"");
+    std::vector<Rung> rungs(std::max(elements.size(), dt.size()));
+    for (std::size_t i = 0; i < rungs.size(); ++i) {
+        if (!elements.empty())
+            rungs[i].elements = elements[i];
+        if (dt.empty())
+            continue;
+        rungs[i].dt = dt[i];
+        rungs[i].steps = steps_of(table, i, final_time, dt[i]);
+    }
+    for (std::size_t i = 1; i < rungs.size(); ++i)
+        if (rungs[i].elements < rungs[i - 1].elements || rungs[i].dt > rungs[i - 1].dt)
             throw InputError(
-                table.place(elements[i] < elements[i - 1] ? "elements" : "dt", i),
-                "level " + std::to_string(i + 1) + " of " + table.full("elements") +
+                table.place(rungs[i].elements < rungs[i - 1].elements ? "elements" : "dt", i),
+                "level " + std::to_string(i + 1) + " of " +
+                    table.full(elements.empty() ? "dt" : "elements") +
                     " is coarser than the one before it; a ladder goes from coarse to fine");
-    std::vector<Rung> rungs;
-    for (std::size_t i = 0; i < elements.size(); ++i)
-        rungs.push_back({elements[i], steps_of(table, i, final_time, dt[i]), dt[i]});
     return rungs;
 }
 
 std::vector<Measure> read_norms(TableReader& table, const SolverKeys& keys) {
     std::vector<Measure> measures;
-    const auto names = table.texts("norms").value_or(std::vector<std::string>{});
-    for (std::size_t i = 0; i < names.size(); ++i) {
-        const Measure* measure = named(keys.measures, names[i]);
-        if (measure == nullptr)
-            throw InputError(table.place("norms", i), unknown_norm(names[i], keys));
-        if (named(measures, names[i]) != nullptr)
-            throw table.error("norms", " names '" + names[i] + "' twice; remove one", i);
-        measures.push_back(*measure);
-    }
+    add_measures(table, "norms", false, keys, measures);
     return measures;
+}
+
+void read_values(TableReader& table, const SolverKeys& keys, std::vector<Measure>& measures) {
+    if (keys.any_value || std::any_of(keys.measures.begin(), keys.measures.end(),
+                                      [](const Measure& measure) { return measure.is_value; }))
+        add_measures(table, "values", true, keys, measures);
 }
 
 std::map<std::string, std::vector<double>> read_by_measure(
     TableReader& table, const SolverKeys& keys, const std::vector<Measure>& wanted,
     const std::function<void(const std::string& name, const std::vector<double>&)>& check) {
     std::map<std::string, std::vector<double>> lists;
-    for (const auto& measure : keys.measures)
+    auto known = keys.measures;
+    for (const auto& measure : wanted)
+        if (named(known, measure.name) == nullptr)
+            known.push_back(measure);
+    for (const auto& measure : known)
         if (const auto list = table.numbers(measure.name)) {
             check(measure.name, *list);
             if (named(wanted, measure.name) != nullptr)

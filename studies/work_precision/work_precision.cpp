@@ -5,8 +5,9 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <ctime>
 #include <limits>
+
+#include <sys/resource.h>
 
 namespace tvbeam {
 
@@ -24,6 +25,18 @@ std::string study_of(const TimedScheme& scheme) {
     return "work_precision." + scheme.name;
 }
 
+/// Of this process, and of those that it has waited for.
+double processor_seconds() {
+    double seconds = 0.0;
+    for (const auto whose : {RUSAGE_SELF, RUSAGE_CHILDREN}) {
+        rusage usage{};
+        getrusage(whose, &usage);
+        for (const timeval& part : {usage.ru_utime, usage.ru_stime})
+            seconds += static_cast<double>(part.tv_sec) + 1e-6 * static_cast<double>(part.tv_usec);
+    }
+    return seconds;
+}
+
 /// One rung of one scheme, and its timed runs so far.
 struct Contestant {
     std::size_t scheme;
@@ -36,7 +49,14 @@ class Race {
 public:
     Race(const WorkPrecisionBlock& block, const RunCall& run, const Execution& execution,
          double one_run_above)
-        : block_(block), run_(run), execution_(execution), one_run_above_(one_run_above) {}
+        : block_(block), all_(series_of(block)), execution_(execution),
+          one_run_above_(one_run_above) {
+        run_ = [this, run](const RunTask& task) {
+            RungResult result = run(task);
+            interrupted_ = interrupted_ || result.status == RungStatus::interrupted;
+            return result;
+        };
+    }
 
     [[nodiscard]] bool interrupted() const { return interrupted_; }
 
@@ -55,44 +75,45 @@ public:
     }
 
 private:
-    RungResult run(std::size_t scheme, const Rung& rung, const std::vector<Measure>& norms) {
-        const Method& method = block_.schemes[scheme].method;
-        RungResult result =
-            run_({rung, block_.final_time, method, norms, execution_.steps_of(method, rung)});
-        interrupted_ = interrupted_ || result.status == RungStatus::interrupted;
-        return result;
+    /// A run whose time alone is wanted.
+    RungResult run_unmeasured(std::size_t scheme, std::size_t level) {
+        const Series& series = all_[scheme];
+        const Rung& rung = series.rungs[level];
+        return run_({level,
+                     rung,
+                     series.final_time,
+                     series.method,
+                     {},
+                     execution_.steps_of(series.method, rung)});
     }
 
     void enter(std::size_t scheme) {
         SchemeRuns& runs = result_.emplace_back();
-        for (const auto& rung : block_.schemes[scheme].rungs) {
-            runs.runs.push_back(run_or_find(study_of(block_.schemes[scheme]), runs.runs.size(),
-                                            execution_,
-                                            work_of(block_.schemes[scheme].method, rung),
-                                            [&] { return run(scheme, rung, block_.norms); }));
+        for (std::size_t level = 0; level < all_[scheme].rungs.size(); ++level) {
+            runs.runs.push_back(run_or_find(all_[scheme], level, run_, execution_));
             runs.timings.emplace_back();
             RungResult& measured = runs.runs.back();
             if (measured.status != RungStatus::ok)
                 continue;
-            const RungResult warm_up = run(scheme, rung, {});
+            const RungResult warm_up = run_unmeasured(scheme, level);
             if (warm_up.status != RungStatus::ok)
                 continue;
             measured.counters = warm_up.counters;
-            contestants_.push_back({scheme, runs.runs.size() - 1, warm_up.seconds, {}});
+            contestants_.push_back({scheme, level, warm_up.seconds, {}});
         }
     }
 
     void time(Contestant& contestant) {
-        const Rung& rung = result_[contestant.scheme].runs[contestant.run].rung;
         if (contestant.warm_up < quick)
-            run(contestant.scheme, rung, {});
-        const RungResult timed = run(contestant.scheme, rung, {});
+            run_unmeasured(contestant.scheme, contestant.run);
+        const RungResult timed = run_unmeasured(contestant.scheme, contestant.run);
         if (timed.status == RungStatus::ok)
             contestant.seconds.push_back(timed.seconds);
     }
 
     const WorkPrecisionBlock& block_;
-    const RunCall& run_;
+    const std::vector<Series> all_; ///< one a scheme
+    RunCall run_;
     const Execution& execution_;
     double one_run_above_;
     bool interrupted_ = false;
@@ -157,7 +178,7 @@ void compare_all(ReachedError& reached) {
 }
 
 std::string text_of(const Rung& rung) {
-    return fmt::format("s = {}, dt = {:g}", rung.elements, rung.dt);
+    return rung.name([](double dt) { return fmt::format("{:g}", dt); });
 }
 
 /// A sentence for every row whose error is larger than that of the row before it.
@@ -204,14 +225,13 @@ std::uint64_t node_steps(const Rung& rung) {
 WorkPrecisionResult run_work_precision(const WorkPrecisionBlock& block, const RunCall& run,
                                        const Execution& execution, double one_run_above) {
     WorkPrecisionResult result;
-    const std::clock_t processor = std::clock();
+    const double processor = processor_seconds();
     const auto start = std::chrono::steady_clock::now();
     Race race(block, run, execution, one_run_above);
     result.schemes = race.take();
     result.interrupted = race.interrupted();
     const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
-    result.busy_remark = busy_remark(static_cast<double>(std::clock() - processor) / CLOCKS_PER_SEC,
-                                     elapsed.count());
+    result.busy_remark = busy_remark(processor_seconds() - processor, elapsed.count());
     result.norms = costs_of(block, result.schemes);
     return result;
 }

@@ -42,7 +42,7 @@ std::vector<TimedScheme> read_schemes(TableReader& block, double final_time,
         TimedScheme timed;
         timed.method = keys.read_method(table);
         timed.name = read_name(table, timed.method, schemes);
-        timed.rungs = read_rungs(table, final_time);
+        timed.rungs = read_rungs(table, final_time, keys);
         table.finish();
         schemes.push_back(std::move(timed));
     }
@@ -68,7 +68,7 @@ read_targets(TableReader table, const std::vector<Measure>& norms, const SolverK
 
 WorkPrecisionBlock read_work_precision(TableReader& table, const SolverKeys& keys) {
     WorkPrecisionBlock block;
-    block.final_time = read_final_time(table);
+    block.final_time = read_final_time(table, keys);
     block.norms = read_norms(table, keys);
     if (block.norms.empty())
         throw table.error("norms",

@@ -44,14 +44,14 @@ private:
 /// Keeps results in memory.
 class Shelf final : public FinishedRuns {
 public:
-    std::optional<RungResult> find(const std::string& study, std::size_t index) override {
+    std::optional<RungResult> find(const Series& series, std::size_t index) override {
         const std::scoped_lock lock(mutex_);
-        const auto at = runs.find({study, index});
+        const auto at = runs.find({series.study, index});
         return at == runs.end() ? std::nullopt : std::optional(at->second);
     }
-    void add(const std::string& study, std::size_t index, const RungResult& result) override {
+    void add(const Series& series, std::size_t index, const RungResult& result) override {
         const std::scoped_lock lock(mutex_);
-        runs[{study, index}] = result;
+        runs[{series.study, index}] = result;
         ++added;
     }
     std::optional<StressCase> find_case(std::size_t index) override {

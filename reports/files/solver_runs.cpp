@@ -1,0 +1,112 @@
+#include "reports/files/solver_runs.hpp"
+
+#include "mms/text/input_error.hpp"
+#include "reports/files/output_file.hpp"
+#include "studies/stress/stress_case.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <stdexcept>
+
+namespace tvbeam {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr const char* schema = "tvbeam-solver-runs/1";
+
+} // namespace
+
+SolverRuns::SolverRuns(const std::filesystem::path& directory, const Scene& scene)
+    : scene_(scene), identities_(*scene.solver), file_(directory / "solver-runs.jsonl") {
+    const OutputFile writable(file_.path());
+    file_.read([this](std::size_t number, const std::string& line) { read_line(number, line); });
+}
+
+void SolverRuns::read_line(std::size_t number, const std::string& line) {
+    try {
+        const Json json = Json::parse(line);
+        if (json.at("schema") != schema)
+            throw std::invalid_argument(std::string("its schema is not ") + schema);
+        Run& run = runs_[json.at("of").get<std::string>()];
+        run.seconds = json.at("seconds").get<double>();
+        for (const auto& [name, figure] : json.at("figures").items())
+            run.figures[name] = figure.get<double>();
+    } catch (const std::exception& error) {
+        throw InputError({file_.path().string(), static_cast<int>(number), 1},
+                         fmt::format("is not what tvbeam wrote: {}; remove the file to make its "
+                                     "runs anew",
+                                     error.what()));
+    }
+}
+
+std::optional<RungResult> SolverRuns::find(const Series& series, std::size_t index) {
+    const std::string identity = identities_.of(series, index);
+    const std::scoped_lock lock(mutex_);
+    const auto found = runs_.find(identity);
+    if (found == runs_.end())
+        return std::nullopt;
+    RungResult result;
+    result.rung = series.rungs[index];
+    result.seconds = found->second.seconds;
+    for (const auto& measure : series.measures) {
+        const auto figure = found->second.figures.find(measure.name);
+        if (figure == found->second.figures.end())
+            return std::nullopt;
+        result.errors.push_back(figure->second);
+    }
+    return result;
+}
+
+void SolverRuns::add(const Series& series, std::size_t index, const RungResult& result) {
+    if (result.status != RungStatus::ok)
+        return;
+    const std::string identity = identities_.of(series, index);
+    Json figures = Json::object();
+    for (std::size_t k = 0; k < series.measures.size(); ++k)
+        figures[series.measures[k].name] = result.errors[k];
+    const std::scoped_lock lock(mutex_);
+    Run& run = runs_[identity];
+    run.seconds = result.seconds;
+    for (std::size_t k = 0; k < series.measures.size(); ++k)
+        run.figures[series.measures[k].name] = result.errors[k];
+    if (!failure_.empty())
+        return;
+    const Json line{{"schema", schema},          {"of", identity},
+                    {"study", series.study},     {"elements", result.rung.elements},
+                    {"dt", result.rung.dt},      {"method", series.method.name},
+                    {"seconds", result.seconds}, {"figures", std::move(figures)}};
+    try {
+        file_.append(line.dump(-1, ' ', false, Json::error_handler_t::replace));
+    } catch (const OutputError& error) {
+        failure_ = error.what();
+    }
+}
+
+std::optional<StressCase> SolverRuns::find_case(std::size_t /*index*/) {
+    return std::nullopt;
+}
+
+void SolverRuns::add_case(std::size_t /*index*/, const StressCase& /*result*/) {}
+
+std::size_t SolverRuns::found() {
+    std::size_t count = 0;
+    if (!runs_.empty())
+        for (const auto& series : scene_.series())
+            for (std::size_t i = 0; i < series.rungs.size(); ++i)
+                count += find(series, i) ? 1 : 0;
+    return count;
+}
+
+void SolverRuns::write() {
+    try {
+        file_.flush();
+    } catch (const OutputError& error) {
+        failure_ = error.what();
+    }
+}
+
+} // namespace tvbeam

@@ -1,0 +1,59 @@
+#pragma once
+
+#include "reports/files/line_file.hpp"
+#include "studies/external/external_runs.hpp"
+#include "studies/runs/execution.hpp"
+#include "studies/scene/scene.hpp"
+
+#include <filesystem>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <string>
+
+namespace tvbeam {
+
+/// What the runs of an external solver gave that have ended well, in the file solver-runs.jsonl of
+/// a directory, a line of JSON each. They are found again by what they depend on (RunIdentities),
+/// whichever scene or study asks for them: a ladder that gets one more level makes one run. Those
+/// that failed are made again.
+class SolverRuns final : public FinishedRuns {
+public:
+    /// Reads the file if it is there. Throws InputError where it is none that tvbeam wrote;
+    /// OutputError where nothing can be written. The scene must outlive this.
+    SolverRuns(const std::filesystem::path& directory, const Scene& scene);
+
+    std::optional<RungResult> find(const Series& series, std::size_t index) override;
+    void add(const Series& series, std::size_t index, const RungResult& result) override;
+    std::optional<StressCase> find_case(std::size_t index) override;
+    void add_case(std::size_t index, const StressCase& result) override;
+
+    /// How many of the scene's runs are there.
+    [[nodiscard]] std::size_t found();
+    [[nodiscard]] bool holds_runs() const {
+        const std::scoped_lock lock(mutex_);
+        return !runs_.empty();
+    }
+    [[nodiscard]] const std::filesystem::path& path() const { return file_.path(); }
+
+    void write(); ///< what is not yet on the disk
+
+    /// Why results could not be kept, all of them or the later ones; empty: they are.
+    [[nodiscard]] const std::string& failure() const { return failure_; }
+
+private:
+    struct Run {
+        double seconds = 0.0;
+        std::map<std::string, double> figures; ///< errors and values by name
+    };
+    void read_line(std::size_t number, const std::string& line);
+
+    const Scene& scene_;
+    RunIdentities identities_;
+    LineFile file_;
+    mutable std::mutex mutex_;
+    std::string failure_;
+    std::map<std::string, Run> runs_; ///< by identity
+};
+
+} // namespace tvbeam

@@ -1,0 +1,331 @@
+#include "studies/external/external_runs.hpp"
+
+#include "studies/external/process.hpp"
+#include "studies/text/number_text.hpp"
+
+#include <boost/uuid/name_generator_sha1.hpp>
+#include <boost/uuid/uuid_io.hpp>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cstdlib>
+#include <fstream>
+#include <memory>
+#include <set>
+
+#include <unistd.h>
+
+namespace tvbeam {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+Placeholders placeholders_of(const Rung& rung, std::size_t level, double final_time,
+                             const Parameters& parameters) {
+    const auto known = [](bool is, const std::string& text) {
+        return is ? std::optional(text) : std::nullopt;
+    };
+    Placeholders values{{"elements", known(rung.has_mesh(), std::to_string(rung.elements))},
+                        {"h", known(rung.has_mesh(), shortest(rung.h()))},
+                        {"dt", known(rung.has_steps(), shortest(rung.dt))},
+                        {"steps", known(rung.steps > 0, std::to_string(rung.steps))},
+                        {"final_time", known(final_time > 0.0, shortest(final_time))},
+                        {"level", std::to_string(level)}};
+    for (const auto& [name, value] : parameters)
+        values[name] = value;
+    return values;
+}
+
+bool is_program(const fs::path& file) {
+    std::error_code error;
+    return fs::is_regular_file(file, error) && access(file.c_str(), X_OK) == 0;
+}
+
+/// A program without a folder, where the shell would look for it.
+std::optional<fs::path> found_in_path(const SolverBlock& solver, const std::string& name) {
+    const auto own = solver.environment.find("PATH");
+    const char* inherited = std::getenv("PATH");
+    std::string path = own != solver.environment.end() ? own->second
+                       : inherited != nullptr          ? inherited
+                                                       : "/usr/bin:/bin";
+    path += ':';
+    for (std::size_t at = 0, end = 0; (end = path.find(':', at)) != std::string::npos; at = end + 1)
+        if (fs::path file = fs::path(path.substr(at, end - at)) / name;
+            file.is_absolute() && is_program(file))
+            return file;
+    return std::nullopt;
+}
+
+/// One of the files of a run's directory, by its path in there.
+const SolverFile* file_called(const SolverBlock& solver, const std::string& name) {
+    const auto found =
+        std::find_if(solver.files.begin(), solver.files.end(), [&](const SolverFile& file) {
+            return file.name == fs::path(name).lexically_normal().string();
+        });
+    return found == solver.files.end() ? nullptr : &*found;
+}
+
+/// The program that a run calls: with a / in its name, one of the block's files or a path relative
+/// to the scene, otherwise what PATH has. Throws InputError where there is none.
+fs::path program_of(const SolverBlock& solver, const std::string& name) {
+    const Place& place = solver.command.front().place;
+    if (name.find('/') == std::string::npos) {
+        if (auto found = found_in_path(solver, name))
+            return *found;
+        throw InputError(place, "there is no program '" + name +
+                                    "' in PATH; install it, or give its path" +
+                                    (file_called(solver, name) != nullptr
+                                         ? ": ./" + name + " is the one of solver.files"
+                                         : ""));
+    }
+    const SolverFile* own = file_called(solver, name);
+    const fs::path file = own != nullptr ? own->source : fs::absolute(solver.folder / name);
+    if (is_program(file))
+        return file;
+    std::error_code error;
+    throw InputError(place, fs::exists(file, error)
+                                ? "'" + file.string() +
+                                      "' cannot be run; chmod +x makes it executable, or name its "
+                                      "interpreter first"
+                                : "there is no program '" + file.string() + "'");
+}
+
+/// What a run consists of before it begins.
+struct Prepared {
+    fs::path program;
+    std::vector<std::string> arguments;
+};
+
+Prepared prepared(const SolverBlock& solver, const Placeholders& values) {
+    const std::string name = solver.command.front().filled(values);
+    Prepared run{program_of(solver, name), {}};
+    for (std::size_t i = 1; i < solver.command.size(); ++i)
+        run.arguments.push_back(solver.command[i].filled(values));
+    return run;
+}
+
+void fill(const SolverBlock& solver, const Placeholders& values, const fs::path& directory) {
+    fs::create_directory(directory);
+    for (const auto& file : solver.files) {
+        const fs::path target = directory / file.name;
+        fs::create_directories(target.parent_path());
+        if (!file.contents) {
+            fs::copy_file(file.source, target);
+            continue;
+        }
+        std::ofstream stream(target, std::ios::binary);
+        stream << file.contents->filled(values);
+        if (!stream.flush())
+            throw fs::filesystem_error("cannot write", target,
+                                       std::error_code(errno, std::generic_category()));
+        stream.close();
+        fs::permissions(target, fs::status(file.source).permissions());
+    }
+}
+
+/// A directory that is gone at the end.
+class RunDirectory {
+public:
+    explicit RunDirectory(fs::path path) : path_(std::move(path)) {}
+    ~RunDirectory() {
+        std::error_code ignored;
+        // What was killed a moment ago may still be in there.
+        for (int attempt = 0; attempt < 10 && fs::exists(path_, ignored); ++attempt)
+            fs::remove_all(path_, ignored);
+    }
+    RunDirectory(const RunDirectory&) = delete;
+    RunDirectory& operator=(const RunDirectory&) = delete;
+    RunDirectory(RunDirectory&&) = delete;
+    RunDirectory& operator=(RunDirectory&&) = delete;
+    [[nodiscard]] const fs::path& path() const { return path_; }
+
+private:
+    fs::path path_;
+};
+
+class ExternalSolver {
+public:
+    ExternalSolver(const SolverBlock& solver, const Keeper& keeper)
+        : solver_(solver), keeper_(keeper) {}
+
+    RungResult run(const RunTask& task) {
+        RungResult result;
+        result.rung = task.rung;
+        if (!task.advance(0)) {
+            result.status = RungStatus::interrupted;
+            result.reason = "interrupted";
+            return result;
+        }
+        try {
+            run(task, result);
+        } catch (const std::exception& error) { // no room for a directory, say
+            result.status = RungStatus::failed;
+            result.reason = error.what();
+        }
+        if (result.status != RungStatus::ok)
+            result.errors.clear();
+        task.advance(std::max<std::int64_t>(task.rung.steps, 1));
+        return result;
+    }
+
+private:
+    void run(const RunTask& task, RungResult& result) {
+        const auto values =
+            placeholders_of(task.rung, task.level, task.final_time, parameters_of(task.method));
+        Prepared run = prepared(solver_, values);
+        const RunDirectory directory(keeper_.directory() / std::to_string(next_++));
+        fill(solver_, values, directory.path());
+        if (const std::string name = solver_.command.front().filled(values);
+            name.find('/') != std::string::npos)
+            if (const auto* own = file_called(solver_, name))
+                run.program = directory.path() / own->name;
+        std::vector<OutputReading> readings;
+        for (const auto& measure : task.measures)
+            if (const auto* pattern = solver_.source_of(measure).pattern(measure.name))
+                readings.emplace_back(*pattern);
+        std::optional<OutputReading> clock;
+        if (solver_.seconds)
+            clock.emplace(*solver_.seconds);
+        const ProcessResult process = run_process({.program = run.program,
+                                                   .arguments = run.arguments,
+                                                   .directory = directory.path(),
+                                                   .environment = solver_.environment,
+                                                   .timeout = solver_.timeout,
+                                                   .line =
+                                                       [&](const std::string& line) {
+                                                           for (auto& reading : readings)
+                                                               reading.take(line);
+                                                           if (clock)
+                                                               clock->take(line);
+                                                       },
+                                                   .go_on = [&] { return task.advance(0); }},
+                                                  keeper_);
+        result.seconds = process.seconds;
+        std::string failure = process.failure;
+        if (process.interrupted) {
+            result.status = RungStatus::interrupted;
+            result.reason = "interrupted";
+            return;
+        }
+        if (failure == "timed out")
+            failure += " after " + shortest(*solver_.timeout) + " s";
+        if (failure.empty())
+            failure = figures(task, readings, directory.path(), result);
+        if (failure.empty() && clock) {
+            const ReadFigure seconds = clock->figure();
+            failure = seconds.failure;
+            result.seconds = seconds.value.value_or(result.seconds);
+            if (failure.empty() && !(result.seconds >= 0.0))
+                failure = "seconds is " + shortest(result.seconds);
+        }
+        if (failure.empty())
+            return;
+        result.status = RungStatus::failed;
+        result.reason =
+            failure + (process.last_lines.empty() ? "; it wrote nothing"
+                                                  : "; it wrote: " + process.last_lines);
+    }
+
+    /// Reads what is measured; why not, where it is not all there.
+    std::string figures(const RunTask& task, const std::vector<OutputReading>& readings,
+                        const fs::path& directory, RungResult& result) const {
+        auto reading = readings.begin();
+        for (const auto& measure : task.measures) {
+            const FigureSource& source = solver_.source_of(measure);
+            const ReadFigure figure = source.is_file()
+                                          ? figure_in(directory / source.file, measure.name)
+                                          : (reading++)->figure();
+            if (!figure.value)
+                return figure.failure;
+            if (!measure.is_value && *figure.value < 0.0)
+                return measure.name + " is " + shortest(*figure.value) +
+                       "; a norm of an error is not below 0";
+            result.errors.push_back(*figure.value);
+        }
+        return {};
+    }
+
+    const SolverBlock& solver_;
+    const Keeper& keeper_;
+    std::atomic<std::size_t> next_ = 0; ///< directory
+};
+
+std::string digest(const std::string& text) {
+    const boost::uuids::name_generator_sha1 name(boost::uuids::ns::oid());
+    return to_string(name(text));
+}
+
+std::string digest(const fs::path& file) {
+    std::ifstream stream(file, std::ios::binary);
+    return digest(std::string(std::istreambuf_iterator<char>(stream), {}));
+}
+
+nlohmann::json reading_of(const FigureSource& source) {
+    nlohmann::json json = source.file;
+    if (!source.is_file())
+        json = nlohmann::json::object();
+    for (const auto& pattern : source.patterns)
+        json[pattern.name] = pattern.text;
+    return json;
+}
+
+} // namespace
+
+void require_placeholders(const SolverBlock& solver, const std::vector<Series>& all) {
+    for (const auto& series : all) {
+        // What is there in one run of a series is there in all.
+        const auto values = placeholders_of(series.rungs.front(), 0, series.final_time,
+                                            parameters_of(series.method));
+        for (const auto& word : solver.command)
+            static_cast<void>(word.filled(values));
+        for (const auto& file : solver.files)
+            if (file.contents)
+                static_cast<void>(file.contents->filled(values));
+    }
+}
+
+void require_programs(const SolverBlock& solver, const std::vector<Series>& all) {
+    std::set<std::string> names;
+    for (const auto& series : all)
+        for (std::size_t level = 0; level < series.rungs.size(); ++level)
+            names.insert(solver.command.front().filled(placeholders_of(
+                series.rungs[level], level, series.final_time, parameters_of(series.method))));
+    for (const auto& name : names)
+        program_of(solver, name);
+}
+
+StudiedSolver external_runs(const SolverBlock& solver, const Keeper& keeper) {
+    const auto external = std::make_shared<ExternalSolver>(solver, keeper);
+    return {.run = [external](const RunTask& task) { return external->run(task); }};
+}
+
+RunIdentities::RunIdentities(const SolverBlock& solver) : solver_(solver) {
+    for (const auto& file : solver.files)
+        if (!file.contents)
+            digests_[file.name] = digest(file.source);
+}
+
+std::string RunIdentities::of(const Series& series, std::size_t level) const {
+    const auto values = placeholders_of(series.rungs.at(level), level, series.final_time,
+                                        parameters_of(series.method));
+    const Prepared run = prepared(solver_, values);
+    nlohmann::json json{{"program", run.program.string()},
+                        {"arguments", run.arguments},
+                        {"environment", solver_.environment},
+                        {"errors", reading_of(solver_.errors)},
+                        {"values", reading_of(solver_.values)},
+                        {"seconds", solver_.seconds ? solver_.seconds->text : ""},
+                        {"files", digests_}};
+    std::error_code error;
+    json["size"] = fs::file_size(run.program, error);
+    json["time"] = fs::last_write_time(run.program, error).time_since_epoch().count();
+    for (const auto& file : solver_.files)
+        if (file.contents)
+            json["files"][file.name] = digest(file.contents->filled(values));
+    return digest(json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+}
+
+} // namespace tvbeam

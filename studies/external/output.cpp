@@ -1,0 +1,68 @@
+#include "studies/external/output.hpp"
+
+#include <algorithm>
+#include <vector>
+
+namespace tvbeam {
+
+namespace {
+
+constexpr std::size_t longest_tail = 4096;
+constexpr std::size_t longest_shown_line = 200;
+
+/// Without what a terminal or a table would stumble over.
+std::string printable(std::string_view line) {
+    std::string text(line.substr(0, longest_shown_line));
+    std::replace_if(
+        text.begin(), text.end(),
+        [](char c) { return static_cast<unsigned char>(c) < ' ' || c == '\x7f'; }, ' ');
+    const auto first = text.find_first_not_of(' ');
+    if (first == std::string::npos)
+        return {};
+    text.erase(text.find_last_not_of(' ') + 1);
+    return text.substr(first) + (line.size() > longest_shown_line ? " ..." : "");
+}
+
+} // namespace
+
+void OutputLines::take(std::string_view chunk) {
+    const auto tail = chunk.substr(chunk.size() - std::min(chunk.size(), longest_tail));
+    tail_ += tail;
+    if (tail_.size() > longest_tail)
+        tail_.erase(0, tail_.size() - longest_tail);
+    while (true) {
+        const std::size_t end = chunk.find('\n');
+        const auto part = chunk.substr(0, end);
+        line_ += part.substr(0, longest_line - line_.size());
+        if (end == std::string_view::npos)
+            return;
+        visit_(line_);
+        line_.clear();
+        chunk.remove_prefix(end + 1);
+    }
+}
+
+void OutputLines::finish() {
+    if (!line_.empty())
+        visit_(line_);
+    line_.clear();
+}
+
+std::string OutputLines::last_lines(std::size_t count) const {
+    std::vector<std::string> lines;
+    std::string_view rest = tail_;
+    while (!rest.empty() && lines.size() < count) {
+        const std::size_t end = rest.find_last_of("\n\r");
+        const auto line = end == std::string_view::npos ? rest : rest.substr(end + 1);
+        if (auto text = printable(line); !text.empty())
+            lines.push_back(std::move(text));
+        rest = end == std::string_view::npos ? std::string_view() : rest.substr(0, end);
+    }
+    std::string text;
+    std::reverse(lines.begin(), lines.end());
+    for (const auto& line : lines)
+        text += (text.empty() ? "" : " | ") + line;
+    return text;
+}
+
+} // namespace tvbeam

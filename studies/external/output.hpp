@@ -1,0 +1,32 @@
+/// What a program writes, however much: its lines, and the last of them, in bounded memory.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <string>
+#include <string_view>
+
+namespace tvbeam {
+
+class OutputLines {
+public:
+    /// What a line is longer than is passed over.
+    static constexpr std::size_t longest_line = 4096;
+
+    /// visit: told of each line, without its end.
+    explicit OutputLines(std::function<void(const std::string& line)> visit)
+        : visit_(std::move(visit)) {}
+
+    void take(std::string_view chunk);
+    void finish(); ///< the last line may have no end
+
+    /// The last lines with something in them, at most `count`, in one line of text: "a | b".
+    [[nodiscard]] std::string last_lines(std::size_t count) const;
+
+private:
+    std::function<void(const std::string&)> visit_;
+    std::string line_;
+    std::string tail_;
+};
+
+} // namespace tvbeam

@@ -1,0 +1,79 @@
+#include "studies/external/placeholders.hpp"
+
+#include "mms/text/characters.hpp"
+#include "mms/text/nearest_name.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <vector>
+
+namespace tvbeam {
+
+namespace {
+
+bool is_name(std::string_view text) {
+    return !text.empty() && !is_digit(text.front()) &&
+           std::all_of(text.begin(), text.end(),
+                       [](char c) { return is_letter(c) || is_digit(c) || c == '_'; });
+}
+
+Place place_in(const Template& whole, std::size_t offset) {
+    if (!whole.is_file)
+        return whole.place;
+    const auto before = std::string_view(whole.text).substr(0, offset);
+    const auto line_start = before.rfind('\n');
+    return {
+        whole.place.file, 1 + static_cast<int>(std::count(before.begin(), before.end(), '\n')),
+        static_cast<int>(line_start == std::string_view::npos ? offset : offset - line_start - 1) +
+            1};
+}
+
+} // namespace
+
+std::string Template::filled(const Placeholders& values) const {
+    std::string result;
+    for (std::size_t at = 0; at < text.size();) {
+        const std::size_t brace = text.find('{', at);
+        result.append(text, at, brace - at);
+        if (brace == std::string::npos)
+            break;
+        if (text.compare(brace, 2, "{{") == 0) {
+            result += '{';
+            at = brace + 2;
+            continue;
+        }
+        const std::size_t end = text.find('}', brace);
+        const std::string name =
+            end == std::string::npos ? "" : text.substr(brace + 1, end - brace - 1);
+        if (!is_name(name)) {
+            result += '{';
+            at = brace + 1;
+            continue;
+        }
+        const auto found = values.find(name);
+        if (found == values.end()) {
+            std::vector<std::string> names;
+            std::string list;
+            for (const auto& [known, value] : values) {
+                names.push_back(known);
+                list += (list.empty() ? "" : ", ") + known;
+            }
+            throw InputError(
+                place_in(*this, brace),
+                fmt::format("there is no placeholder {{{}}}{}; known: {}; a parameter is given in "
+                            "[solver.parameters], and {{{{ is a brace",
+                            name, did_you_mean(name, names), list));
+        }
+        if (!found->second)
+            throw InputError(place_in(*this, brace),
+                             fmt::format("{{{0}}} has nothing to stand for: a study gives no {0}; "
+                                         "give it, or remove the placeholder",
+                                         name));
+        result += *found->second;
+        at = end + 1;
+    }
+    return result;
+}
+
+} // namespace tvbeam

@@ -1,0 +1,28 @@
+#pragma once
+
+#include "mms/text/input_error.hpp"
+
+#include <map>
+#include <optional>
+#include <string>
+
+namespace tvbeam {
+
+/// What {NAME} stands for; none: nothing in this study, which says so.
+using Placeholders = std::map<std::string, std::optional<std::string>>;
+
+/// A text with placeholders, and where it stands: a word of a command, or a whole file.
+///
+/// {NAME} is a placeholder where NAME is letters, digits and _, no digit first; {{ is a brace; any
+/// other brace is itself, so that most sources of programs can be templates as they are.
+struct Template {
+    std::string text;
+    Place place;
+    bool is_file = false; ///< places count lines; in a word all is at `place`
+
+    /// The text with all placeholders filled in. Throws InputError for a name that is not there, or
+    /// has nothing to stand for.
+    [[nodiscard]] std::string filled(const Placeholders& values) const;
+};
+
+} // namespace tvbeam

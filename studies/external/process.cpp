@@ -1,0 +1,268 @@
+#include "studies/external/process.hpp"
+
+#include "studies/external/output.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <cstring>
+#include <system_error>
+#include <thread>
+
+#include <fcntl.h>
+#include <poll.h>
+#include <sys/prctl.h>
+#include <sys/syscall.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace tvbeam {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr std::chrono::milliseconds between_questions{100};
+constexpr std::chrono::seconds before_the_kill{1};
+constexpr std::size_t shown_lines = 5;
+/// After the program's end its pipe may still hold this much; who writes more was left behind.
+constexpr std::size_t most_after_the_end = std::size_t{1} << 20U;
+
+class Descriptor {
+public:
+    explicit Descriptor(int number = -1) : number_(number) {}
+    ~Descriptor() { close(); }
+    Descriptor(const Descriptor&) = delete;
+    Descriptor& operator=(const Descriptor&) = delete;
+    Descriptor(Descriptor&&) = delete;
+    Descriptor& operator=(Descriptor&&) = delete;
+
+    [[nodiscard]] int number() const { return number_; }
+    void set(int number) {
+        close();
+        number_ = number;
+    }
+    void close() {
+        if (number_ >= 0)
+            ::close(number_);
+        number_ = -1;
+    }
+
+private:
+    int number_;
+};
+
+struct Pipe {
+    Pipe() {
+        std::array<int, 2> ends{};
+        if (pipe2(ends.data(), O_CLOEXEC) != 0)
+            throw std::system_error(errno, std::generic_category(), "cannot make a pipe");
+        read.set(ends[0]);
+        write.set(ends[1]);
+        fcntl(ends[0], F_SETFL, O_NONBLOCK);
+    }
+    Descriptor read;
+    Descriptor write;
+};
+
+/// Texts as exec wants them.
+std::vector<char*> pointers(std::vector<std::string>& texts) {
+    std::vector<char*> result;
+    result.reserve(texts.size() + 1);
+    for (auto& text : texts)
+        result.push_back(text.data());
+    result.push_back(nullptr);
+    return result;
+}
+
+std::vector<std::string> environment_with(const std::map<std::string, std::string>& own) {
+    std::vector<std::string> all;
+    for (char** entry = environ; *entry != nullptr; ++entry) {
+        const std::string text = *entry;
+        if (!own.contains(text.substr(0, text.find('='))))
+            all.push_back(text);
+    }
+    for (const auto& [name, value] : own)
+        all.push_back(fmt::format("{}={}", name, value));
+    return all;
+}
+
+std::string ending_of(int status) {
+    if (WIFEXITED(status))
+        return WEXITSTATUS(status) == 0 ? "" : "exit " + std::to_string(WEXITSTATUS(status));
+    const int signal = WTERMSIG(status);
+    return "killed by signal " + std::to_string(signal) + " (" + strsignal(signal) + ")";
+}
+
+/// One run of a program, from fork to its end.
+class Process {
+public:
+    Process(const ProcessTask& task, const Keeper& keeper)
+        : task_(task), keeper_(keeper), output_(task.line), errors_([](const std::string&) {}) {}
+
+    ProcessResult run() {
+        begin();
+        watch();
+        end();
+        return std::move(result_);
+    }
+
+private:
+    void begin() {
+        std::vector<std::string> words{task_.program.string()};
+        words.insert(words.end(), task_.arguments.begin(), task_.arguments.end());
+        auto environment = environment_with(task_.environment);
+        const auto arguments = pointers(words);
+        const auto variables = pointers(environment);
+        Pipe failure; // tells why exec failed; closes where it did not
+        start_ = Clock::now();
+        process_ = fork();
+        if (process_ < 0)
+            throw std::system_error(errno, std::generic_category(), "cannot begin a process");
+        if (process_ == 0)
+            become(arguments.data(), variables.data(), failure.write.number());
+        setpgid(process_, process_); // whoever comes first, this or the same there
+        standard_output_.write.close();
+        standard_error_.write.close();
+        failure.write.close();
+        fcntl(failure.read.number(), F_SETFL, 0);
+        int error = 0;
+        ssize_t count = 0;
+        while ((count = read(failure.read.number(), &error, sizeof error)) < 0 && errno == EINTR) {
+        }
+        if (count == sizeof error)
+            result_.failure = "cannot be run: " + std::generic_category().message(error);
+        // The declaration of glibc 2.36 is for C alone.
+        ended_.set(static_cast<int>(syscall(SYS_pidfd_open, process_, 0)));
+        if (ended_.number() < 0) {
+            const int reason = errno;
+            end();
+            throw std::system_error(reason, std::generic_category(), "cannot watch a process");
+        }
+    }
+
+    /// In the new process: nothing but system calls.
+    [[noreturn]] void become(char* const* arguments, char* const* variables, int failure) const {
+        const pid_t own = getpid();
+        setpgid(own, own);
+        keeper_.begun(own);
+        prctl(PR_SET_PDEATHSIG, SIGKILL);
+        const int nowhere = open("/dev/null", O_RDONLY);
+        dup2(nowhere, STDIN_FILENO);
+        dup2(standard_output_.write.number(), STDOUT_FILENO);
+        dup2(standard_error_.write.number(), STDERR_FILENO);
+        for (const int signal : {SIGPIPE, SIGINT, SIGTERM})
+            std::signal(signal, SIG_DFL);
+        if (chdir(task_.directory.c_str()) == 0)
+            execve(task_.program.c_str(), arguments, variables);
+        const int error = errno;
+        [[maybe_unused]] const auto count = write(failure, &error, sizeof error);
+        _exit(127);
+    }
+
+    /// Until the program has ended.
+    void watch() {
+        std::array<pollfd, 3> watched{{{standard_output_.read.number(), POLLIN, 0},
+                                       {standard_error_.read.number(), POLLIN, 0},
+                                       {ended_.number(), POLLIN, 0}}};
+        auto asked = start_;
+        while (true) {
+            poll(watched.data(), watched.size(), static_cast<int>(between_questions.count()));
+            if ((watched[0].revents != 0 && !take(watched[0].fd, output_)))
+                watched[0].fd = -1;
+            if ((watched[1].revents != 0 && !take(watched[1].fd, errors_)))
+                watched[1].fd = -1;
+            if (watched[2].revents != 0)
+                return;
+            const auto now = Clock::now();
+            if (now - asked >= between_questions) {
+                asked = now;
+                question(now);
+            }
+        }
+    }
+
+    /// One buffer of what there is; false: there will be no more.
+    static bool take(int descriptor, OutputLines& lines) {
+        std::array<char, 65536> buffer;
+        const ssize_t count = read(descriptor, buffer.data(), buffer.size());
+        if (count > 0)
+            lines.take({buffer.data(), static_cast<std::size_t>(count)});
+        return count > 0 || (count < 0 && (errno == EAGAIN || errno == EINTR));
+    }
+
+    /// Whether the program is to be ended, and how.
+    void question(Clock::time_point now) {
+        if (!told_to_end_) {
+            const std::chrono::duration<double> elapsed = now - start_;
+            if (task_.timeout && elapsed.count() > *task_.timeout)
+                timed_out_ = true;
+            else if (!task_.go_on())
+                result_.interrupted = true;
+            else
+                return;
+            told_to_end_ = now;
+            kill(-process_, SIGTERM);
+            kill(-process_, SIGCONT);
+        } else if (now - *told_to_end_ >= before_the_kill) {
+            kill(-process_, SIGKILL);
+        }
+    }
+
+    void end() {
+        // The group's number is nobody else's until its first process is waited for.
+        kill(-process_, SIGKILL);
+        int status = 0;
+        while (waitpid(process_, &status, 0) < 0 && errno == EINTR) {
+        }
+        keeper_.ended(process_);
+        const std::chrono::duration<double> elapsed = Clock::now() - start_;
+        result_.seconds = elapsed.count();
+        drain(standard_output_.read.number(), output_);
+        drain(standard_error_.read.number(), errors_);
+        output_.finish();
+        result_.last_lines = errors_.last_lines(shown_lines);
+        if (result_.last_lines.empty())
+            result_.last_lines = output_.last_lines(shown_lines);
+        if (timed_out_)
+            result_.failure = "timed out";
+        else if (result_.failure.empty())
+            result_.failure = ending_of(status);
+    }
+
+    static void drain(int descriptor, OutputLines& lines) {
+        std::array<char, 65536> buffer;
+        for (std::size_t taken = 0; taken < most_after_the_end;) {
+            const ssize_t count = read(descriptor, buffer.data(), buffer.size());
+            if (count <= 0)
+                return;
+            lines.take({buffer.data(), static_cast<std::size_t>(count)});
+            taken += static_cast<std::size_t>(count);
+        }
+    }
+
+    const ProcessTask& task_;
+    const Keeper& keeper_;
+    OutputLines output_;
+    OutputLines errors_;
+    Pipe standard_output_;
+    Pipe standard_error_;
+    Descriptor ended_; ///< readable when the program has ended
+    pid_t process_ = -1;
+    Clock::time_point start_;
+    std::optional<Clock::time_point> told_to_end_;
+    bool timed_out_ = false;
+    ProcessResult result_;
+};
+
+} // namespace
+
+ProcessResult run_process(const ProcessTask& task, const Keeper& keeper) {
+    return Process(task, keeper).run();
+}
+
+} // namespace tvbeam

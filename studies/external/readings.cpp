@@ -1,0 +1,186 @@
+#include "studies/external/readings.hpp"
+
+#include "studies/external/output.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+
+namespace tvbeam {
+
+namespace {
+
+constexpr std::size_t largest_json = std::size_t{16} << 20U;
+constexpr int deepest_json = 32;
+
+std::string trimmed(const std::string& text) {
+    constexpr const char* blanks = " \t\r\n";
+    const auto first = text.find_first_not_of(blanks);
+    return first == std::string::npos
+               ? ""
+               : text.substr(first, text.find_last_not_of(blanks) - first + 1);
+}
+
+/// The whole text as one number, also with Fortran's exponent.
+ReadFigure number_of(const std::string& name, const std::string& written) {
+    std::string text = trimmed(written);
+    std::transform(text.begin(), text.end(), text.begin(),
+                   [](char c) { return c == 'd' || c == 'D' ? 'e' : c; });
+    if (text.starts_with('+'))
+        text.erase(0, 1);
+    double value = 0.0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (text.empty() || end != text.data() + text.size() || error == std::errc::invalid_argument)
+        return {{}, name + " is '" + trimmed(written) + "', which is not one number"};
+    if (error == std::errc::result_out_of_range || !std::isfinite(value))
+        return {{}, name + " is " + trimmed(written)};
+    return {value, {}};
+}
+
+/// What every match must begin with: the characters up to the first that means something else.
+std::string literal_start(const std::string& pattern) {
+    constexpr const char* special = "^$\\.*+?()[]{}|";
+    if (pattern.find('|') != std::string::npos)
+        return {};
+    const auto end = std::min(pattern.find_first_of(special), pattern.size());
+    const bool optional =
+        end < pattern.size() && std::string("*?{").find(pattern[end]) != std::string::npos;
+    return pattern.substr(0, optional && end > 0 ? end - 1 : end);
+}
+
+ReadFigure figure_in_json(const std::filesystem::path& file, const std::string& name) {
+    std::ifstream stream(file);
+    std::string text;
+    text.assign(std::istreambuf_iterator<char>(stream), {});
+    try {
+        const auto json =
+            nlohmann::json::parse(text, [](int depth, nlohmann::json::parse_event_t, auto&) {
+                if (depth > deepest_json)
+                    throw std::invalid_argument("it is nested too deep");
+                return true;
+            });
+        if (!json.is_object())
+            return {{}, "it is not an object, as {\"" + name + "\": 1.2e-3}"};
+        const auto found = json.find(name);
+        if (found == json.end())
+            return {{}, "it has no " + name};
+        if (!found->is_number())
+            return {{}, name + " is " + found->dump().substr(0, 40) + ", which is not one number"};
+        return {found->get<double>(), {}};
+    } catch (const std::exception& error) {
+        return {{}, std::string("it is not JSON: ") + error.what()};
+    }
+}
+
+std::vector<std::string> fields_of(const std::string& line, char separator) {
+    std::vector<std::string> fields(1);
+    for (const char c : line)
+        if (c == separator || (separator == ' ' && c == '\t'))
+            fields.emplace_back();
+        else
+            fields.back() += c;
+    for (auto& field : fields) {
+        field = trimmed(field);
+        if (field.size() >= 2 && field.front() == '"' && field.back() == '"')
+            field = field.substr(1, field.size() - 2);
+    }
+    if (separator == ' ')
+        std::erase(fields, "");
+    return fields;
+}
+
+ReadFigure figure_in_csv(const std::filesystem::path& file, const std::string& name) {
+    std::string header;
+    std::string last;
+    OutputLines lines([&](const std::string& line) {
+        if (!trimmed(line).empty())
+            (header.empty() ? header : last) = line;
+    });
+    std::ifstream stream(file, std::ios::binary);
+    std::array<char, 65536> buffer{};
+    while (stream.read(buffer.data(), buffer.size()) || stream.gcount() > 0)
+        lines.take({buffer.data(), static_cast<std::size_t>(stream.gcount())});
+    lines.finish();
+    if (last.empty())
+        return {{}, "it has no row below its header"};
+    const char separator = header.find(',') != std::string::npos   ? ','
+                           : header.find(';') != std::string::npos ? ';'
+                                                                   : ' ';
+    const auto names = fields_of(header, separator);
+    const auto row = fields_of(last, separator);
+    const auto column = std::find(names.begin(), names.end(), name);
+    if (column == names.end())
+        return {{}, "its header has no " + name};
+    if (row.size() != names.size())
+        return {{},
+                "its last row has " + std::to_string(row.size()) + " fields and its header " +
+                    std::to_string(names.size())};
+    return number_of(name, row[static_cast<std::size_t>(column - names.begin())]);
+}
+
+} // namespace
+
+OutputPattern::OutputPattern(std::string its_name, std::string its_text, const Place& place)
+    : name(std::move(its_name)), text(std::move(its_text)), literal(literal_start(text)) {
+    try {
+        // Its time is no more than that of the line times that of the pattern, and it needs no
+        // stack for a long line.
+        regex =
+            std::regex(text, std::regex_constants::ECMAScript | std::regex_constants::__polynomial);
+    } catch (const std::regex_error& error) {
+        throw InputError(place, "'" + text + "' is no regular expression: " + error.what());
+    }
+    if (regex.mark_count() != 1)
+        throw InputError(place, "'" + text + "' has " + std::to_string(regex.mark_count()) +
+                                    " groups; it must have one, the number: 'L2 error = (\\S+)'; "
+                                    "a group that is none is written (?:…)");
+}
+
+void OutputReading::take(const std::string& line) {
+    const std::size_t from = line.find(pattern_->literal);
+    if (from == std::string::npos)
+        return;
+    std::sregex_iterator match(line.begin(), line.end(), pattern_->regex);
+    if (match == std::sregex_iterator())
+        return;
+    found_ = (*match)[1].str();
+    twice_ = ++match != std::sregex_iterator();
+}
+
+ReadFigure OutputReading::figure() const {
+    const std::string of = "nothing on standard output matches '" + pattern_->text + "'";
+    if (!found_)
+        return {{}, "no " + pattern_->name + ": " + of};
+    if (twice_)
+        return {{}, "the last line with " + pattern_->name + " has two of them"};
+    return number_of(pattern_->name, *found_);
+}
+
+const OutputPattern* FigureSource::pattern(const std::string& name) const {
+    const auto found =
+        std::find_if(patterns.begin(), patterns.end(),
+                     [&](const OutputPattern& pattern) { return pattern.name == name; });
+    return found == patterns.end() ? nullptr : &*found;
+}
+
+ReadFigure figure_in(const std::filesystem::path& file, const std::string& name) {
+    const std::string shown = file.filename().string();
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(file, error))
+        return {{}, "no " + name + ": it wrote no file " + shown};
+    if (file.extension() == ".json" && std::filesystem::file_size(file, error) > largest_json)
+        return {{}, shown + " has more than 16 MiB"};
+    ReadFigure figure =
+        file.extension() == ".json" ? figure_in_json(file, name) : figure_in_csv(file, name);
+    if (!figure.failure.empty())
+        figure.failure.insert(0, shown + ": ");
+    return figure;
+}
+
+} // namespace tvbeam

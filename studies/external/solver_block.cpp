@@ -1,0 +1,242 @@
+#include "studies/external/solver_block.hpp"
+
+#include "mms/text/characters.hpp"
+#include "mms/text/nearest_name.hpp"
+#include "mms/text/toml_reader.hpp"
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <iterator>
+#include <set>
+
+namespace tvbeam {
+
+namespace {
+
+constexpr std::uintmax_t largest_template = std::uintmax_t{16} << 20U;
+/// That are filled in besides the parameters.
+constexpr std::array<const char*, 6> own_placeholders{"elements", "h",          "dt",
+                                                      "steps",    "final_time", "level"};
+
+bool is_name(const std::string& text) {
+    return !text.empty() && !is_digit(text.front()) &&
+           std::all_of(text.begin(), text.end(),
+                       [](char c) { return is_letter(c) || is_digit(c) || c == '_'; });
+}
+
+std::vector<Template> read_command(TableReader& table) {
+    const auto words = table.texts("command");
+    if (!words || words->empty())
+        throw table.error("command", " is missing or empty; give the program and its arguments as "
+                                     "a list: [\"python3\", \"heat.py\", \"{elements}\"]");
+    std::vector<Template> command;
+    for (std::size_t i = 0; i < words->size(); ++i) {
+        if ((*words)[i].find('\0') != std::string::npos)
+            throw table.error("command", " holds a character of code 0", i);
+        command.push_back({(*words)[i], table.place("command", i)});
+    }
+    if (command.front().text.empty())
+        throw table.error("command", " begins with nothing; its first word is the program", 0);
+    return command;
+}
+
+std::string text_in(const std::filesystem::path& file) {
+    std::ifstream stream(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+SolverFile read_file(const TableReader& table, std::size_t i, const std::string& name,
+                     const std::filesystem::path& folder) {
+    SolverFile file;
+    file.source = folder / name;
+    std::error_code error;
+    if (!std::filesystem::exists(file.source, error))
+        throw table.error("files",
+                          " names '" + name + "', and there is no file " + file.source.string(), i);
+    if (!std::filesystem::is_regular_file(file.source, error))
+        throw table.error("files", " names '" + name + "', which is no file; name the files in it",
+                          i);
+    if (std::ifstream readable(file.source); !readable)
+        throw table.error("files", " names '" + name + "', which cannot be read", i);
+    // Where a file lies outside of the scene's folder, its name alone is kept.
+    const auto within = std::filesystem::path(name).lexically_normal();
+    file.name = within.is_absolute() || within.begin()->string() == ".."
+                    ? within.filename().string()
+                    : within.string();
+    if (file.name.ends_with(".in") && file.name.size() > 3) {
+        if (std::filesystem::file_size(file.source, error) > largest_template)
+            throw table.error("files", " names the template '" + name + "' of more than 16 MiB", i);
+        file.name.resize(file.name.size() - 3);
+        file.contents = Template{text_in(file.source), {file.source.string()}, true};
+    }
+    return file;
+}
+
+std::vector<SolverFile> read_files(TableReader& table, const std::filesystem::path& folder) {
+    std::vector<SolverFile> files;
+    std::set<std::string> names;
+    const auto given = table.texts("files").value_or(std::vector<std::string>{});
+    for (std::size_t i = 0; i < given.size(); ++i) {
+        files.push_back(read_file(table, i, given[i], folder));
+        if (!names.insert(files.back().name).second)
+            throw table.error("files",
+                              " holds two that become '" + files.back().name +
+                                  "' in the directory of a run; remove one",
+                              i);
+    }
+    return files;
+}
+
+/// What a run writes stands in its own directory.
+std::string read_file_name(const TableReader& table, const std::string& key,
+                           const std::string& name) {
+    const std::filesystem::path path = name;
+    if (path.extension() != ".json" && path.extension() != ".csv")
+        throw table.error(key, " is '" + name +
+                                   "'; it must be a file that ends in .json or .csv, or a table of "
+                                   "regular expressions: { L2 = 'L2 error = (\\S+)' }");
+    if (path.is_absolute() || path.lexically_normal().begin()->string() == "..")
+        throw table.error(key, " is '" + name +
+                                   "'; it must be a file in the directory of the run, to which "
+                                   "its path is relative");
+    return name;
+}
+
+FigureSource read_source(TableReader& table, const std::string& key) {
+    FigureSource source;
+    if (table.is_string(key)) {
+        source.file = read_file_name(table, key, *table.text(key));
+        return source;
+    }
+    auto patterns = table.table(key);
+    if (!patterns)
+        return source;
+    for (const auto& name : patterns->unread()) {
+        if (!is_name(name))
+            throw InputError(patterns->place_of_key(name),
+                             "'" + name +
+                                 "' is no name for a number; it must be of letters, "
+                                 "digits and _, no digit first");
+        source.patterns.emplace_back(name, *patterns->text(name), patterns->place(name));
+    }
+    if (source.patterns.empty())
+        throw table.error(key, " is empty; name a number: { L2 = 'L2 error = (\\S+)' }");
+    return source;
+}
+
+Parameters read_parameters(TableReader& table, const Parameters* known) {
+    Parameters parameters = known != nullptr ? *known : Parameters();
+    auto given = table.table("parameters");
+    if (!given)
+        return parameters;
+    for (const auto& name : given->unread()) {
+        if (!is_name(name))
+            throw InputError(given->place_of_key(name),
+                             "'" + name +
+                                 "' is no name for a parameter; it must be of letters, "
+                                 "digits and _, no digit first");
+        if (std::find(own_placeholders.begin(), own_placeholders.end(), name) !=
+            own_placeholders.end())
+            throw InputError(given->place_of_key(name),
+                             "{" + name +
+                                 "} is filled in by the studies; give the parameter "
+                                 "another name");
+        if (known != nullptr && !known->contains(name)) {
+            std::vector<std::string> names;
+            for (const auto& [own, value] : *known)
+                names.push_back(own);
+            throw InputError(given->place_of_key(name), "[solver.parameters] has no " + name +
+                                                            did_you_mean(name, names) +
+                                                            "; give its usual value there");
+        }
+        parameters[name] = *given->word(name);
+    }
+    return parameters;
+}
+
+std::map<std::string, std::string> read_environment(TableReader& table) {
+    std::map<std::string, std::string> environment;
+    if (auto given = table.table("environment"))
+        for (const auto& name : given->unread()) {
+            if (name.empty() || name.find('=') != std::string::npos)
+                throw InputError(given->place_of_key(name),
+                                 "'" + name + "' is no name of a variable");
+            environment[name] = *given->word(name);
+        }
+    return environment;
+}
+
+std::string text_of(const Parameters& parameters) {
+    std::string text;
+    for (const auto& [name, value] : parameters)
+        text.append(text.empty() ? "" : ", ").append(name).append(" = ").append(value);
+    return text;
+}
+
+} // namespace
+
+SolverBlock read_solver(TableReader table, const std::filesystem::path& folder) {
+    SolverBlock solver;
+    solver.folder = folder;
+    solver.command = read_command(table);
+    solver.files = read_files(table, folder);
+    solver.errors = read_source(table, "errors");
+    solver.values = read_source(table, "values");
+    for (const auto& pattern : solver.values.patterns)
+        if (solver.errors.pattern(pattern.name) != nullptr)
+            throw table.error("values", " has " + pattern.name +
+                                            ", which is an error as well; give it another name");
+    if (const auto text = table.text("seconds"))
+        solver.seconds.emplace("seconds", *text, table.place("seconds"));
+    solver.timeout = table.number("timeout");
+    if (solver.timeout && !(*solver.timeout > 0.0))
+        throw table.error("timeout", " is " + message_text(*solver.timeout) +
+                                         "; it must be > 0, the seconds that a run may take");
+    solver.environment = read_environment(table);
+    solver.parameters = read_parameters(table, nullptr);
+    table.finish();
+    return solver;
+}
+
+Method method_of(const SolverBlock& solver, const Parameters& parameters) {
+    std::string words = command_text(solver);
+    if (!parameters.empty())
+        words += " with " + text_of(parameters);
+    return {.scheme = parameters,
+            .name = parameters.empty() ? "solver" : text_of(parameters),
+            .words = words,
+            .cost = 1.0,
+            .iterations = ""};
+}
+
+const Parameters& parameters_of(const Method& method) {
+    return std::any_cast<const Parameters&>(method.scheme);
+}
+
+SolverKeys solver_keys(const SolverBlock& solver) {
+    SolverKeys keys;
+    for (const bool is_value : {false, true}) {
+        const FigureSource& source = is_value ? solver.values : solver.errors;
+        for (const auto& pattern : source.patterns)
+            keys.measures.push_back({.name = pattern.name,
+                                     .words = is_value ? "value that the solver computes"
+                                                       : "error that the solver measures",
+                                     .is_value = is_value});
+        (is_value ? keys.any_value : keys.any_error) = source.is_file();
+    }
+    keys.any_widths = true;
+    keys.read_method = [&solver](TableReader& table) {
+        return method_of(solver, read_parameters(table, &solver.parameters));
+    };
+    return keys;
+}
+
+std::string command_text(const SolverBlock& solver) {
+    std::string text;
+    for (const auto& word : solver.command)
+        text += (text.empty() ? "" : " ") + word.text;
+    return text;
+}
+
+} // namespace tvbeam

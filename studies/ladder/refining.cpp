@@ -1,0 +1,104 @@
+#include "studies/ladder/refining.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace tvbeam {
+
+namespace {
+
+bool all_are_known(const Until& until, const DataAnalysis& analysis) {
+    return std::all_of(analysis.columns.begin(), analysis.columns.end(),
+                       [&](const ColumnAnalysis& column) {
+                           const auto& wanted = column.is_value ? until.limit : until.order;
+                           const OrderInterval& found =
+                               column.is_value ? column.limit->limit : column.by_width.front();
+                           return !wanted || (found.determined && found.half_width() <= *wanted);
+                       });
+}
+
+double seconds_of(const std::vector<RungResult>& rungs) {
+    double seconds = 0.0;
+    for (const auto& rung : rungs)
+        seconds += rung.seconds;
+    return seconds;
+}
+
+/// What the next level will need, as the last two have it.
+double forecast_seconds(const std::vector<RungResult>& rungs) {
+    const double last = rungs.back().seconds;
+    const double before = rungs[rungs.size() - 2].seconds;
+    return before > 0.0 ? last * std::max(1.0, last / before) : last;
+}
+
+} // namespace
+
+std::string name_of(RefiningEnd end) {
+    switch (end) {
+    case RefiningEnd::known:
+        return "known";
+    case RefiningEnd::levels:
+        return "levels";
+    case RefiningEnd::seconds:
+        return "seconds";
+    case RefiningEnd::finest:
+        return "finest";
+    default:
+        return "run ended";
+    }
+}
+
+DataAnalysis analysis_of(const Series& series, const std::vector<RungResult>& rungs) {
+    DataFile data{
+        .name = series.study, .widths = {}, .errors = {}, .values = {}, .sigma = {}, .remarks = {}};
+    const auto add_width = [&](const std::string& name, const auto& width) {
+        DataColumn column{name, {}};
+        for (const auto& rung : rungs)
+            column.numbers.push_back(width(rung.rung));
+        data.widths.push_back(std::move(column));
+    };
+    if (rungs.front().rung.has_mesh())
+        add_width("h", [](const Rung& rung) { return rung.h(); });
+    if (rungs.front().rung.has_steps())
+        add_width("dt", [](const Rung& rung) { return rung.dt; });
+    // What is refined first: the order is one in that.
+    if (data.widths.size() > 1 &&
+        data.widths.front().numbers.front() == data.widths.front().numbers.back())
+        std::swap(data.widths.front(), data.widths.back());
+    for (std::size_t k = 0; k < series.measures.size(); ++k) {
+        const Measure& measure = series.measures[k];
+        DataColumn column{measure.root(), {}};
+        for (const auto& rung : rungs) {
+            const double figure =
+                rung.errors.empty() ? std::numeric_limits<double>::quiet_NaN() : rung.errors[k];
+            column.numbers.push_back(measure.squared ? std::sqrt(figure) : figure);
+        }
+        (measure.is_value ? data.values : data.errors).push_back(std::move(column));
+    }
+    return analyse(data);
+}
+
+RefiningEnd refine(const LadderBlock& block, Series& series, std::vector<RungResult>& rungs,
+                   const RunCall& run, const Execution& execution) {
+    const Until& until = *block.until;
+    while (true) {
+        if (std::any_of(rungs.begin(), rungs.end(),
+                        [](const RungResult& one) { return one.status != RungStatus::ok; }))
+            return RefiningEnd::run_ended;
+        if (all_are_known(until, analysis_of(series, rungs)))
+            return RefiningEnd::known;
+        if (until.levels && rungs.size() >= static_cast<std::size_t>(*until.levels))
+            return RefiningEnd::levels;
+        if (until.seconds && seconds_of(rungs) + forecast_seconds(rungs) > *until.seconds)
+            return RefiningEnd::seconds;
+        const auto next = block.next(series.rungs);
+        if (!next)
+            return RefiningEnd::finest;
+        series.rungs.push_back(*next);
+        execution.expect(work_of(series.method, *next));
+        rungs.push_back(run_or_find(series, rungs.size(), run, execution));
+    }
+}
+
+} // namespace tvbeam

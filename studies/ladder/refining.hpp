@@ -1,0 +1,33 @@
+#pragma once
+
+#include "studies/data/data_analysis.hpp"
+#include "studies/ladder/ladder_block.hpp"
+#include "studies/runs/execution.hpp"
+
+#include <string>
+#include <vector>
+
+namespace tvbeam {
+
+/// Why a ladder was refined no further.
+enum class RefiningEnd {
+    known,    ///< all intervals are as narrow as was asked for
+    levels,   ///< the budget of levels is spent
+    seconds,  ///< the next level would not fit into the budget of seconds
+    finest,   ///< there is no finer level that a run may have
+    run_ended ///< a run failed or was interrupted
+};
+
+std::string name_of(RefiningEnd end); ///< "known", "levels", "seconds", "finest", "run ended"
+
+/// What the runs of a ladder show of each measure, a column a measure: orders with 95 % intervals,
+/// of a square those of the norm itself; limits of values.
+DataAnalysis analysis_of(const Series& series, const std::vector<RungResult>& rungs);
+
+/// Adds levels to a series, and their runs to its results, until what the block wants is known or
+/// its budget is spent. Seconds are those of the runs, all of them; the next is taken to need as
+/// much more than the last one as that did than the one before.
+RefiningEnd refine(const LadderBlock& block, Series& series, std::vector<RungResult>& rungs,
+                   const RunCall& run, const Execution& execution);
+
+} // namespace tvbeam
