@@ -16,7 +16,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr const char* schema = "tvbeam-solver-runs/1";
+constexpr const char* runs_schema = "tvbeam-solver-runs/1";
 
 } // namespace
 
@@ -29,8 +29,8 @@ SolverRuns::SolverRuns(const std::filesystem::path& directory, const Scene& scen
 void SolverRuns::read_line(std::size_t number, const std::string& line) {
     try {
         const Json json = Json::parse(line);
-        if (json.at("schema") != schema)
-            throw std::invalid_argument(std::string("its schema is not ") + schema);
+        if (json.at("schema") != runs_schema)
+            throw std::invalid_argument(std::string("its schema is not ") + runs_schema);
         Run& run = runs_[json.at("of").get<std::string>()];
         run.seconds = json.at("seconds").get<double>();
         for (const auto& [name, figure] : json.at("figures").items())
@@ -75,7 +75,7 @@ void SolverRuns::add(const Series& series, std::size_t index, const RungResult& 
         run.figures[series.measures[k].name] = result.errors[k];
     if (!failure_.empty())
         return;
-    const Json line{{"schema", schema},          {"of", identity},
+    const Json line{{"schema", runs_schema},     {"of", identity},
                     {"study", series.study},     {"elements", result.rung.elements},
                     {"dt", result.rung.dt},      {"method", series.method.name},
                     {"seconds", result.seconds}, {"figures", std::move(figures)}};

@@ -150,16 +150,17 @@ BOOST_AUTO_TEST_CASE(a_case_that_is_none_is_refused) {
 BOOST_AUTO_TEST_CASE(results_that_cannot_be_kept_do_not_end_the_study) {
     const TemporaryDirectory directory;
     const Scene scene = read_scene("table1");
+    const Series ladder = scene.series().front();
     Checkpoint kept(directory.path(), scene, false);
     rlimit before{};
     getrlimit(RLIMIT_FSIZE, &before);
     const rlimit small{.rlim_cur = 10, .rlim_max = before.rlim_max};
     const auto handler = std::signal(SIGXFSZ, SIG_IGN);
     setrlimit(RLIMIT_FSIZE, &small);
-    kept.add("ladder", 0, run());
+    kept.add(ladder, 0, run());
     kept.write();
     setrlimit(RLIMIT_FSIZE, &before);
-    kept.add("ladder", 1, run());
+    kept.add(ladder, 1, run());
     std::signal(SIGXFSZ, handler);
     BOOST_TEST(has(kept.failure(), "cannot write"), kept.failure());
     BOOST_TEST(!kept.holds_runs());
