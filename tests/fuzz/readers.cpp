@@ -51,8 +51,14 @@ const std::string& first_line() {
 }
 
 void require_fitting(Checkpoint& checkpoint) {
+    static const Series ladder = kept_scene().series().front();
+    static const Series grid = [] {
+        Series series = ladder;
+        series.study = "orders";
+        return series;
+    }();
     for (std::size_t index = 0; index < 2; ++index)
-        if (const auto run = checkpoint.find("ladder", index)) {
+        if (const auto run = checkpoint.find(ladder, index)) {
             const bool failed = run->status != RungStatus::ok;
             require(run->errors.size() == (failed ? 0 : 2), "errors of another number of norms");
             require(run->rung.elements == (index == 0 ? 4 : 8), "a run of other elements");
@@ -68,8 +74,7 @@ void require_fitting(Checkpoint& checkpoint) {
             require(one->checks.has_value() ==
                         (one->outcome == Outcome::certified || one->outcome == Outcome::failed),
                     "checks that do not belong to the outcome");
-    require(!checkpoint.find("ladder", 2) && !checkpoint.find("orders", 0) &&
-                !checkpoint.find_case(3),
+    require(!checkpoint.find(ladder, 2) && !checkpoint.find(grid, 0) && !checkpoint.find_case(3),
             "a run that the scene does not have");
 }
 
