@@ -23,7 +23,9 @@ constexpr const char* runs_schema = "tvbeam-solver-runs/1";
 SolverRuns::SolverRuns(const std::filesystem::path& directory, const Scene& scene)
     : scene_(scene), identities_(*scene.solver), file_(directory / "solver-runs.jsonl") {
     const OutputFile writable(file_.path());
-    file_.read([this](std::size_t number, const std::string& line) { read_line(number, line); });
+    if (std::filesystem::exists(file_.path()))
+        file_.read(
+            [this](std::size_t number, const std::string& line) { read_line(number, line); });
 }
 
 void SolverRuns::read_line(std::size_t number, const std::string& line) {

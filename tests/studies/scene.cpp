@@ -146,7 +146,7 @@ const std::vector<Wrong> wrong_scenes{
 std::string message_of(const std::string& file, const std::vector<std::string>& overrides = {}) {
     try {
         const Scene scene = read_scene(file, overrides);
-        if (scene.get<LadderBlock>())
+        if (scene.get<LadderBlock>() && !scene.solver)
             problem_of(scene, scene.get<LadderBlock>()->final_time);
     } catch (const InputError& error) {
         return error.what();
