@@ -45,9 +45,15 @@ GreatestValue greatest_value(const EnclosedFunction& function, double begin, dou
     const auto add = [&](const Point& from, const Point& to) {
         const auto [value, slope] = function(from.t, to.t);
         const double length = to.t - from.t;
+        // The mean value theorem wants a function that is smooth between: none with a pole there,
+        // whose value or slope has no bound.
+        const bool is_smooth = std::isfinite(value.lower) && std::isfinite(value.upper) &&
+                               std::isfinite(slope.lower) && std::isfinite(slope.upper);
         const double bound =
-            std::min({value.upper, from.value.upper + std::max(slope.upper, 0.0) * length,
-                      to.value.upper + std::max(-slope.lower, 0.0) * length});
+            is_smooth
+                ? std::min({value.upper, from.value.upper + std::max(slope.upper, 0.0) * length,
+                            to.value.upper + std::max(-slope.lower, 0.0) * length})
+                : value.upper;
         if (bound > reached())
             parts.push({from, to, bound});
     };

@@ -322,6 +322,10 @@ std::string RunIdentities::of(const Series& series, std::size_t level) const {
     std::error_code error;
     json["size"] = fs::file_size(run.program, error);
     json["time"] = fs::last_write_time(run.program, error).time_since_epoch().count();
+    // Scripts and inputs that are called where they are, as by `sh /path/solve.sh`.
+    for (const auto& argument : run.arguments)
+        if (fs::path(argument).is_absolute() && fs::is_regular_file(argument, error))
+            json["called"][argument] = digest(fs::path(argument));
     for (const auto& file : solver_.files)
         if (file.contents)
             json["files"][file.name] = digest(file.contents->filled(values));

@@ -41,7 +41,7 @@ void check_until(const Scene& scene, const TableReader& root) {
     const auto* ladder = scene.get<LadderBlock>();
     if (ladder == nullptr || !ladder->until)
         return;
-    for (const char* key : {"mesh", "reference", "defect"})
+    for (const char* key : {"mesh", "reference", "defect", "sensitivity"})
         if (root.has(key))
             throw InputError(root.place(key), std::string("ladder.until adds levels, for which ") +
                                                   key + " is not made; remove one of the two");

@@ -68,9 +68,10 @@ public:
                 if (contestant.warm_up <= one_run_above_)
                     time(contestant);
         for (const auto& contestant : contestants_)
-            result_[contestant.scheme].timings[contestant.run] =
-                timing_of(contestant.seconds.empty() ? std::vector<double>{contestant.warm_up}
-                                                     : contestant.seconds);
+            if (result_[contestant.scheme].runs[contestant.run].status == RungStatus::ok)
+                result_[contestant.scheme].timings[contestant.run] =
+                    timing_of(contestant.seconds.empty() ? std::vector<double>{contestant.warm_up}
+                                                         : contestant.seconds);
         return std::move(result_);
     }
 
@@ -96,8 +97,10 @@ private:
             if (measured.status != RungStatus::ok)
                 continue;
             const RungResult warm_up = run_unmeasured(scheme, level);
-            if (warm_up.status != RungStatus::ok)
+            if (warm_up.status != RungStatus::ok) {
+                fail(measured, warm_up);
                 continue;
+            }
             measured.counters = warm_up.counters;
             contestants_.push_back({scheme, level, warm_up.seconds, {}});
         }
@@ -109,6 +112,18 @@ private:
         const RungResult timed = run_unmeasured(contestant.scheme, contestant.run);
         if (timed.status == RungStatus::ok)
             contestant.seconds.push_back(timed.seconds);
+        else
+            fail(result_[contestant.scheme].runs[contestant.run], timed);
+    }
+
+    /// A run that was measured and fails where it is timed is one that failed.
+    static void fail(RungResult& measured, const RungResult& timed) {
+        if (timed.status != RungStatus::failed)
+            return;
+        const Rung rung = measured.rung;
+        measured = timed;
+        measured.rung = rung;
+        measured.reason = "timed again, it failed: " + timed.reason;
     }
 
     const WorkPrecisionBlock& block_;
@@ -126,9 +141,10 @@ std::vector<TimedError> rows_of(const SchemeRuns& scheme, std::size_t k) {
     std::vector<TimedError> rows;
     for (std::size_t i = 0; i < scheme.runs.size(); ++i) {
         const auto& errors = scheme.runs[i].errors;
-        rows.push_back(
-            {.error = errors.empty() ? std::numeric_limits<double>::quiet_NaN() : errors[k],
-             .timing = scheme.timings[i].value_or(Timing{})});
+        rows.push_back({.error = errors.empty() || !scheme.timings[i]
+                                     ? std::numeric_limits<double>::quiet_NaN()
+                                     : errors[k],
+                        .timing = scheme.timings[i].value_or(Timing{})});
     }
     return rows;
 }

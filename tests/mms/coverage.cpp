@@ -193,7 +193,7 @@ BOOST_AUTO_TEST_CASE(bdf2_has_order_three_where_a_solution_is_quadratic_in_time)
         const Solution solution = parse_solution(
             "theta = 'x*(1 - x)*(" + theta + ")'\nu = 'x^2*(" + u + ")/100'\n", "my.toml");
         const Beam beam{0.4, 0.15, 0.0, {}};
-        if (const Forecast& order = expected_orders(solution, beam, 1.0).orders[0].bdf2;
+        if (const Forecast order = expected_orders(solution, beam, 1.0).orders[0].bdf2;
             order.is_known() && order.least == order.greatest)
             return order.least;
         return 0.0;

@@ -142,6 +142,10 @@ BOOST_AUTO_TEST_CASE(what_is_not_proven_is_said_not_to_be) {
     BOOST_TEST(!greatest("sin(t)^2 + cos(t)^2", 0.0, 1.0, 1.0 + 1e-12).proven);
     // A pole: its neighbourhood is never bounded.
     BOOST_TEST(greatest("1e-30/(t - 1/3)", 0.0, 1.0, 1.0).proven == false);
+    for (const std::string& factor : std::vector<std::string>{"1e-12", "1e-6", "-1e-6", "1e-3"}) {
+        const auto found = greatest("0.05 + " + factor + "*tan(3*t)", 0.0, 1.0, 0.1);
+        BOOST_TEST((!found.proven || found.value > 0.1), factor);
+    }
 }
 
 BOOST_AUTO_TEST_SUITE_END()
