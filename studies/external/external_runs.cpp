@@ -82,7 +82,7 @@ fs::path program_of(const SolverBlock& solver, const std::string& name) {
                                          : ""));
     }
     const SolverFile* own = file_called(solver, name);
-    const fs::path file = own != nullptr ? own->source : fs::absolute(solver.folder / name);
+    fs::path file = own != nullptr ? own->source : fs::absolute(solver.folder / name);
     if (is_program(file))
         return file;
     std::error_code error;

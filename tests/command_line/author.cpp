@@ -32,6 +32,8 @@ BOOST_AUTO_TEST_CASE(derive_answers_for_every_shipped_name) {
     std::istringstream names(call(directory, "list --names").output);
     int count = 0;
     for (std::string name; std::getline(names, name); ++count) {
+        if (TVBEAM_SHORT_TESTS && count % 6 != 0)
+            continue;
         const Called called = call(directory, "derive " + name);
         const bool none = has(called.errors, "to derive from");
         BOOST_TEST(called.exit == (none ? 2 : 0), name << ": " << called.errors);
