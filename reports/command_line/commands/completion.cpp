@@ -1,6 +1,6 @@
-#include "reports/command_line/completion.hpp"
+#include "reports/command_line/commands/command.hpp"
+#include "reports/files/output_file.hpp"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -27,8 +27,9 @@ std::string words_of(const CLI::App& command) {
     return words;
 }
 
-} // namespace
-
+/// A script by which bash completes the commands and options of the program, and, where a command
+/// takes a scene, the names that `tvbeam list --names` prints. zsh reads it after
+/// `autoload -U +X bashcompinit && bashcompinit`.
 std::string completion_script(const CLI::App& app) {
     std::string commands;
     std::string cases;
@@ -55,6 +56,19 @@ _tvbeam() {{
 complete -o filenames -F _tvbeam tvbeam
 )",
                        commands, words_of(app), cases);
+}
+
+} // namespace
+
+Command add_completion(CLI::App& app) {
+    auto* completion = app.add_subcommand(
+        "completion", "Print a script by which bash (and zsh, after bashcompinit) completes "
+                      "commands, options and names.\n"
+                      "Example: source <(tvbeam completion)");
+    return {completion, [&app] {
+                write_standard_output(completion_script(app));
+                return done;
+            }};
 }
 
 } // namespace tvbeam

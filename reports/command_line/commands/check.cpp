@@ -1,0 +1,151 @@
+#include "reports/command_line/check_report.hpp"
+#include "reports/command_line/commands/command.hpp"
+#include "reports/command_line/commands/destination.hpp"
+#include "reports/command_line/commands/said.hpp"
+#include "reports/command_line/commands/shared_options.hpp"
+#include "reports/command_line/commands/shown_run.hpp"
+#include "reports/command_line/end_requests.hpp"
+#include "reports/files/baseline.hpp"
+#include "reports/formats/report_format.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace tvbeam {
+
+namespace {
+
+struct CheckOptions {
+    std::vector<std::string> scenes;
+    std::vector<std::string> overrides;
+    bool short_form = false;
+    std::string junit;
+    std::string record;
+    std::string baseline;
+    double tolerance = 1e-6;
+    bool quiet = false;
+    bool really_long = false;
+    int jobs = 1;
+};
+
+std::vector<BaselineEntry> entries_of(const std::vector<StudyResult>& results) {
+    std::vector<BaselineEntry> entries;
+    entries.reserve(results.size());
+    for (const auto& result : results)
+        entries.push_back(baseline_entry(result));
+    return entries;
+}
+
+constexpr const char* interrupted_reason = "it was interrupted";
+
+int check_command(const CheckOptions& options) {
+    // All scenes are read before any is run, so that a mistake in the last is not found after the
+    // others' run.
+    std::vector<Scene> scenes;
+    for (const auto& name : options.scenes)
+        scenes.push_back(read_scene(name, options.overrides,
+                                    {.short_form = options.short_form,
+                                     .expectations = true,
+                                     .report_files = report_format_names()}));
+    for (const auto& scene : scenes)
+        predict(scene, options.quiet, options.really_long);
+    const auto baseline =
+        options.baseline.empty() ? std::nullopt : std::optional<Baseline>(options.baseline);
+    for (const auto& scene : scenes)
+        if (scene.expectations.empty() && !baseline && options.record.empty())
+            throw InputError(
+                {scene.file},
+                "has no [expect] block, so there is nothing to check; add one, or record a "
+                "baseline with --record");
+    for (const auto& scene : scenes)
+        require_runnable(scene);
+    Destination junit = destination(options.junit);
+    Destination record = destination(options.record);
+
+    std::vector<StudyResult> results;
+    std::vector<CheckedScene> checked;
+    std::mutex mutex; // of what is checked
+    const auto add = [&](const CheckedScene& one) {
+        const std::scoped_lock lock(mutex);
+        checked.push_back(one);
+    };
+    // From here on there is something to keep.
+    EndRequests end_requests([&] {
+        std::vector<CheckedScene> reported;
+        {
+            const std::scoped_lock lock(mutex);
+            reported = checked;
+        }
+        const Scene& scene = scenes.at(std::min(reported.size(), scenes.size() - 1));
+        if (reported.size() < scenes.size())
+            reported.push_back({scene.name, 0.0, interrupted_reason, {}});
+        say_interrupted("interrupted in " + scene.name);
+        if (junit.wanted())
+            junit.write(junit_report(reported));
+    });
+    for (const auto& scene : scenes) {
+        const std::string shown = scene.name + (scene.defect ? " (with a deliberate defect)" : "");
+        const auto start = std::chrono::steady_clock::now();
+        results.push_back(run_shown(scene, options.quiet, options.jobs, nullptr));
+        const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+        if (results.back().interrupted()) {
+            add({shown, elapsed.count(), interrupted_reason, {}});
+            say_interrupted("interrupted in " + scene.name);
+            break;
+        }
+        CheckedScene one{shown, elapsed.count(), results.back().ending().reason,
+                         check(results.back())};
+        if (baseline) {
+            const auto more = baseline->check(baseline_entry(results.back()), options.tolerance);
+            one.expectations.insert(one.expectations.end(), more.begin(), more.end());
+        }
+        if (!junit.standard_output() && !record.standard_output() &&
+            !(options.quiet && one.passed()))
+            write_standard_output(check_report(one, coloured()));
+        add(one);
+    }
+    end_requests.settle();
+    if (junit.wanted())
+        junit.write(junit_report(checked));
+    if (record.wanted() && !results.back().interrupted())
+        record.write(baseline_of(entries_of(results)));
+    add_to_step_summary(check_markdown(checked));
+    const bool failed = std::any_of(results.begin(), results.end(),
+                                    [](const StudyResult& result) { return result.failed(); });
+    const bool passed = std::all_of(checked.begin(), checked.end(),
+                                    [](const CheckedScene& scene) { return scene.passed(); });
+    if (failed && !results.back().interrupted())
+        say("a run failed; the report says which and why");
+    return failed ? run_failed : passed ? done : violated;
+}
+
+} // namespace
+
+Command add_check(CLI::App& app) {
+    auto* check = app.add_subcommand(
+        "check", "Run scenes and check them against their [expect] blocks; exit 1 "
+                 "and a line for each violation.\n"
+                 "Example: tvbeam check table1 table1-orders --short --junit results.xml");
+    const auto options = std::make_shared<CheckOptions>();
+    check->add_option("scenes", options->scenes, "shipped scenes, or files")->required();
+    add_overrides(*check, options->overrides, "override a key in every scene (again and again)");
+    check->add_flag("--short", options->short_form,
+                    "with the scenes' [short] blocks: the form for CI");
+    add_file(*check, "--junit", options->junit, "write JUnit XML");
+    add_file(*check, "--record", options->record, "write a baseline of every error found");
+    add_baseline(*check, options->baseline, options->tolerance, "error");
+    check->add_flag("--quiet", options->quiet, "only the scenes that fail, and no progress line");
+    add_really_long(*check, options->really_long);
+    add_jobs(*check, options->jobs);
+    return {check, [options] {
+                require_apart("--junit", options->junit, "--record", options->record);
+                return check_command(*options);
+            }};
+}
+
+} // namespace tvbeam

@@ -1,0 +1,183 @@
+#include "reports/command_line/commands/command.hpp"
+#include "reports/command_line/commands/destination.hpp"
+#include "reports/command_line/commands/said.hpp"
+#include "reports/command_line/commands/shared_options.hpp"
+#include "reports/command_line/commands/shown_run.hpp"
+#include "reports/command_line/end_requests.hpp"
+#include "reports/document/result_document.hpp"
+#include "reports/document/text_document.hpp"
+#include "reports/files/checkpoint.hpp"
+#include "reports/files/report_directory.hpp"
+#include "reports/files/solver_runs.hpp"
+#include "reports/formats/csv_report.hpp"
+#include "reports/formats/json_report.hpp"
+#include "reports/formats/report_format.hpp"
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace tvbeam {
+
+namespace {
+
+struct RunOptions {
+    std::string scene;
+    std::vector<std::string> overrides;
+    std::string json;
+    std::string csv;
+    std::string out;
+    bool resume = false;
+    bool quiet = false;
+    bool really_long = false;
+    int jobs = 1;
+};
+
+/// The finished runs in the directory of --out: of an attempt that was cut short, or those of an
+/// external solver.
+class KeptRuns {
+public:
+    KeptRuns(const RunOptions& options, const Scene& scene) {
+        if (scene.solver)
+            solver_.emplace(options.out, scene);
+        else
+            checkpoint_.emplace(options.out, scene, options.resume);
+    }
+    FinishedRuns* finished() {
+        return solver_ ? static_cast<FinishedRuns*>(&*solver_) : &*checkpoint_;
+    }
+    /// What is said before anything runs; empty: nothing.
+    std::string greeting(bool resume) {
+        if (solver_) {
+            const std::size_t found = solver_->found();
+            return found == 0 ? ""
+                              : "goes on with " + std::to_string(found) + " finished runs from " +
+                                    solver_->path().string() + "; remove it to make them anew";
+        }
+        return !resume ? ""
+                       : "goes on with " + std::to_string(checkpoint_->found()) + " finished runs" +
+                             (checkpoint_->was_torn() ? "; one that was being written when it was "
+                                                        "cut short is run again"
+                                                      : "");
+    }
+    /// What is said after an interruption.
+    [[nodiscard]] std::string advice() const {
+        if (solver_)
+            return solver_->holds_runs() ? "; the same command goes on from the runs that are kept"
+                                         : "";
+        return checkpoint_->holds_runs() ? "; --resume goes on from the runs that are kept" : "";
+    }
+    void write() { solver_ ? solver_->write() : checkpoint_->write(); }
+    /// Why results could not be kept; empty: they are.
+    [[nodiscard]] const std::string& failure() const {
+        return solver_ ? solver_->failure() : checkpoint_->failure();
+    }
+    /// The study has come to its end.
+    void end() {
+        if (checkpoint_)
+            checkpoint_->remove();
+    }
+
+private:
+    std::optional<Checkpoint> checkpoint_;
+    std::optional<SolverRuns> solver_;
+};
+
+/// What there is to say of a run that did not go well; empty when it did.
+std::string trouble_of(const StudyResult& result, const std::optional<KeptRuns>& kept) {
+    if (result.interrupted())
+        return "interrupted; the result holds what was finished" + (kept ? kept->advice() : "");
+    return result.failed() ? "a run failed; the result says which and why" : "";
+}
+
+int run_command(const RunOptions& options) {
+    const Scene scene =
+        read_scene(options.scene, options.overrides, {.report_files = report_format_names()});
+    predict(scene, options.quiet, options.really_long);
+    std::optional<ReportDirectory> out;
+    std::optional<KeptRuns> kept;
+    require_runnable(scene);
+    if (!options.out.empty()) {
+        opened([&] {
+            out.emplace(options.out, scene.report);
+            kept.emplace(options, scene);
+        });
+        if (const auto greeting = kept->greeting(options.resume);
+            !greeting.empty() && !options.quiet)
+            say(greeting);
+    }
+    Destination json = destination(options.json);
+    Destination csv = destination(options.csv);
+    if (scene.defect && csv.wanted() && !options.quiet)
+        say("the CSV holds results with a deliberate defect, not the problem's");
+    // From here on there is something to keep.
+    EndRequests end_requests([&] {
+        const std::string advice = kept ? kept->advice() : "";
+        out.reset();
+        say_interrupted("interrupted in what could not be left in time; no report is written" +
+                        advice);
+    });
+    const StudyResult result =
+        run_shown(scene, options.quiet, options.jobs, kept ? kept->finished() : nullptr);
+    end_requests.settle();
+    // Files first: what standard output goes to may be gone.
+    if (out) {
+        kept->write();
+        if (const std::string left_out = out->write(reported(result)); !left_out.empty())
+            say(left_out);
+        if (!kept->failure().empty())
+            say(kept->failure() + "; the runs behind it are not kept");
+        if (!result.interrupted())
+            kept->end();
+    }
+    if (json.wanted() && !json.standard_output())
+        json.write(json_report(result));
+    if (csv.wanted() && !csv.standard_output())
+        csv.write(csv_report(result));
+    if (json.standard_output())
+        json.write(json_report(result));
+    else if (csv.standard_output())
+        csv.write(csv_report(result));
+    else if (!options.quiet)
+        write_standard_output(text_document(result_document(result)));
+    if (const std::string trouble = trouble_of(result, kept); !trouble.empty()) {
+        say(trouble);
+        return run_failed;
+    }
+    return done;
+}
+
+} // namespace
+
+Command add_run(CLI::App& app) {
+    auto* run =
+        app.add_subcommand("run", "Run the studies of a scene and print its table.\n"
+                                  "Example: tvbeam run table1 --set beam.alpha=0 --csv table1.csv");
+    const auto options = std::make_shared<RunOptions>();
+    run->add_option("scene", options->scene, "a shipped scene, or a file")->required();
+    add_overrides(*run, options->overrides,
+                  "override a key: --set beam.alpha=1e3 (again and again)");
+    add_file(*run, "--json", options->json,
+             "write the result as JSON; -: to standard output, in place of the table");
+    add_file(*run, "--csv", options->csv,
+             "write the first of these that the scene has as CSV: ladder, grid of [orders], timed "
+             "rows, evolution, stress cases; -: to standard output, in place of the table. --out "
+             "writes them all");
+    add_directory(*run, options->out,
+                  "write to a directory what the scene's [report] block asks for; without one, "
+                  "JSON, CSV, Markdown, LaTeX, plots and a page of HTML");
+    run->add_flag("--resume", options->resume,
+                  "go on with an attempt that was cut short, whose finished runs are in the "
+                  "directory of --out")
+        ->needs("--out");
+    run->add_flag("--quiet", options->quiet, "no table, and no progress line");
+    add_really_long(*run, options->really_long);
+    add_jobs(*run, options->jobs);
+    return {run, [options] {
+                require_apart("--json", options->json, "--csv", options->csv);
+                return run_command(*options);
+            }};
+}
+
+} // namespace tvbeam

@@ -1,0 +1,29 @@
+#include "reports/command_line/commands/shown_run.hpp"
+
+#include "reports/command_line/commands/said.hpp"
+#include "reports/command_line/progress_line.hpp"
+#include "studies/predicted_work.hpp"
+
+namespace tvbeam {
+
+namespace {
+
+/// From here on a prediction is said: seconds.
+constexpr double worth_saying = 60.0;
+
+} // namespace
+
+void predict(const Scene& scene, bool quiet, bool really_long) {
+    const PredictedWork predicted = predicted_work(scene);
+    if (!really_long)
+        require_short_enough(scene, predicted);
+    if (!quiet && predicted.seconds > worth_saying)
+        say(scene.name + " asks for " + predicted.text());
+}
+
+StudyResult run_shown(const Scene& scene, bool quiet, int jobs, FinishedRuns* finished) {
+    ProgressLine progress(!quiet);
+    return run_study(scene, {.jobs = jobs, .progress = &progress, .finished = finished});
+}
+
+} // namespace tvbeam

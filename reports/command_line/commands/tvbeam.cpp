@@ -1,0 +1,102 @@
+// The command line. Exit: 0 done, 1 an expectation failed, 2 bad input or usage, 3 a run failed.
+
+#include "mms/text/input_error.hpp"
+#include "mms/text/nearest_name.hpp"
+#include "reports/command_line/commands/command.hpp"
+#include "reports/command_line/commands/said.hpp"
+
+#include <algorithm>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <new>
+#include <string>
+#include <vector>
+
+namespace {
+
+using namespace tvbeam;
+
+std::vector<std::string> names_of_commands(const CLI::App& app) {
+    const auto all = app.get_subcommands([](const CLI::App*) { return true; });
+    std::vector<std::string> commands;
+    commands.reserve(all.size());
+    for (const auto* command : all)
+        commands.push_back(command->get_name());
+    return commands;
+}
+
+int command_line(int argc, char** argv) {
+    CLI::App app(
+        "Verification and convergence studies for a thermoviscoelastic beam between two stops.\n"
+        "Exit: 0 done, 1 an expectation failed, 2 bad input or usage, 3 a run failed.");
+    app.name("tvbeam");
+    app.set_version_flag("--version", "tvbeam " TVBEAM_VERSION);
+    app.require_subcommand(1);
+    const std::vector<Command> commands{add_run(app),       add_check(app), add_analyse(app),
+                                        add_derive(app),    add_new(app),   add_list(app),
+                                        add_completion(app)};
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        const auto words = app.remaining();
+        if (app.get_subcommands().empty() && !words.empty() && !words[0].starts_with('-'))
+            throw InputError({"'" + words[0] + "'"},
+                             "is not a command" + did_you_mean(words[0], names_of_commands(app)) +
+                                 "; tvbeam --help lists them");
+        return app.exit(error) == 0 ? done : bad_input;
+    }
+    const auto called = std::find_if(commands.begin(), commands.end(),
+                                     [](const Command& one) { return one.app->parsed(); });
+    return called->call();
+}
+
+/// Words take memory, too.
+void say_no_memory() {
+    std::fputs("tvbeam: there is not enough memory\n", stderr);
+}
+
+/// Libraries run out of memory also where they say that they throw nothing. Those of C++ then do
+/// not tell what was thrown.
+[[noreturn]] void terminate_said() {
+    try {
+        if (const auto exception = std::current_exception())
+            std::rethrow_exception(exception);
+        std::fputs("tvbeam: cannot go on; is there enough memory?\n", stderr);
+        std::_Exit(run_failed);
+    } catch (const std::bad_alloc&) {
+        say_no_memory();
+        std::_Exit(run_failed);
+    } catch (...) {
+        std::abort();
+    }
+}
+
+int reported_command_line(int argc, char** argv) {
+    try {
+        return command_line(argc, argv);
+    } catch (const std::bad_alloc&) {
+        throw;
+    } catch (const InputError& error) {
+        say(error.what());
+        return bad_input;
+    } catch (const std::exception& error) {
+        say(error.what());
+        return run_failed;
+    }
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+    // A closed pipe then fails the write, which is reported like any other.
+    std::signal(SIGPIPE, SIG_IGN);
+    std::set_terminate(&terminate_said);
+    try {
+        return reported_command_line(argc, argv);
+    } catch (const std::bad_alloc&) {
+        say_no_memory();
+        return run_failed;
+    }
+}
