@@ -1,10 +1,13 @@
 #include "studies/study.hpp"
 
+#include "core/low_rank/separated.hpp"
 #include "core/run.hpp"
 #include "studies/external/external_runs.hpp"
 #include "studies/phase_remarks.hpp"
 #include "studies/runs/beam_runs.hpp"
 #include "studies/runs/defects.hpp"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <memory>
@@ -86,6 +89,33 @@ std::vector<Algorithm> algorithms_of(const Scene& scene) {
     return algorithms;
 }
 
+/// The problem with what all runs share: how finely it is to be cut, and products in place of what
+/// does not separate.
+ProblemData prepared(const Scene& scene, const ProblemData& data, StudyResult& result) {
+    ProblemData problem = data;
+    if (!scene.poses_problem())
+        return problem;
+    const auto norms = norms_of(scene.measures());
+    problem.resolution = std::make_shared<const Resolution>(
+        resolution_of(data, algorithms_of(scene), norms, scene.longest_time()));
+    SeparatedProblem products = separated(problem, norms, scene.longest_time());
+    result.separation = {products.rank, products.residual, products.reason};
+    return std::move(products.data);
+}
+
+std::string remark_on(const SeparationResult& separation) {
+    if (separation.rank > 0)
+        return fmt::format(
+            "What does not separate into products of a function of t and one of x was replaced by "
+            "{} such products, which differ from it by {:.1e} of its greatest value.",
+            separation.rank, separation.residual);
+    return separation.reason.empty()
+               ? ""
+               : "What does not separate into products of a function of t and one of x is "
+                 "evaluated at every point in every step, which takes long: " +
+                     separation.reason + ".";
+}
+
 void run_studies(const StudyContext& context, StudyResult& result) {
     const Scene& scene = context.scene;
     for (const auto* entry : in_running_order(scene, context.method))
@@ -121,10 +151,7 @@ StudyResult run_study(const Scene& scene, const ProblemData& data, const Defects
     execution.expect(work_of(scene));
     StudyResult result{.scene = scene, .law_distance = data.exact ? data.exact->law_distance : 0.0};
     const Method own = scene.method();
-    ProblemData resolved = data;
-    if (scene.poses_problem())
-        resolved.resolution = std::make_shared<const Resolution>(resolution_of(
-            data, algorithms_of(scene), norms_of(scene.measures()), scene.longest_time()));
+    const ProblemData resolved = prepared(scene, data, result);
     // What errors are measured against; others look at times that a reference does not know.
     ProblemData measured = resolved;
     if (scene.reference && !scene.measures().empty())
@@ -134,6 +161,8 @@ StudyResult run_study(const Scene& scene, const ProblemData& data, const Defects
         const ProblemData posed = defects.added_to(measured, scene.series().front().rungs.front());
         result.left_out = left_out({scene, posed, solver, own, execution, defects});
         result.remarks = phase_remarks(scene, data);
+        if (const std::string remark = remark_on(result.separation); !remark.empty())
+            result.remarks.push_back(remark);
         if (data.exact && data.exact->tip_is_sampled)
             result.remarks.emplace_back(
                 "That the exact solution's tip stays between the stops was seen at sampled times, "

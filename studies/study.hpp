@@ -16,6 +16,14 @@ struct MeasuredRuns {
     const std::vector<RungResult>* results;
 };
 
+/// What became of sources and exact fields that do not separate (core/low_rank/separated.hpp).
+struct SeparationResult {
+    Eigen::Index rank = 0; ///< products that stand for them; 0: none do
+    double residual = 0.0; ///< over the greatest value
+    std::string
+        reason; ///< why they are evaluated at every point in every step; empty: they are not
+};
+
 /// Everything that running a scene gave: one record for each study whose block the scene has.
 struct StudyResult {
     Scene scene;
@@ -23,6 +31,7 @@ struct StudyResult {
     std::vector<std::string> remarks = {};         ///< on all studies, in sentences
     double law_distance = 0.0;                     ///< ExactSolution::law_distance
     std::optional<ReferenceResult> reference = {}; ///< if errors are measured against one
+    SeparationResult separation = {};
     ByKind records = {};
 
     /// The record of a study, e.g. get<LadderResult>(); null where there is none.

@@ -188,7 +188,8 @@ Eigen::MatrixXd of_pairs(const std::vector<Column>& columns, const Entry& entry)
 
 ModeArrays::ModeArrays(Eigen::Index modes, Eigen::Index arrays) {
     const Eigen::Index group = packs_in_group * Pack::size;
-    stride_ = (modes + group - 1) / group * packs_in_group;
+    groups_ = (modes + group - 1) / group;
+    stride_ = (groups_ + (groups_ + 1) % 2) * packs_in_group;
     packs_.resize(static_cast<std::size_t>(stride_ * arrays));
 }
 

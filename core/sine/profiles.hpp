@@ -12,7 +12,9 @@
 
 namespace tvbeam {
 
-/// Arrays of modes, padded with zeros to whole groups of packs.
+/// Arrays of modes, padded with zeros to whole groups of packs. Between them stands an odd number
+/// of groups: the same group of up to sixteen arrays then has places of its own in the cache, which
+/// a power of two would not give it.
 class ModeArrays {
 public:
     ModeArrays() = default;
@@ -24,10 +26,11 @@ public:
     [[nodiscard]] const Pack* data() const { return packs_.data(); }
     Pack* data() { return packs_.data(); }
     [[nodiscard]] Eigen::Index stride() const { return stride_; } ///< in packs
-    [[nodiscard]] Eigen::Index groups() const { return stride_ / packs_in_group; }
+    [[nodiscard]] Eigen::Index groups() const { return groups_; }
     [[nodiscard]] std::int64_t size() const; ///< doubles
 
 private:
+    Eigen::Index groups_ = 0;
     Eigen::Index stride_ = 0;
     std::vector<Pack> packs_;
 };

@@ -52,6 +52,11 @@ std::string json_report(const StudyResult& result) {
                  {"interrupted", result.interrupted()}});
     if (result.law_distance > 0.0)
         json["law_distance"] = result.law_distance;
+    if (result.separation.rank > 0)
+        json["separation"] = {{"rank", result.separation.rank},
+                              {"residual", result.separation.residual}};
+    else if (!result.separation.reason.empty())
+        json["separation"] = {{"rank", nullptr}, {"status", result.separation.reason}};
     if (result.reference)
         json["reference"] = json_of(*result.reference, *result.scene.reference);
     for (const auto* report : reports_of(result))

@@ -1,5 +1,6 @@
 #include "tests/bench/cases.hpp"
 
+#include "core/low_rank/separated.hpp"
 #include "tests/bench/process.hpp"
 #include "tests/bench/thomas.hpp"
 
@@ -30,6 +31,24 @@ Case runs(std::string name, const Setting& setting, const std::vector<March>& ma
         state.counters[doubles_counter] = static_cast<double>(doubles);
     };
     return {std::move(name), body};
+}
+
+/// A study of one run, from the problem on: how finely it is cut, its products, the run.
+Case study(const std::string& what, const Setting& setting, const March& march) {
+    const auto body = [setting, march](benchmark::State& state) {
+        const RunRequest wanted = request(setting, march);
+        for ([[maybe_unused]] const auto iteration : state) {
+            ProblemData problem = *setting.data;
+            problem.resolution = std::make_shared<const Resolution>(resolution_of(
+                problem, {setting.scheme.algorithm}, setting.norms, wanted.final_time));
+            RunResult result =
+                run(wanted, separated(problem, setting.norms, wanted.final_time).data);
+            if (result.status != RunStatus::ok)
+                return state.SkipWithError(result.reason.c_str());
+            benchmark::DoNotOptimize(result);
+        }
+    };
+    return {named(what, march), body};
 }
 
 Case single(const std::string& what, const Setting& setting, const March& march) {
@@ -118,6 +137,18 @@ void add_variants(std::vector<Case>& all, const March& march) {
     }
 }
 
+/// Each in both bases, and beside them the paper's problem, which separates.
+void add_low_rank(std::vector<Case>& all, const std::vector<March>& marches) {
+    for (const auto& march : marches) {
+        all.push_back(study("separable", full(), march));
+        all.push_back(study("nodal separable", in_nodal_basis(full()), march));
+        for (const auto& [what, setting] : of_low_rank()) {
+            all.push_back(study(what, setting, march));
+            all.push_back(study("nodal " + what, in_nodal_basis(setting), march));
+        }
+    }
+}
+
 void add_second_order(std::vector<Case>& all, const March& euler,
                       const std::vector<std::int64_t>& steps) {
     all.push_back(single("no norms", without_norms(), euler));
@@ -136,6 +167,7 @@ Extent full_extent() {
         .nodal_sizes = {{100, 12800}, {1000, 3200}, {10000, 640}, {100000, 128}, {1000000, 64}},
         .fixed_point = {{10, 2000}, {20, 4000}, {40, 8000}, {80, 16000}, {160, 32000}},
         .compared = {160, 4000},
+        .low_rank = {{160, 4000}, {1000, 4000}},
         .fine_euler = {160, 32000},
         .second_order_steps = {80, 160, 320},
         .repetitions = 7,
@@ -148,6 +180,7 @@ Extent short_extent() {
             .nodal_sizes = {{100, 64}, {1000, 64}},
             .fixed_point = {{10, 200}},
             .compared = {20, 100},
+            .low_rank = {{20, 100}},
             .fine_euler = {20, 400},
             .second_order_steps = {20},
             .repetitions = 1,
@@ -165,6 +198,7 @@ std::vector<Case> cases(const Extent& extent) {
     add_sizes(all, "nodal", in_nodal_basis(full()), extent.nodal_sizes);
     add_fixed_point(all, extent.fixed_point);
     add_variants(all, extent.compared);
+    add_low_rank(all, extent.low_rank);
     add_second_order(all, extent.fine_euler, extent.second_order_steps);
     return all;
 }

@@ -17,6 +17,7 @@ struct Extent {
     std::vector<March> nodal_sizes;
     std::vector<March> fixed_point; ///< each against the direct algorithm
     March compared;                 ///< for schemes and sources against each other
+    std::vector<March> low_rank;    ///< for sources that do not separate
     March fine_euler;               ///< against few steps of second order on the same mesh
     std::vector<std::int64_t> second_order_steps;
     int repetitions;

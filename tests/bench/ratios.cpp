@@ -1,5 +1,7 @@
 #include "tests/bench/ratios.hpp"
 
+#include "tests/bench/settings.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -110,6 +112,22 @@ Section variants(const March& march) {
         }};
 }
 
+Section low_rank(const std::vector<March>& marches) {
+    Section section{"Sources that do not separate, by products, over Table 1's, set-up included",
+                    {}};
+    for (const auto& march : marches)
+        for (const auto& [what, setting] : of_low_rank())
+            for (const std::string basis : {"", "nodal "})
+                section.ratios.push_back({fmt::format("{}{}, s = {}, {} steps", basis, what,
+                                                      march.elements, march.steps),
+                                          {named(basis + what, march)},
+                                          {named(basis + "separable", march)},
+                                          at_most(!basis.empty()          ? 2.5
+                                                  : march.elements < 1000 ? 10.0
+                                                                          : 5.0)});
+    return section;
+}
+
 Section second_order(const March& euler, const std::vector<std::int64_t>& steps) {
     Section section{fmt::format("No norms, s = {}", euler.elements), {}};
     for (const std::int64_t n : steps)
@@ -194,6 +212,7 @@ std::vector<Section> sections(const Extent& extent) {
             sizes("nodal", extent.nodal_sizes),
             fixed_point(extent.fixed_point),
             variants(extent.compared),
+            low_rank(extent.low_rank),
             second_order(extent.fine_euler, extent.second_order_steps)};
 }
 

@@ -1,8 +1,11 @@
 #include "tests/bench/settings.hpp"
 
+#include "core/low_rank/separated.hpp"
 #include "mms/manufactured_problem.hpp"
 #include "studies/scene/shipped.hpp"
 #include "tests/marching.hpp"
+
+#include <fmt/format.h>
 
 #include <utility>
 
@@ -57,6 +60,26 @@ Setting with_general_sources() {
         *field = unseparated(*field, *setting.data);
     setting.data = std::make_shared<const ProblemData>(std::move(data));
     return setting;
+}
+
+std::vector<std::pair<std::string, Setting>> of_low_rank() {
+    const std::pair<std::string, std::string> formulas[] = {
+        {"x*(1-x)*exp(-x*t)", "x^2*(1-x)^2*exp(-x*t)/10"},
+        {"x*(1-x)/(1+x+t)", "x^2*cos(x*t)/30"},
+        {"sin(pi*x)*exp(-(x-t)^2)", "x^2*sin(2*x+t)/40"},
+        {"sin(pi*x*(1+t*(1-x)))", "x^2*sin(x*t)/20"},
+    };
+    std::vector<std::pair<std::string, Setting>> all;
+    for (const auto& [theta, u] : formulas) {
+        const std::string text =
+            fmt::format("name = \"low-rank\"\ntheta = \"{}\"\nu = \"{}\"\n", theta, u);
+        Setting setting = full();
+        setting.data = std::make_shared<const ProblemData>(
+            manufactured_problem(parse_solution(text, "low-rank"), setting.beam, final_time));
+        const auto rank = separated(*setting.data, setting.norms, final_time).rank;
+        all.emplace_back(fmt::format("solution {}, {} products", all.size() + 1, rank), setting);
+    }
+    return all;
 }
 
 Setting by_fixed_point() {

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace tvbeam::bench {
@@ -34,6 +35,10 @@ Setting without_stops();    ///< the same data, and nothing that holds the tip
 Setting without_norms();
 Setting with_general_sources(); ///< their separation hidden, as if there were none
 Setting by_fixed_point();       ///< the paper's algorithm
+
+/// Solutions on the beam of Table 1 whose sources do not separate, by the number of products that
+/// stand for them (core/low_rank/separated.hpp), which the names have.
+std::vector<std::pair<std::string, Setting>> of_low_rank();
 
 Setting in_nodal_basis(Setting setting);
 Setting with_time(Setting setting, const std::string& name);

@@ -1,0 +1,65 @@
+#include "core/low_rank/chebyshev.hpp"
+
+#include <cmath>
+#include <numbers>
+
+namespace tvbeam {
+
+namespace {
+
+/// cos(k (2j + 1) π/2n), the argument reduced to one period first.
+double cosine(Eigen::Index k, Eigen::Index j, Eigen::Index n) {
+    const Eigen::Index reduced = k * (2 * j + 1) % (4 * n);
+    return std::cos(static_cast<double>(reduced) * std::numbers::pi / static_cast<double>(2 * n));
+}
+
+} // namespace
+
+Eigen::ArrayXd chebyshev_points(Eigen::Index n) {
+    Eigen::ArrayXd points(n);
+    for (Eigen::Index j = 0; j < n; ++j)
+        points(j) = cosine(1, j, n);
+    return points;
+}
+
+Eigen::MatrixXd chebyshev_transform(Eigen::Index n) {
+    Eigen::MatrixXd transform(n, n);
+    for (Eigen::Index k = 0; k < n; ++k)
+        for (Eigen::Index j = 0; j < n; ++j)
+            transform(k, j) = (k == 0 ? 1.0 : 2.0) / static_cast<double>(n) * cosine(k, j, n);
+    return transform;
+}
+
+Eigen::MatrixXd chebyshev_values(Eigen::Index n, const Eigen::ArrayXd& y) {
+    // A column for each k: the recurrence runs over whole arrays.
+    Eigen::MatrixXd values(y.size(), n);
+    for (Eigen::Index k = 0; k < n; ++k) {
+        if (k == 0)
+            values.col(k).setOnes();
+        else if (k == 1)
+            values.col(k) = y.matrix();
+        else
+            values.col(k) =
+                (2.0 * y * values.col(k - 1).array() - values.col(k - 2).array()).matrix();
+    }
+    return values.transpose();
+}
+
+Eigen::ArrayXd chebyshev_sum(const Eigen::VectorXd& coefficients, const Eigen::ArrayXd& y) {
+    constexpr Eigen::Index block = 256; // stays in cache
+    Eigen::ArrayXd sum(y.size());
+    for (Eigen::Index first = 0; first < y.size(); first += block) {
+        const Eigen::Index count = std::min(block, y.size() - first);
+        const Eigen::ArrayXd at = y.segment(first, count);
+        Eigen::ArrayXd b1 = Eigen::ArrayXd::Zero(count);
+        Eigen::ArrayXd b2 = b1;
+        for (Eigen::Index k = coefficients.size() - 1; k > 0; --k) {
+            b2 = 2.0 * at * b1 - b2 + coefficients(k);
+            b1.swap(b2);
+        }
+        sum.segment(first, count) = at * b1 - b2 + coefficients(0);
+    }
+    return sum;
+}
+
+} // namespace tvbeam
