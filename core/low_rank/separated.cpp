@@ -100,7 +100,7 @@ MatrixXd basis_of(const Expansion& expansion) {
     Eigen::ColPivHouseholderQR<MatrixXd> qr(columns);
     const auto diagonal = qr.matrixQR().diagonal().cwiseAbs();
     Index rank = 0;
-    while (rank < diagonal.size() && diagonal(rank) > 4.0 * epsilon)
+    while (rank < diagonal.size() && diagonal(rank) > 16.0 * epsilon)
         ++rank;
     return qr.householderQ() * MatrixXd::Identity(columns.rows(), rank);
 }
