@@ -76,6 +76,16 @@ BOOST_AUTO_TEST_CASE(a_limit_is_no_better_known_than_its_values_scatter) {
     }
 }
 
+// The steps 0.001 and 0.002 grow, so that the values run apart; where each value is only known to
+// 0.01, a difference of two has the deviation 0.014, of which neither step is three times.
+BOOST_AUTO_TEST_CASE(values_that_differ_by_less_than_their_scatter_do_not_run_apart) {
+    std::vector<ValueRow> rows{{4, 1.000}, {2, 1.001}, {1, 1.003}};
+    BOOST_TEST(estimate_limit(rows).limit.status == "the values run apart");
+    for (auto& row : rows)
+        row.sigma = 0.01;
+    BOOST_TEST(estimate_limit(rows).limit.status != "the values run apart");
+}
+
 // Celik et al. (2008), Table 1: orders 1.53, 0.75 and, oscillating, 1.51; cells of a plane, so that
 // h is N^-1/2.
 BOOST_AUTO_TEST_CASE(the_orders_of_celik_are_those_of_his_table) {
