@@ -4,6 +4,7 @@
 #include "studies/ladder/refining.hpp"
 #include "mms/text/input_error.hpp"
 #include "studies/ladder/ladder.hpp"
+#include "studies/predicted_work.hpp"
 #include "studies/scene/scene.hpp"
 #include "tests/temporary_directory.hpp"
 
@@ -255,6 +256,196 @@ BOOST_AUTO_TEST_CASE(of_fifty_solvers_what_is_known_holds_and_costs_little_more_
     BOOST_TEST(found.held >= 0.95 * found.known, found);
     BOOST_TEST(found.dearest <= 1.5, found);
     BOOST_TEST(found.knowable == 0, found);
+}
+
+namespace {
+
+const std::string solver = "[solver]\ncommand = [\"true\"]\nerrors = { L2 = 'L2 = (\\S+)' }\n"
+                           "timeout = 10\n";
+
+Scene scene_of(const std::string& ladder, const Reading& reading = {}) {
+    const TemporaryDirectory directory;
+    return read_scene(
+        directory.write("scene.toml", solver + "[ladder]\nnorms = [\"L2\"]\n" + ladder), {},
+        reading);
+}
+
+/// The elements of the levels, those that are added and so many in all.
+Elements levels_of(const std::string& ladder, std::size_t count) {
+    const Scene scene = scene_of(ladder + "\nuntil = { order = 0.05, levels = 12 }\n");
+    const auto& block = *scene.get<LadderBlock>();
+    auto rungs = block.rungs;
+    while (rungs.size() < count)
+        rungs.push_back(*block.next(rungs));
+    Elements elements;
+    for (const auto& rung : rungs)
+        elements.push_back(rung.elements);
+    return elements;
+}
+
+/// An error of exact order two.
+RungResult second_order(const RunTask& task) {
+    const double h = task.rung.h();
+    return {.rung = task.rung, .seconds = 1.0, .errors = {h * h}};
+}
+
+} // namespace
+
+BOOST_AUTO_TEST_CASE(levels_are_added_by_the_ladder_s_own_ratio_but_at_least_root_two) {
+    BOOST_TEST(levels_of("elements = [10, 20, 40]", 6) == (Elements{10, 20, 40, 80, 160, 320}),
+               boost::test_tools::per_element());
+    BOOST_TEST(levels_of("elements = [8, 12, 18]", 5) == (Elements{8, 12, 18, 27, 41}),
+               boost::test_tools::per_element());
+    // 5/4 is too little: 4, 5, 5 √2, 10, 10 √2.
+    BOOST_TEST(levels_of("elements = [4, 5]", 6) == (Elements{4, 5, 7, 10, 14, 20}),
+               boost::test_tools::per_element());
+}
+
+BOOST_AUTO_TEST_CASE(the_path_through_h_and_dt_goes_on) {
+    // dt falls as h²: with h by √2, which is the least, by 2.
+    const Scene scene = scene_of("elements = [10, 12]\nfinal_time = 14.4\ndt = [0.144, 0.1]\n"
+                                 "until = { order = 0.05, levels = 12 }\n");
+    const auto& block = *scene.get<LadderBlock>();
+    const Rung next = *block.next(block.rungs);
+    BOOST_TEST(next.elements == 17);
+    BOOST_TEST(next.dt == 0.05, boost::test_tools::tolerance(1e-6));
+    BOOST_TEST(next.steps == 288);
+    // A step that is given by s is that of the level.
+    const Scene formula = scene_of("elements = [10, 20]\ndt = \"1/s\"\n"
+                                   "until = { order = 0.05, levels = 12 }\n");
+    const auto& by_formula = *formula.get<LadderBlock>();
+    BOOST_TEST(by_formula.next(by_formula.rungs)->dt == 1.0 / 40);
+    // Without a mesh the steps are what is refined.
+    const Scene steps = scene_of("dt = [0.4, 0.2]\nuntil = { order = 0.05, levels = 12 }\n");
+    const auto& by_steps = *steps.get<LadderBlock>();
+    BOOST_TEST(by_steps.next(by_steps.rungs)->dt == 0.1);
+}
+
+// Two levels would show an order of a power, and three a narrow interval of it.
+BOOST_AUTO_TEST_CASE(nothing_is_known_of_fewer_than_four_levels) {
+    const Scene scene = scene_of("elements = [10, 20]\nuntil = { order = 0.05, levels = 12 }\n");
+    const LadderResult ladder = make_runs(*scene.get<LadderBlock>(), {}, second_order, {});
+    BOOST_TEST(ladder.rungs.size() == 4U);
+    BOOST_TEST(name_of(ladder.refined->end) == "known");
+    BOOST_TEST(ladder.refined->open.empty());
+}
+
+BOOST_AUTO_TEST_CASE(an_interval_that_the_one_before_does_not_hold_is_not_known) {
+    // Order one up to 1/16, then as if four, which the last of them alone would be narrow about.
+    Until until;
+    until.order = 10.0;
+    std::vector<RungResult> runs;
+    double error = 1.0;
+    for (const std::int64_t s : {2, 4, 8, 16, 32})
+        runs.push_back({.rung = {s, 0, 0.0}, .errors = {error *= 0.5}});
+    BOOST_TEST(not_known(until, series, runs).empty());
+    runs.back().errors[0] = runs[3].errors[0] / 16;
+    const auto order = order_of(runs);
+    const auto before = order_of({runs.begin(), runs.end() - 1});
+    BOOST_TEST((order.value < before.low || order.value > before.high));
+    BOOST_TEST(not_known(until, series, runs) == std::vector<std::string>{"L2"},
+               boost::test_tools::per_element());
+}
+
+BOOST_AUTO_TEST_CASE(why_it_ended_and_what_is_not_known_is_said) {
+    const auto noisy = [](const RunTask& task) {
+        RungResult result = second_order(task);
+        result.errors[0] *= task.level % 2 == 0 ? 1.3 : 1.0;
+        return result;
+    };
+    const auto refined = [&](const std::string& until, const RunCall& run) {
+        const Scene scene =
+            scene_of("elements = [10, 20]\nuntil = { order = 0.02, " + until + " }");
+        return *make_runs(*scene.get<LadderBlock>(), {}, run, {}).refined;
+    };
+    const Refined levels = refined("levels = 5", noisy);
+    BOOST_TEST(name_of(levels.end) == "levels");
+    BOOST_TEST(levels.open == std::vector<std::string>{"L2"}, boost::test_tools::per_element());
+    // Of one second each, a sixth does not fit.
+    BOOST_TEST(name_of(refined("seconds = 5.5", noisy).end) == "seconds");
+    // Each twice as long as the one before: behind 1 + 2 + 4 a fourth of 8 does not fit into 14.
+    std::size_t made = 0;
+    const auto slower = [&](const RunTask& task) {
+        ++made;
+        RungResult result = noisy(task);
+        result.seconds = std::pow(2.0, task.level);
+        return result;
+    };
+    BOOST_TEST(name_of(refined("seconds = 14", slower).end) == "seconds");
+    BOOST_TEST(made == 3U);
+    const auto failing = [](const RunTask& task) {
+        RungResult result = second_order(task);
+        if (task.level == 2)
+            result.status = RungStatus::failed;
+        return result;
+    };
+    BOOST_TEST(name_of(refined("levels = 5", failing).end) == "run ended");
+}
+
+BOOST_AUTO_TEST_CASE(a_short_form_adds_no_levels_unless_it_says_so) {
+    const std::string ladder = "elements = [10, 20]\nuntil = { order = 0.05, levels = 12 }\n";
+    const auto levels = [&](const std::string& in_short) {
+        const Scene scene = scene_of(ladder + in_short, {.short_form = true});
+        return make_runs(*scene.get<LadderBlock>(), {}, second_order, {}).rungs.size();
+    };
+    BOOST_TEST(levels("[short.ladder]\nelements = [5, 10, 20]\n") == 3U);
+    BOOST_TEST(levels("[short.ladder]\nuntil = { order = 0.2 }\n") == 4U);
+    BOOST_TEST(levels("") == 4U); // no short form of the ladder
+    BOOST_TEST(make_runs(*scene_of(ladder + "[short.ladder]\nelements = [5]\n").get<LadderBlock>(),
+                         {}, second_order, {})
+                   .rungs.size() == 4U);
+}
+
+namespace {
+
+struct Refused {
+    std::string ladder;
+    std::string message;
+};
+
+std::ostream& operator<<(std::ostream& stream, const Refused& refused) {
+    return stream << refused.ladder;
+}
+
+const std::vector<Refused> refused_ladders{
+    {"elements = [4, 8]\nuntil = { order = 0.01, levels = 8 }\n",
+     "scene.toml:8:19: ladder.until.order is 0.01; no interval is that narrow: it must be > 0.01"},
+    {"elements = [4, 8]\nuntil = { order = 0.05, levels = 3 }\n",
+     "scene.toml:8:34: ladder.until.levels is 3; it must be >= 4"},
+    {"elements = [4, 8, 16, 32, 64]\nuntil = { order = 0.05, levels = 4 }\n",
+     "ladder.until.levels is 4; it must be >= 5"},
+    {"elements = [4]\nuntil = { order = 0.05, levels = 8 }\n",
+     "the last is no finer than the first"},
+    {"elements = [4, 8]\nuntil = { levels = 8 }\n", "says nothing of what is to be known"},
+    {"elements = [4, 8]\nuntil = { order = 0.05 }\n", "has no end"},
+};
+
+} // namespace
+
+BOOST_DATA_TEST_CASE(what_could_never_be_known_is_refused, data::make(refused_ladders)) {
+    BOOST_CHECK_EXCEPTION(scene_of(sample.ladder), InputError, [&](const InputError& error) {
+        BOOST_TEST(std::string(error.what()).find(sample.message) != std::string::npos,
+                   error.what());
+        return true;
+    });
+}
+
+BOOST_AUTO_TEST_CASE(what_is_added_bounds_the_predicted_work) {
+    // Two and up to two more, of at most ten seconds.
+    const std::string ladder = "elements = [4, 8]\nuntil = { order = 0.05, ";
+    BOOST_TEST(predicted_work(scene_of(ladder + "levels = 4 }")).at_most == 40.0);
+    // By its own clock: a last level may take as long as any.
+    BOOST_TEST(predicted_work(scene_of(ladder + "levels = 12, seconds = 15 }")).at_most == 45.0);
+    const Scene beam = read_scene("table1-until-known");
+    const PredictedWork predicted = predicted_work(beam);
+    // 5 … 640 elements, dt = 0.1/s²: 2 s²/0.1 steps each, elements times steps at 1e8 a second.
+    double steps = 0.0;
+    for (const double s : {5.0, 10.0, 20.0, 40.0, 80.0, 160.0, 320.0, 640.0})
+        steps += s * 20.0 * s * s;
+    BOOST_TEST(predicted.at_most == steps / 1e8, boost::test_tools::tolerance(1e-3));
+    BOOST_TEST(predicted.seconds < 0.1 * predicted.at_most);
+    BOOST_TEST(predicted.text().find("with the levels that ladder.until may add") !=
+               std::string::npos);
 }
 
 BOOST_AUTO_TEST_SUITE_END()
