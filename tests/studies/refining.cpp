@@ -330,21 +330,29 @@ BOOST_AUTO_TEST_CASE(nothing_is_known_of_fewer_than_four_levels) {
     BOOST_TEST(ladder.refined->open.empty());
 }
 
+// Of errors such an order is not determined anyway; of values there is a limit.
 BOOST_AUTO_TEST_CASE(an_interval_that_the_one_before_does_not_hold_is_not_known) {
-    // Order one up to 1/16, then as if four, which the last of them alone would be narrow about.
-    Until until;
-    until.order = 10.0;
-    std::vector<RungResult> runs;
-    double error = 1.0;
-    for (const std::int64_t s : {2, 4, 8, 16, 32})
-        runs.push_back({.rung = {s, 0, 0.0}, .errors = {error *= 0.5}});
-    BOOST_TEST(not_known(until, series, runs).empty());
-    runs.back().errors[0] = runs[3].errors[0] / 16;
-    const auto order = order_of(runs);
-    const auto before = order_of({runs.begin(), runs.end() - 1});
-    BOOST_TEST((order.value < before.low || order.value > before.high));
-    BOOST_TEST(not_known(until, series, runs) == std::vector<std::string>{"L2"},
-               boost::test_tools::per_element());
+    const Series of_values{"ladder", 0.0, {}, {{.name = "drag", .is_value = true}}, {}};
+    const auto limit_of = [&](const std::vector<RungResult>& runs) {
+        return analysis_of(of_values, runs).columns.front().limit->limit;
+    };
+    // 1 + h on five levels, the last of which is off to either side.
+    for (const double off : {0.0, -3e-3, 3e-3}) {
+        std::vector<RungResult> runs;
+        for (const std::int64_t s : {2, 4, 8, 16, 32})
+            runs.push_back({.rung = {s, 0, 0.0}, .errors = {1.0 + 1.0 / static_cast<double>(s)}});
+        runs.back().errors[0] += off;
+        const auto limit = limit_of(runs);
+        const auto before = limit_of({runs.begin(), runs.end() - 1});
+        BOOST_TEST(limit.determined);
+        const bool agrees = before.low <= limit.value && limit.value <= before.high;
+        BOOST_TEST(agrees == (off == 0.0), off);
+        Until until;
+        until.limit = 1.01 * limit.half_width();
+        BOOST_TEST(not_known(until, of_values, runs).empty() == agrees, off);
+        until.limit = 0.99 * limit.half_width(); // narrower than it is
+        BOOST_TEST(!not_known(until, of_values, runs).empty());
+    }
 }
 
 BOOST_AUTO_TEST_CASE(why_it_ended_and_what_is_not_known_is_said) {
