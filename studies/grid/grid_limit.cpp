@@ -7,6 +7,7 @@
 #include <functional>
 #include <iterator>
 #include <map>
+#include <ranges>
 #include <set>
 #include <utility>
 
@@ -46,8 +47,8 @@ private:
     static LimitEstimate along(const std::set<double>& widths,
                                const std::function<double(double)>& value) {
         std::vector<ValueRow> rows;
-        for (auto width = widths.rbegin(); width != widths.rend(); ++width)
-            rows.push_back({*width, value(*width)});
+        for (const double width : std::ranges::reverse_view(widths))
+            rows.push_back({width, value(width)});
         return estimate_limit(rows);
     }
 

@@ -10,8 +10,6 @@
 #include "studies/scene/scene.hpp"
 #include "tests/temporary_directory.hpp"
 
-#include <boost/test/data/monomorphic.hpp>
-#include <boost/test/data/test_case.hpp>
 #include <boost/test/unit_test.hpp>
 
 #include <array>
@@ -32,7 +30,6 @@
 #include <unistd.h>
 
 using namespace tvbeam;
-namespace data = boost::unit_test::data;
 namespace fs = std::filesystem;
 
 BOOST_AUTO_TEST_SUITE(external)
