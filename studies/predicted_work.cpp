@@ -1,6 +1,7 @@
 #include "studies/predicted_work.hpp"
 
 #include "studies/evolution/evolution_block.hpp"
+#include "studies/ladder/ladder_block.hpp"
 #include "studies/runs/beam_runs.hpp"
 #include "studies/sensitivity/sensitivity.hpp"
 #include "studies/stress/stress_block.hpp"
@@ -10,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace tvbeam {
 
@@ -55,12 +57,46 @@ std::string time_text(double seconds) {
                          : fmt::format("{:.2g} years", seconds / (365.25 * 24.0 * 3600.0));
 }
 
+/// The levels that `until` may add to a ladder.
+std::vector<Rung> added_levels(const LadderBlock& ladder) {
+    std::vector<Rung> rungs = ladder.rungs;
+    const auto most = static_cast<std::size_t>(ladder.until->levels.value_or(most_levels));
+    while (ladder.until->adds_levels && rungs.size() < most)
+        if (const auto next = ladder.next(rungs))
+            rungs.push_back(*next);
+        else
+            break;
+    rungs.erase(rungs.begin(), rungs.begin() + static_cast<std::ptrdiff_t>(ladder.rungs.size()));
+    return rungs;
+}
+
+/// What the whole may take that is not predicted: levels that are added, programs.
+void bound(const Scene& scene, PredictedWork& predicted) {
+    const auto* ladder = scene.get<LadderBlock>();
+    const auto added =
+        ladder != nullptr && ladder->until ? added_levels(*ladder) : std::vector<Rung>();
+    const auto& solver = scene.solver;
+    if (solver ? !solver->timeout : added.empty())
+        return;
+    double seconds = 0.0;
+    for (const Rung& rung : added)
+        seconds += solver ? *solver->timeout
+                          : work_of(scene.method(), rung) / steps_a_second + seconds_a_run;
+    // The last that is added may take longer than was thought.
+    if (!added.empty() && ladder->until->seconds)
+        seconds = std::min(seconds, *ladder->until->seconds + (solver ? *solver->timeout : 0.0));
+    predicted.at_most = seconds + (solver ? predicted.runs * *solver->timeout : predicted.seconds);
+    predicted.bounded_by =
+        solver ? "by the time-out of each run" : "with the levels that ladder.until may add";
+}
+
 } // namespace
 
 std::string PredictedWork::text() const {
     return fmt::format(
-        "{:.2g} steps of elements in {:.6g} runs, about {} on one core and {:.0f} MB", steps, runs,
-        time_text(seconds), std::ceil(bytes / 1e6));
+               "{:.2g} steps of elements in {:.6g} runs, about {} on one core and {:.0f} MB", steps,
+               runs, time_text(seconds), std::ceil(bytes / 1e6)) +
+           (at_most > 0.0 ? fmt::format("; at most {} {}", time_text(at_most), bounded_by) : "");
 }
 
 PredictedWork predicted_work(const Scene& scene) {
@@ -88,6 +124,7 @@ PredictedWork predicted_work(const Scene& scene) {
         predicted.runs *= 1.0 + repetitions(*sensitivity);
     }
     predicted.seconds = predicted.steps / steps_a_second + predicted.runs * seconds_a_run;
+    bound(scene, predicted);
     return predicted;
 }
 

@@ -7,14 +7,21 @@
 namespace tvbeam {
 
 /// What the runs of a scene take, before any of them is made. Within a factor of ten: processors
-/// differ, contact and norms cost more than steps without them. Of a [solver] only the runs count.
+/// differ, contact and norms cost more than steps without them. Of a [solver] only the runs count,
+/// and its time-out is a bound.
 struct PredictedWork {
     double runs = 0.0;    ///< single ones, of all studies
     double steps = 0.0;   ///< elements times time steps (work_of)
     double seconds = 0.0; ///< on one core: 1e8 of those a second, and 0.2 ms a run
     double bytes = 0.0; ///< 1 kB a run, 400 a node of the largest mesh, and what an evolution keeps
 
-    /// "3.1e+09 steps of elements in 12 runs, about 31 s on one core and 40 MB".
+    /// At most, with the levels that `until` may add within its budget, or with as many seconds a
+    /// run as [solver] allows. 0: there is neither.
+    double at_most = 0.0;
+    std::string bounded_by = {}; ///< what that rests on, in words
+
+    /// "3.1e+09 steps of elements in 12 runs, about 31 s on one core and 40 MB; at most 2 min with
+    /// the levels that ladder.until may add".
     [[nodiscard]] std::string text() const;
 };
 

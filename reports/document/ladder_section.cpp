@@ -3,9 +3,11 @@
 #include "studies/text/number_text.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cctype>
 #include <functional>
+#include <utility>
 
 namespace tvbeam {
 
@@ -75,21 +77,36 @@ std::string what_is_shown(const LadderBlock& block) {
     return block.final_time > 0.0 ? what + " up to T = " + shortest(block.final_time) : what;
 }
 
+/// "order to ± 0.05 and limit to ± 2e-3".
+std::string wanted_text(const Until& until) {
+    std::string text;
+    for (const auto& [what, half] : {std::pair("order", until.order), {"limit", until.limit}})
+        if (half)
+            text += fmt::format("{}{} to ± {}", text.empty() ? "" : " and ", what, shortest(*half));
+    return text;
+}
+
 /// Why a ladder was refined no further.
-std::string ending_text(RefiningEnd end, const LadderBlock& block, std::size_t levels) {
-    std::string text = fmt::format("Refined to {} levels: ", levels);
-    switch (end) {
+std::string ending_text(const Refined& refined, const LadderBlock& block, std::size_t levels) {
+    const Until& until = *block.until;
+    const std::string text = fmt::format("Refined to {} levels: ", levels);
+    const std::string open =
+        fmt::format("not known ({}): {}.", wanted_text(until), fmt::join(refined.open, ", "));
+    switch (refined.end) {
     case RefiningEnd::known:
-        return text + "what was to be known is, as closely as the scene asks.";
+        return text + "what was to be known is (" + wanted_text(until) + ").";
     case RefiningEnd::levels:
-        return text + "the budget of levels is spent, and not all is known that the scene asks.";
+        return text +
+               (until.adds_levels ? "the budget of levels is spent; "
+                                  : "the short form adds none; ") +
+               open;
     case RefiningEnd::seconds:
         return text +
-               fmt::format("another would not fit into the budget of {} s, and not all is known "
-                           "that the scene asks.",
-                           shortest(*block.until->seconds));
+               fmt::format("another would not fit into the budget of {} s; ",
+                           shortest(*until.seconds)) +
+               open;
     case RefiningEnd::finest:
-        return text + "no run may be finer, and not all is known that the scene asks.";
+        return text + "no run may be finer; " + open;
     default:
         return text + "a run did not end well.";
     }

@@ -4,6 +4,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
 namespace tvbeam {
 
 namespace {
@@ -11,6 +14,13 @@ namespace {
 std::string order_text(const OrderInterval& order) {
     return order.determined ? fixed(order.value, 3) + " ± " + fixed(order.half_width(), 3)
                             : "not determined";
+}
+
+/// So many that the interval shows two of its own.
+int digits_of(const OrderInterval& limit) {
+    constexpr double most = 17.0;
+    const double size = std::abs(limit.value) / limit.half_width();
+    return size > 1.0 ? static_cast<int>(std::min(std::ceil(std::log10(size)) + 2.0, most)) : 2;
 }
 
 /// The runs that a fit leaves out, a sentence a cause.
@@ -41,6 +51,20 @@ Finding finding(const std::string& norm, const TwoTermFit& fit) {
     return {fmt::format("{}: the error in space is {}; the error in time is {}.", norm,
                         order(fit.p), order(fit.q)),
             2, !fit.predicts()};
+}
+
+/// A value in both widths.
+Finding finding(const GridLimit& of) {
+    const std::string orders =
+        "; order in h " + order_text(of.p) + "; order in dt " + order_text(of.q) + ".";
+    if (!of.limit.determined)
+        return {of.value + ": no limit: " + of.limit.status + orders, 2, true};
+    const int digits = digits_of(of.limit);
+    return {fmt::format("{}: limit {:.{}g} ± {} (95 %) in h and dt; the finest value ± {}",
+                        of.value, of.limit.value, digits, scientific(of.limit.half_width(), 2),
+                        scientific(of.uncertainty, 2)) +
+                orders,
+            2};
 }
 
 } // namespace
@@ -95,16 +119,23 @@ Section orders_section(const OrdersResult& orders) {
         if (run.status != RungStatus::ok)
             notes.emplace_back(
                 Paragraph{fmt::format("{} failed: {}", run.rung.name(shortest), run.reason)});
-    Section section{"Orders in h and dt",
-                    {Paragraph{fmt::format("Orders from {} runs: e^2 = a^2 h^2p + 2 rho a b h^p "
-                                           "dt^q + b^2 dt^2q (±: 95 %)",
-                                           orders.runs.size())}}};
+    const std::string from = fmt::format("rom {} runs", orders.runs.size());
+    Section section{
+        "Orders in h and dt",
+        {Paragraph{orders.norms.empty() ? "Limits f" + from + "."
+                                        : "Orders f" + from +
+                                              ": e^2 = a^2 h^2p + 2 rho a b h^p dt^q + b^2 dt^2q "
+                                              "(±: 95 %)"}}};
     auto& blocks = section.blocks;
     if (!fits.empty()) {
         blocks.emplace_back(BlankLine{});
         blocks.emplace_back(fit_table(fits, orders.runs.size()));
         blocks.insert(blocks.end(), findings.begin(), findings.end());
     }
+    if (!orders.values.empty())
+        blocks.emplace_back(BlankLine{});
+    for (const auto& value : orders.values)
+        blocks.emplace_back(finding(value));
     if (const auto& constant = orders.corollary) {
         blocks.emplace_back(BlankLine{});
         blocks.emplace_back(Finding{

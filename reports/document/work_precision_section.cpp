@@ -54,17 +54,21 @@ std::vector<Table::Group> counter_groups(const SchemeRuns& scheme, const Method&
             return scheme.timings[i] ? std::to_string(counter(scheme.runs[i])) : std::string();
         });
     };
-    std::vector<Table::Group> groups{
-        {"", {count("steps", [](const RungResult& run) { return run.count("steps"); })}},
-        {"node-",
-         {column(scheme, "steps",
-                 [&](std::size_t i) {
-                     return scheme.timings[i]
-                                ? scientific(static_cast<double>(node_steps(scheme.runs[i].rung)),
-                                             1)
-                                : std::string();
-                 })}},
+    std::vector<Table::Group> groups;
+    const auto some = [&](const auto& counter) {
+        return std::any_of(scheme.runs.begin(), scheme.runs.end(),
+                           [&](const RungResult& run) { return counter(run) > 0; });
     };
+    const auto steps = [](const RungResult& run) { return run.count("steps"); };
+    if (some(steps)) // a program of another counts none
+        groups.push_back({"", {count("steps", steps)}});
+    if (some([](const RungResult& run) { return node_steps(run.rung); }))
+        groups.push_back(
+            {"node-", {column(scheme, "steps", [&](std::size_t i) {
+                 return scheme.timings[i]
+                            ? scientific(static_cast<double>(node_steps(scheme.runs[i].rung)), 1)
+                            : std::string();
+             })}});
     // An iteration is a solve of the heat equation too.
     if (!method.iterations.empty())
         groups.push_back({"", {count("iter.", [&](const RungResult& run) {
@@ -143,8 +147,7 @@ Finding comparison(const SchemeComparison& pair, const ReachedError& error,
                    const WorkPrecisionBlock& block) {
     const std::string& faster = block.schemes[pair.faster].name;
     const std::string& slower = block.schemes[pair.slower].name;
-    const bool once =
-        ran_once(error.times[pair.faster], block) || ran_once(error.times[pair.slower], block);
+    const bool once = error.times[pair.faster]->runs == 1 || error.times[pair.slower]->runs == 1;
     const std::string spread =
         once ? "(of one run)"
              : fmt::format("(quartiles {} … {})", ratio_text(pair.times.lowest),
@@ -193,12 +196,13 @@ std::vector<const ReachedError*> compared_errors(const NormCosts& costs) {
 } // namespace
 
 Section work_precision_section(const WorkPrecisionResult& result, const WorkPrecisionBlock& block) {
-    Section section{
-        "Work and precision",
-        {Paragraph{fmt::format(
-            "Work and precision up to T = {}; timed runs a row: {}, in turns, one at a time, "
-            "without error norms. µ: 1e-6, m: 1e-3; node-steps: elements times steps",
-            shortest(block.final_time), block.runs)}}};
+    const bool has_end = block.final_time > 0.0;
+    Section section{"Work and precision",
+                    {Paragraph{fmt::format(
+                        "Work and precision{}; timed runs a row: {}, in turns, one at a time, "
+                        "without error norms. µ: 1e-6, m: 1e-3{}",
+                        has_end ? " up to T = " + shortest(block.final_time) : "", block.runs,
+                        has_end ? "; node-steps: elements times steps" : "")}}};
     auto& blocks = section.blocks;
     const auto add = [&blocks](const std::vector<Block>& more) {
         blocks.emplace_back(BlankLine{});

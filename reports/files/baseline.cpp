@@ -3,6 +3,7 @@
 #include "mms/text/file_text.hpp"
 #include "mms/text/input_error.hpp"
 #include "reports/document/json_text.hpp"
+#include "studies/ladder/ladder_block.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -30,6 +31,14 @@ bool is_round_off(const std::string& figure) {
 }
 
 } // namespace
+
+void require_recordable(const Scene& scene) {
+    const auto* ladder = scene.get<LadderBlock>();
+    if (ladder != nullptr && ladder->until && ladder->until->seconds && ladder->until->adds_levels)
+        throw InputError({scene.file},
+                         "its ladder.until.seconds ends the ladder by the clock, so that the next "
+                         "run may have other levels than a baseline: give until levels alone");
+}
 
 BaselineEntry baseline_entry(const StudyResult& result) {
     std::map<std::string, double> errors;

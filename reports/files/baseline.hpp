@@ -19,6 +19,10 @@ struct BaselineEntry {
     std::map<std::string, double> figures;
 };
 BaselineEntry baseline_entry(const StudyResult& result);
+
+/// Throws InputError where the clock decides which runs a scene makes: no digits of another attempt
+/// can be held against it.
+void require_recordable(const Scene& scene);
 BaselineEntry baseline_entry(const DataAnalysis& analysis);
 
 /// Entries as JSON (schema tvbeam-baseline/1), to hold later runs against. Throws InputError where

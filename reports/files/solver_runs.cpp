@@ -46,6 +46,13 @@ void SolverRuns::read_line(std::size_t number, const std::string& line) {
 }
 
 std::optional<RungResult> SolverRuns::find(const Series& series, std::size_t index) {
+    auto result = kept(series, index);
+    const std::scoped_lock lock(mutex_);
+    used_ += result ? 1 : 0;
+    return result;
+}
+
+std::optional<RungResult> SolverRuns::kept(const Series& series, std::size_t index) const {
     const std::string identity = identities_.of(series, index);
     const std::scoped_lock lock(mutex_);
     const auto found = runs_.find(identity);
@@ -99,8 +106,15 @@ std::size_t SolverRuns::found() {
     if (!runs_.empty())
         for (const auto& series : scene_.series())
             for (std::size_t i = 0; i < series.rungs.size(); ++i)
-                count += find(series, i) ? 1 : 0;
+                count += kept(series, i) ? 1 : 0;
     return count;
+}
+
+std::string SolverRuns::remark() const {
+    const std::scoped_lock lock(mutex_);
+    return used_ == 0 ? ""
+                      : fmt::format("{} run{} found again in {}, and not made.", used_,
+                                    used_ == 1 ? " was" : "s were", file_.path().string());
 }
 
 void SolverRuns::write() {

@@ -30,6 +30,9 @@ public:
 
     /// How many of the scene's runs are there.
     [[nodiscard]] std::size_t found();
+    /// "3 runs were found again in FILE, and not made", of those that were asked for so far; empty:
+    /// none were.
+    [[nodiscard]] std::string remark() const;
     [[nodiscard]] bool holds_runs() const {
         const std::scoped_lock lock(mutex_);
         return !runs_.empty();
@@ -47,6 +50,7 @@ private:
         std::map<std::string, double> figures; ///< errors and values by name
     };
     void read_line(std::size_t number, const std::string& line);
+    std::optional<RungResult> kept(const Series& series, std::size_t index) const;
 
     const Scene& scene_;
     RunIdentities identities_;
@@ -54,6 +58,7 @@ private:
     mutable std::mutex mutex_;
     std::string failure_;
     std::map<std::string, Run> runs_; ///< by identity
+    std::size_t used_ = 0;            ///< runs that were found
 };
 
 } // namespace tvbeam

@@ -13,6 +13,16 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
+Json interval_json(const OrderInterval& of) {
+    const auto known = [&](double number) {
+        return number_json(of.determined ? std::optional(number) : std::nullopt);
+    };
+    Json json{{"value", known(of.value)}, {"low", known(of.low)}, {"high", known(of.high)}};
+    if (!of.determined)
+        json["status"] = of.status;
+    return json;
+}
+
 Json json_of(const OrdersResult& orders, const OrdersBlock& block) {
     Json norms = Json::object();
     for (const auto& [norm, fit] : orders.norms) {
@@ -61,6 +71,11 @@ Json json_of(const OrdersResult& orders, const OrdersBlock& block) {
     Json json{{"final_time", block.final_time > 0.0 ? Json(block.final_time) : Json()},
               {"norms", std::move(norms)},
               {"runs", std::move(runs)}};
+    for (const auto& of : orders.values)
+        json["values"][of.value] = {{"limit", interval_json(of.limit)},
+                                    {"p", interval_json(of.p)},
+                                    {"q", interval_json(of.q)},
+                                    {"uncertainty", number_json(of.uncertainty)}};
     if (orders.corollary)
         json["corollary_constant"] = {{"least", orders.corollary->least},
                                       {"greatest", orders.corollary->greatest},

@@ -14,6 +14,7 @@
 #include <fstream>
 #include <memory>
 #include <set>
+#include <utility>
 
 #include <unistd.h>
 
@@ -91,6 +92,20 @@ fs::path program_of(const SolverBlock& solver, const std::string& name) {
                                       "' cannot be run; chmod +x makes it executable, or name its "
                                       "interpreter first"
                                 : "there is no program '" + file.string() + "'");
+}
+
+/// An argument that is a file beside the scene would not be found from the directory of a run, and
+/// what it holds would not be known to be another.
+void require_at_hand(const SolverBlock& solver, const Place& place, const std::string& word) {
+    std::error_code error;
+    const fs::path path(word);
+    if (word.empty() || path.is_absolute() || file_called(solver, word) != nullptr ||
+        word == solver.errors.file || word == solver.values.file ||
+        !fs::is_regular_file(solver.folder / path, error))
+        return;
+    throw InputError(place, "'" + word +
+                                "' is a file beside the scene, and runs have directories of "
+                                "their own; add it to solver.files, or give its absolute path");
 }
 
 /// What a run consists of before it begins.
@@ -263,6 +278,16 @@ std::string digest(const fs::path& file) {
     return digest(std::string(std::istreambuf_iterator<char>(stream), {}));
 }
 
+/// Variables of this process that say which code a program runs.
+std::map<std::string, std::string> inherited(const SolverBlock& solver) {
+    std::map<std::string, std::string> variables;
+    for (const char* name : {"LD_LIBRARY_PATH", "LD_PRELOAD", "PYTHONHOME", "PYTHONPATH"})
+        if (const char* value = std::getenv(name);
+            value != nullptr && !solver.environment.contains(name))
+            variables[name] = value;
+    return variables;
+}
+
 nlohmann::json reading_of(const FigureSource& source) {
     nlohmann::json json = source.file;
     if (!source.is_file())
@@ -288,13 +313,19 @@ void require_placeholders(const SolverBlock& solver, const std::vector<Series>& 
 }
 
 void require_programs(const SolverBlock& solver, const std::vector<Series>& all) {
-    std::set<std::string> names;
+    std::set<std::pair<std::size_t, std::string>> words; // with their places in the command
     for (const auto& series : all)
-        for (std::size_t level = 0; level < series.rungs.size(); ++level)
-            names.insert(solver.command.front().filled(placeholders_of(
-                series.rungs[level], level, series.final_time, parameters_of(series.method))));
-    for (const auto& name : names)
-        program_of(solver, name);
+        for (std::size_t level = 0; level < series.rungs.size(); ++level) {
+            const auto values = placeholders_of(series.rungs[level], level, series.final_time,
+                                                parameters_of(series.method));
+            for (std::size_t i = 0; i < solver.command.size(); ++i)
+                words.emplace(i, solver.command[i].filled(values));
+        }
+    for (const auto& [i, word] : words)
+        if (i == 0)
+            program_of(solver, word);
+        else
+            require_at_hand(solver, solver.command[i].place, word);
 }
 
 StudiedSolver external_runs(const SolverBlock& solver, const Keeper& keeper) {
@@ -315,6 +346,7 @@ std::string RunIdentities::of(const Series& series, std::size_t level) const {
     nlohmann::json json{{"program", run.program.string()},
                         {"arguments", run.arguments},
                         {"environment", solver_.environment},
+                        {"inherited", inherited(solver_)},
                         {"errors", reading_of(solver_.errors)},
                         {"values", reading_of(solver_.values)},
                         {"seconds", solver_.seconds ? solver_.seconds->text : ""},

@@ -11,7 +11,8 @@
 namespace tvbeam {
 
 /// What can be told before anything runs: throws InputError where a placeholder is not known or has
-/// nothing to stand for; where there is no such program.
+/// nothing to stand for; where there is no such program, or an argument names a file beside the
+/// scene that no run would find in its own directory.
 void require_placeholders(const SolverBlock& solver, const std::vector<Series>& all);
 void require_programs(const SolverBlock& solver, const std::vector<Series>& all);
 
@@ -23,8 +24,9 @@ void require_programs(const SolverBlock& solver, const std::vector<Series>& all)
 StudiedSolver external_runs(const SolverBlock& solver, const Keeper& keeper);
 
 /// What runs are known again by: a digest of whatever their figures depend on, which is the
-/// command, the contents of the files, the environment that the block gives, how figures are read,
-/// and the program's path, size and time. Several threads may call at a time. The block must
+/// command, the contents of the files, the environment that the block gives and what it inherits of
+/// where code is looked for (LD_LIBRARY_PATH, PYTHONPATH and the like), how figures are read, and
+/// the program's path, size and time. Several threads may call at a time. The block must
 /// outlive it.
 class RunIdentities {
 public:

@@ -33,13 +33,22 @@ Place place_in(const Template& whole, std::size_t offset) {
 
 std::string Template::filled(const Placeholders& values) const {
     std::string result;
+    std::size_t open = 0; // {{ that no }} has closed
     for (std::size_t at = 0; at < text.size();) {
-        const std::size_t brace = text.find('{', at);
+        const std::size_t brace = text.find_first_of("{}", at);
         result.append(text, at, brace - at);
         if (brace == std::string::npos)
             break;
+        if (text[brace] == '}') {
+            const bool closes = open > 0 && text.compare(brace, 2, "}}") == 0;
+            open -= closes ? 1 : 0;
+            result += '}';
+            at = brace + (closes ? 2 : 1);
+            continue;
+        }
         if (text.compare(brace, 2, "{{") == 0) {
             result += '{';
+            ++open;
             at = brace + 2;
             continue;
         }
@@ -62,7 +71,7 @@ std::string Template::filled(const Placeholders& values) const {
             throw InputError(
                 place_in(*this, brace),
                 fmt::format("there is no placeholder {{{}}}{}; known: {}; a parameter is given in "
-                            "[solver.parameters], and {{{{ is a brace",
+                            "[solver.parameters], and {{{{ and }}}} are braces",
                             name, did_you_mean(name, names), list));
         }
         if (!found->second)

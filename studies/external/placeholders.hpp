@@ -13,8 +13,9 @@ using Placeholders = std::map<std::string, std::optional<std::string>>;
 
 /// A text with placeholders, and where it stands: a word of a command, or a whole file.
 ///
-/// {NAME} is a placeholder where NAME is letters, digits and _, no digit first; {{ is a brace; any
-/// other brace is itself, so that most sources of programs can be templates as they are.
+/// {NAME} is a placeholder where NAME is letters, digits and _, no digit first; {{ is a brace, and
+/// so is the }} that closes one; any other brace is itself, so that most sources of programs can be
+/// templates as they are.
 struct Template {
     std::string text;
     Place place;

@@ -8,6 +8,7 @@
 #include <array>
 #include <cerrno>
 #include <chrono>
+#include <cmath>
 #include <csignal>
 #include <cstring>
 #include <system_error>
@@ -171,7 +172,7 @@ private:
                                        {ended_.number(), POLLIN, 0}}};
         auto asked = start_;
         while (true) {
-            poll(watched.data(), watched.size(), static_cast<int>(between_questions.count()));
+            poll(watched.data(), watched.size(), static_cast<int>(until_a_question().count()));
             if ((watched[0].revents != 0 && !take(watched[0].fd, output_)))
                 watched[0].fd = -1;
             if ((watched[1].revents != 0 && !take(watched[1].fd, errors_)))
@@ -179,11 +180,27 @@ private:
             if (watched[2].revents != 0)
                 return;
             const auto now = Clock::now();
-            if (now - asked >= between_questions) {
+            if (now - asked >= between_questions || is_over(now)) {
                 asked = now;
                 question(now);
             }
         }
+    }
+
+    [[nodiscard]] bool is_over(Clock::time_point now) const {
+        const std::chrono::duration<double> elapsed = now - start_;
+        return task_.timeout && !told_to_end_ && elapsed.count() > *task_.timeout;
+    }
+
+    /// Not beyond the time-out, which would else be noticed late.
+    [[nodiscard]] std::chrono::milliseconds until_a_question() const {
+        if (!task_.timeout || told_to_end_)
+            return between_questions;
+        const std::chrono::duration<double> elapsed = Clock::now() - start_;
+        const double left = std::max(0.0, *task_.timeout - elapsed.count());
+        return left > 1.0 ? between_questions
+                          : std::min(between_questions,
+                                     std::chrono::milliseconds(1 + std::lround(1e3 * left)));
     }
 
     /// One buffer of what there is; false: there will be no more.
@@ -198,8 +215,7 @@ private:
     /// Whether the program is to be ended, and how.
     void question(Clock::time_point now) {
         if (!told_to_end_) {
-            const std::chrono::duration<double> elapsed = now - start_;
-            if (task_.timeout && elapsed.count() > *task_.timeout)
+            if (is_over(now))
                 timed_out_ = true;
             else if (!task_.go_on())
                 result_.interrupted = true;

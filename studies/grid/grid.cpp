@@ -59,6 +59,10 @@ OrdersResult run_orders(const OrdersBlock& block, const Method& method, const St
     result.runs = run_series(series_of(block, method), solver.run, execution);
     for (std::size_t k = 0; k < block.norms.size(); ++k) {
         const Measure& norm = block.norms[k];
+        if (norm.is_value) {
+            result.values.push_back(limit_of(norm.name, result.runs, k));
+            continue;
+        }
         const auto roots = root_records_of(result.runs, k, norm);
         result.norms.push_back(
             {norm.root(), fit_two_term(roots, reference_of(solver.reference, roots))});

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "studies/grid/grid_limit.hpp"
 #include "studies/grid/orders_block.hpp"
 #include "studies/orders/two_term_fit.hpp"
 #include "studies/runs/execution.hpp"
@@ -29,6 +30,7 @@ struct TheoremConstants {
 struct OrdersResult {
     std::vector<RungResult> runs;
     std::vector<NormOrders> norms;
+    std::vector<GridLimit> values = {}; ///< behind the norms in the block's list
     /// If a measure that a theorem bounds was asked for and some run has an error.
     std::optional<TheoremConstants> corollary;
 

@@ -27,6 +27,7 @@ OrdersBlock read_orders(TableReader& table, const SolverKeys& keys) {
         for (const std::int64_t s : elements)
             orders.grid.push_back({s, steps_of(table, j, orders.final_time, (*dt)[j]), (*dt)[j]});
     orders.norms = read_norms(table, keys);
+    read_values(table, keys, orders.norms);
     if (orders.norms.empty())
         throw table.error("norms", " is missing or empty; name the norms whose orders are wanted");
     for (std::size_t i = 0; i < orders.norms.size(); ++i)

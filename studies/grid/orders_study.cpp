@@ -6,6 +6,7 @@
 #include "studies/table_row.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace tvbeam {
 
@@ -94,6 +95,41 @@ std::vector<Metric> constant_metrics(const std::string& norm, const StudyResult&
              "no run of the grid has an error"}};
 }
 
+/// limit, p and q of a value with their intervals, and the uncertainty of the finest.
+void expect_limit(TableReader& table, const OrdersBlock& block, std::size_t k,
+                  std::vector<Expectation>& expectations) {
+    const std::string name = "orders." + block.norms[k].name + ": ";
+    const auto errors = static_cast<std::size_t>(
+        std::count_if(block.norms.begin(), block.norms.end(),
+                      [](const Measure& measure) { return !measure.is_value; }));
+    const auto limit = [place = k - errors](const StudyResult& result) -> const GridLimit& {
+        return result.get<OrdersResult>()->values.at(place);
+    };
+    for (const auto& [key, interval] :
+         {std::pair("limit", &GridLimit::limit), {"p", &GridLimit::p}, {"q", &GridLimit::q}}) {
+        const auto found = [limit, interval](const StudyResult& result) -> const OrderInterval& {
+            return limit(result).*interval;
+        };
+        const std::string what = name + key;
+        expect_band(table, key, expectations, [what, found](const StudyResult& result) {
+            const OrderInterval& of = found(result);
+            return std::vector{Metric{what, of.determined ? std::optional(of.value) : std::nullopt,
+                                      "not determined: " + of.status}};
+        });
+        expect_interval(table, key, [&](const JudgeInterval& judge) {
+            expectations.push_back([what, found, judge](const StudyResult& result) {
+                return std::vector{judge(what, found(result))};
+            });
+        });
+    }
+    expect_band(table, "uncertainty", expectations, [name, limit](const StudyResult& result) {
+        const GridLimit& of = limit(result);
+        return std::vector{Metric{
+            name + "uncertainty of the finest value",
+            of.limit.determined ? std::optional(of.uncertainty) : std::nullopt, of.limit.status}};
+    });
+}
+
 } // namespace
 
 /// The block [orders].
@@ -115,6 +151,10 @@ struct OrdersStudy final : KindOf<OrdersBlock, OrdersResult> {
     void expect(TableReader& table, const std::any& block,
                 std::vector<Expectation>& expectations) const override {
         const auto read = [&](TableReader& norm, std::size_t k) {
+            if (block_in(block).norms[k].is_value) {
+                expect_limit(norm, block_in(block), k, expectations);
+                return;
+            }
             for (const auto& metric : fit_metrics) {
                 expect_band(
                     norm, metric.key, expectations, [&metric, k](const StudyResult& result) {

@@ -31,7 +31,7 @@ struct LadderResult {
         {};                            ///< rungs whose errors quadrature leaves uncertain; or empty
     std::string reference_remark = {}; ///< rungs too close to the reference; empty without such
     std::optional<DataAnalysis> analysis = {}; ///< where LadderBlock::says_orders, or of values
-    std::optional<RefiningEnd> refined = {};   ///< why it was refined no further; with `until`
+    std::optional<Refined> refined = {};       ///< why no further; with `until`
 };
 
 /// The runs that the block asks for.

@@ -24,7 +24,13 @@ struct Until {
     std::optional<double> limit; ///< the same of the limit of every value
     std::optional<double> seconds;
     std::optional<std::int64_t> levels; ///< all together
+    bool adds_levels = true;            ///< false: in a short form, which has those that it names
 };
+
+/// With fewer levels nothing counts as known.
+inline constexpr std::size_t least_known_levels = 4;
+/// The ratio in which a width shrinks at least from level to level where levels are added.
+inline constexpr double least_ratio_of_levels = 1.4142135623730951;
 
 /// The block [ladder]: the same problem on a sequence of meshes and steps.
 struct LadderBlock {
@@ -33,8 +39,9 @@ struct LadderBlock {
     std::vector<Measure> norms; ///< and values
     std::optional<PublishedFigures> printed = {};
     std::optional<Until> until = {};
-    /// The level behind those that there are, which goes on as the last two do; none where a run
-    /// may not have it. Only with `until`.
+    /// The level behind those that there are, by the ratio in which those that the block names
+    /// refine, in the mean, or least_ratio_of_levels where that is larger; none where a run may
+    /// not have it. Only with `until`.
     std::function<std::optional<Rung>(const std::vector<Rung>&)> next = {};
     /// Orders along the ladder are wanted with their intervals: nothing is known of them
     /// beforehand, or `until` asks for it.

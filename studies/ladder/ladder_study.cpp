@@ -167,7 +167,7 @@ struct LadderStudy final : KindOf<LadderBlock, LadderResult> {
         const Series series = series_of(block_in(block), {});
         if (block_in(block).until)
             expect_words(table, "ended_by", expectations, [](const StudyResult& result) {
-                return std::vector{name_of(*result.get<LadderResult>()->refined)};
+                return std::vector{name_of(result.get<LadderResult>()->refined->end)};
             });
         const auto read = [&](TableReader& norm, std::size_t k) {
             if (block_in(block).says_orders)

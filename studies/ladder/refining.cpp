@@ -8,14 +8,17 @@ namespace tvbeam {
 
 namespace {
 
-bool all_are_known(const Until& until, const DataAnalysis& analysis) {
-    return std::all_of(analysis.columns.begin(), analysis.columns.end(),
-                       [&](const ColumnAnalysis& column) {
-                           const auto& wanted = column.is_value ? until.limit : until.order;
-                           const OrderInterval& found =
-                               column.is_value ? column.limit->limit : column.by_width.front();
-                           return !wanted || (found.determined && found.half_width() <= *wanted);
-                       });
+/// Of an error the order along the ladder, of a value the limit.
+const OrderInterval& interval_of(const ColumnAnalysis& column) {
+    return column.is_value ? column.limit->limit : column.by_width.front();
+}
+
+bool is_known(double wanted, const ColumnAnalysis& now, const ColumnAnalysis& before) {
+    const OrderInterval& found = interval_of(now);
+    const OrderInterval& agreeing = interval_of(before);
+    return found.determined && found.half_width() <= wanted && std::isfinite(agreeing.low) &&
+           std::isfinite(agreeing.high) && agreeing.low <= found.value &&
+           found.value <= agreeing.high;
 }
 
 double seconds_of(const std::vector<RungResult>& rungs) {
@@ -79,22 +82,42 @@ DataAnalysis analysis_of(const Series& series, const std::vector<RungResult>& ru
     return analyse(data);
 }
 
-RefiningEnd refine(const LadderBlock& block, Series& series, std::vector<RungResult>& rungs,
-                   const RunCall& run, const Execution& execution) {
+std::vector<std::string> not_known(const Until& until, const Series& series,
+                                   const std::vector<RungResult>& rungs) {
+    std::optional<DataAnalysis> now;
+    std::optional<DataAnalysis> before;
+    if (rungs.size() >= least_known_levels) {
+        now = analysis_of(series, rungs);
+        before = analysis_of(series, {rungs.begin(), rungs.end() - 1});
+    }
+    std::vector<std::string> open;
+    for (std::size_t k = 0; k < series.measures.size(); ++k) {
+        const Measure& measure = series.measures[k];
+        const auto& wanted = measure.is_value ? until.limit : until.order;
+        if (wanted && !(now && is_known(*wanted, now->columns[k], before->columns[k])))
+            open.push_back(measure.root());
+    }
+    return open;
+}
+
+Refined refine(const LadderBlock& block, Series& series, std::vector<RungResult>& rungs,
+               const RunCall& run, const Execution& execution) {
     const Until& until = *block.until;
+    const auto levels = until.adds_levels ? until.levels : std::optional<std::int64_t>(0);
     while (true) {
         if (std::any_of(rungs.begin(), rungs.end(),
                         [](const RungResult& one) { return one.status != RungStatus::ok; }))
-            return RefiningEnd::run_ended;
-        if (all_are_known(until, analysis_of(series, rungs)))
-            return RefiningEnd::known;
-        if (until.levels && rungs.size() >= static_cast<std::size_t>(*until.levels))
-            return RefiningEnd::levels;
+            return {RefiningEnd::run_ended};
+        const auto open = not_known(until, series, rungs);
+        if (open.empty())
+            return {RefiningEnd::known};
+        if (levels && rungs.size() >= static_cast<std::size_t>(*levels))
+            return {RefiningEnd::levels, open};
         if (until.seconds && seconds_of(rungs) + forecast_seconds(rungs) > *until.seconds)
-            return RefiningEnd::seconds;
+            return {RefiningEnd::seconds, open};
         const auto next = block.next(series.rungs);
         if (!next)
-            return RefiningEnd::finest;
+            return {RefiningEnd::finest, open};
         series.rungs.push_back(*next);
         execution.expect(work_of(series.method, *next));
         rungs.push_back(run_or_find(series, rungs.size(), run, execution));

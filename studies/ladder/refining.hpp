@@ -20,14 +20,27 @@ enum class RefiningEnd {
 
 std::string name_of(RefiningEnd end); ///< "known", "levels", "seconds", "finest", "run ended"
 
+/// How the refining of a ladder ended.
+struct Refined {
+    RefiningEnd end;
+    std::vector<std::string> open = {}; ///< the norms and values that are not known, by name
+};
+
 /// What the runs of a ladder show of each measure, a column a measure: orders with 95 % intervals,
 /// of a square those of the norm itself; limits of values.
 DataAnalysis analysis_of(const Series& series, const std::vector<RungResult>& rungs);
 
+/// The norms and values of a ladder's levels, from coarse to fine, of which the block does not yet
+/// know what it wants. Known is what has an interval as narrow as that, of at least
+/// least_known_levels levels, with its middle in the interval that the levels without the finest
+/// give, however wide that may be: two intervals that agree.
+std::vector<std::string> not_known(const Until& until, const Series& series,
+                                   const std::vector<RungResult>& rungs);
+
 /// Adds levels to a series, and their runs to its results, until what the block wants is known or
 /// its budget is spent. Seconds are those of the runs, all of them; the next is taken to need as
 /// much more than the last one as that did than the one before.
-RefiningEnd refine(const LadderBlock& block, Series& series, std::vector<RungResult>& rungs,
-                   const RunCall& run, const Execution& execution);
+Refined refine(const LadderBlock& block, Series& series, std::vector<RungResult>& rungs,
+               const RunCall& run, const Execution& execution);
 
 } // namespace tvbeam

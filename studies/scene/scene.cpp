@@ -126,6 +126,12 @@ void read_problem(Scene& scene, TableReader& root, bool wanted, bool own_problem
         scene.problem = read_scene_solution(root, path.parent_path());
 }
 
+/// A short form of a ladder makes the levels that it names, unless it has an `until` of its own.
+bool adds_levels_in_short(const TomlDocument& document) {
+    const toml::node* ladder = document.table.at_path("short.ladder").node();
+    return ladder == nullptr || !ladder->is_table() || ladder->as_table()->contains("until");
+}
+
 /// [solver], and nothing that is about the beam.
 void read_solver_of(Scene& scene, TableReader& root) {
     std::vector<std::string> foreign{"beam",     "mesh",      "scheme", "data",
@@ -229,6 +235,7 @@ Scene read_scene(const std::string& name_or_file, const std::vector<std::string>
     const std::filesystem::path path = find_file(Shipped::scene, name_or_file);
     TomlDocument document = read_toml(path.string());
     document.asked = reading.asked;
+    const bool adds_levels = !reading.short_form || adds_levels_in_short(document);
     if (reading.short_form)
         merge_block(document, "short");
     for (const auto& assignment : overrides)
@@ -259,6 +266,8 @@ Scene read_scene(const std::string& name_or_file, const std::vector<std::string>
         check_meshes(scene, root);
         check_until(scene, root);
     }
+    if (auto* ladder = scene.get<LadderBlock>(); ladder != nullptr && ladder->until)
+        ladder->until->adds_levels = adds_levels;
     if (auto defect = root.table("defect")) {
         if (!scene.poses_problem())
             throw InputError(defect->place(), "the block [defect] adds to the scene's problem, and "

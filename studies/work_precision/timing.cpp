@@ -11,6 +11,8 @@ namespace {
 
 /// Below this, a difference is as likely the machine's as the scheme's.
 constexpr double least_time_ratio = 1.2;
+/// The same of single runs, whose scatter is not known.
+constexpr double least_ratio_of_one_run = 2.0;
 
 bool has_error(const TimedError& row) {
     return std::isfinite(row.error) && row.error > 0.0;
@@ -79,7 +81,9 @@ Comparison compare(const Timing& first, const Timing& second) {
     result.ratio = slow.median / fast.median;
     result.lowest = slow.q1 / fast.q3;
     result.highest = slow.q3 / fast.q1;
-    result.distinguishable = result.ratio > least_time_ratio && result.lowest > 1.0;
+    const bool once = first.runs == 1 || second.runs == 1;
+    result.distinguishable =
+        result.ratio > (once ? least_ratio_of_one_run : least_time_ratio) && result.lowest > 1.0;
     return result;
 }
 

@@ -22,7 +22,7 @@ Timing timing_of(std::vector<double> seconds);
 
 /// What one run of a ladder gave.
 struct TimedError {
-    double error = 0.0; ///< a norm or its square; NaN where the run failed
+    double error = 0.0; ///< a norm or its square; NaN where the run failed, or no time was seen
     Timing timing;
 };
 
@@ -46,7 +46,8 @@ struct Comparison {
     double lowest = 1.0;          ///< lower quartile of the slower / upper quartile of the faster
     double highest = 1.0;         ///< upper quartile of the slower / lower quartile of the faster
     bool first_is_faster = false; ///< by the medians
-    /// The ratio is above 1.2 and the quartiles are disjoint.
+    /// The ratio is above 1.2 and the quartiles are disjoint; where one of the two is of one run,
+    /// the ratio is above 2, as nothing says how that time scatters.
     bool distinguishable = false;
 };
 

@@ -136,12 +136,17 @@ private:
     std::vector<Contestant> contestants_;
 };
 
+/// A clock of a program's own may show nothing of a short run.
+bool has_time(const std::optional<Timing>& timing) {
+    return timing && timing->min > 0.0;
+}
+
 /// Norm k along the ladder of one scheme.
 std::vector<TimedError> rows_of(const SchemeRuns& scheme, std::size_t k) {
     std::vector<TimedError> rows;
     for (std::size_t i = 0; i < scheme.runs.size(); ++i) {
         const auto& errors = scheme.runs[i].errors;
-        rows.push_back({.error = errors.empty() || !scheme.timings[i]
+        rows.push_back({.error = errors.empty() || !has_time(scheme.timings[i])
                                      ? std::numeric_limits<double>::quiet_NaN()
                                      : errors[k],
                         .timing = scheme.timings[i].value_or(Timing{})});
@@ -212,6 +217,15 @@ void add_rises(std::vector<std::string>& remarks, const std::string& norm,
     }
 }
 
+/// A sentence for every row whose clock stood still.
+void add_standing_clocks(std::vector<std::string>& remarks, const TimedScheme& scheme,
+                         const SchemeRuns& runs) {
+    for (std::size_t i = 0; i < runs.runs.size(); ++i)
+        if (runs.timings[i] && !has_time(runs.timings[i]))
+            remarks.push_back(scheme.name + ": the clock shows 0 s at " + text_of(scheme.rungs[i]) +
+                              "; it is too coarse for this run, which is compared with none.");
+}
+
 } // namespace
 
 std::vector<Series> series_of(const WorkPrecisionBlock& block) {
@@ -261,6 +275,8 @@ std::vector<NormCosts> costs_of(const WorkPrecisionBlock& block,
         for (std::size_t scheme = 0; scheme < schemes.size(); ++scheme) {
             ladders.push_back(rows_of(schemes[scheme], k));
             add_rises(costs.remarks, costs.norm.name, block.schemes[scheme], ladders.back());
+            if (k == 0)
+                add_standing_clocks(costs.remarks, block.schemes[scheme], schemes[scheme]);
         }
         const auto targets = block.targets.find(costs.norm.name);
         costs.errors = errors_to_reach(smallest_error(ladders), targets == block.targets.end()

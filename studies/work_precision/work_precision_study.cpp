@@ -1,4 +1,5 @@
 #include "mms/text/toml_reader.hpp"
+#include "studies/scene/scene.hpp"
 #include "studies/study_kind.hpp"
 #include "studies/table_row.hpp"
 #include "studies/work_precision/work_precision.hpp"
@@ -22,7 +23,10 @@ struct WorkPrecisionStudy final : KindOf<WorkPrecisionBlock, WorkPrecisionResult
         return (block_in(block).runs + 2) * StudyKind::work(block, own);
     }
     std::any run(const std::any& block, const StudyContext& context) const override {
-        return run_work_precision(block_in(block), context.solver.run, context.execution);
+        auto result = run_work_precision(block_in(block), context.solver.run, context.execution);
+        if (context.scene.solver) // a program may wait for what is not the processor
+            result.busy_remark.clear();
+        return result;
     }
     Runs runs(const std::any& record) const override {
         Runs runs;

@@ -176,6 +176,16 @@ BOOST_AUTO_TEST_CASE(a_ratio_above_1_2_with_disjoint_quartiles_is_distinguishabl
     BOOST_TEST(same.ratio == 1.0);
 }
 
+BOOST_AUTO_TEST_CASE(single_runs_are_distinguishable_from_twice_the_time_on) {
+    const Timing many = timing(1.0, 1.0, 1.0);
+    Timing once = timing(1.9, 1.9, 1.9);
+    BOOST_TEST(compare(many, once).distinguishable);
+    once.runs = 1;
+    BOOST_TEST(!compare(many, once).distinguishable);
+    once.q1 = once.median = once.q3 = 2.1;
+    BOOST_TEST(compare(many, once).distinguishable);
+}
+
 BOOST_AUTO_TEST_CASE(the_order_of_two_schemes_changes_only_which_is_called_faster) {
     const Timing a = timing(1.0, 2.0, 3.0);
     const Timing b = timing(7.0, 8.0, 9.0);

@@ -12,7 +12,9 @@
 #include <boost/test/data/monomorphic.hpp>
 #include <boost/test/data/test_case.hpp>
 #include <boost/test/unit_test.hpp>
+#include <cmath>
 
+#include <cmath>
 #include <limits>
 #include <ostream>
 
@@ -334,6 +336,16 @@ BOOST_AUTO_TEST_CASE(an_error_that_rises_along_its_ladder_is_remarked) {
     BOOST_TEST(costs_of(block_for(across), across)[0].remarks.size() == 1u);
     const std::vector<SchemeRuns> falling{made_up({1e-1, 1e-2, failed, 1e-3}, 1.0)};
     BOOST_TEST(costs_of(block_for(falling), falling)[0].remarks.empty());
+}
+
+BOOST_AUTO_TEST_CASE(what_a_clock_that_stands_still_has_timed_is_compared_with_nothing) {
+    std::vector<SchemeRuns> schemes{made_up({1e-1, 1e-3, 1e-5}, 1.0), made_up({1e-1, 1e-5}, 2.0)};
+    schemes[0].timings[0] = Timing{.min = 0.0, .q1 = 0.0, .median = 0.0, .q3 = 0.0, .runs = 3};
+    const auto norms = costs_of(block_for(schemes), schemes);
+    BOOST_TEST(!at(norms[0], 1e-2).times[0].has_value());
+    BOOST_TEST(std::isfinite(at(norms[0], 1e-4).comparisons.at(0).times.ratio));
+    BOOST_REQUIRE(norms[0].remarks.size() == 1u);
+    BOOST_TEST(norms[0].remarks[0].starts_with("scheme 0: the clock shows 0 s at s = 10"));
 }
 
 BOOST_AUTO_TEST_CASE(a_busy_machine_is_remarked) {

@@ -62,8 +62,11 @@ int check_command(const CheckOptions& options) {
                 {scene.file},
                 "has no [expect] block, so there is nothing to check; add one, or record a "
                 "baseline with --record");
-    for (const auto& scene : scenes)
+    for (const auto& scene : scenes) {
         require_runnable(scene);
+        if (baseline || !options.record.empty())
+            require_recordable(scene);
+    }
     Destination junit = destination(options.junit);
     Destination record = destination(options.record);
 

@@ -61,6 +61,8 @@ public:
                                                         "cut short is run again"
                                                       : "");
     }
+    /// What the result says of runs that were not made; empty: nothing.
+    [[nodiscard]] std::string remark() const { return solver_ ? solver_->remark() : ""; }
     /// What is said after an interruption.
     [[nodiscard]] std::string advice() const {
         if (solver_)
@@ -118,9 +120,11 @@ int run_command(const RunOptions& options) {
         say_interrupted("interrupted in what could not be left in time; no report is written" +
                         advice);
     });
-    const StudyResult result =
+    StudyResult result =
         run_shown(scene, options.quiet, options.jobs, kept ? kept->finished() : nullptr);
     end_requests.settle();
+    if (const std::string remark = kept ? kept->remark() : ""; !remark.empty())
+        result.remarks.push_back(remark);
     // Files first: what standard output goes to may be gone.
     if (out) {
         kept->write();

@@ -11,13 +11,19 @@ namespace {
 /// From here on a prediction is said: seconds.
 constexpr double worth_saying = 60.0;
 
+/// A bound of a time-out is generous: it is said where it is no bound to speak of.
+bool is_worth_saying(const Scene& scene, const PredictedWork& predicted) {
+    return predicted.seconds > worth_saying ||
+           predicted.at_most > (scene.solver ? longest_work : worth_saying);
+}
+
 } // namespace
 
 void predict(const Scene& scene, bool quiet, bool really_long) {
     const PredictedWork predicted = predicted_work(scene);
     if (!really_long)
         require_short_enough(scene, predicted);
-    if (!quiet && predicted.seconds > worth_saying)
+    if (!quiet && is_worth_saying(scene, predicted))
         say(scene.name + " asks for " + predicted.text());
 }
 

@@ -1,0 +1,413 @@
+// Programs as solvers: what is filled into their commands, how numbers are read of what they write,
+// how they are ended, and what knows a run again.
+
+#include "studies/external/external_runs.hpp"
+#include "studies/external/keeper.hpp"
+#include "studies/external/output.hpp"
+#include "studies/external/placeholders.hpp"
+#include "studies/external/process.hpp"
+#include "studies/external/readings.hpp"
+#include "studies/scene/scene.hpp"
+#include "tests/temporary_directory.hpp"
+
+#include <boost/test/unit_test.hpp>
+
+#include <array>
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <optional>
+#include <sstream>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+using namespace tvbeam;
+namespace fs = std::filesystem;
+
+BOOST_AUTO_TEST_SUITE(external)
+
+BOOST_AUTO_TEST_SUITE(placeholders)
+
+namespace {
+
+const Placeholders known{{"elements", "8"}, {"k", "a b"}, {"dt", std::nullopt}};
+
+std::string filled(const std::string& text) {
+    return Template{text, {"scene.toml", 3, 5}}.filled(known);
+}
+
+std::string refusal(const Template& text) {
+    try {
+        return "filled in: " + text.filled(known);
+    } catch (const InputError& error) {
+        return error.what();
+    }
+}
+
+} // namespace
+
+BOOST_AUTO_TEST_CASE(names_in_braces_are_filled_in_and_other_braces_stay) {
+    for (const auto& [text, wanted] : std::vector<std::pair<std::string, std::string>>{
+             {"", ""},
+             {"-n={elements},{k}", "-n=8,a b"},
+             {"{elements}{elements}", "88"},
+             {"{{elements}", "{elements}"},            // a brace, and no placeholder
+             {"{{elements}}", "{elements}"},           // closed by what closes a brace
+             {"{{{elements}}}", "{8}"},                // the one in the other
+             {"{{{{1}}, {{2}}}}", "{{1}, {2}}"},       // one in another
+             {"if (a) { b(); }}", "if (a) { b(); }}"}, // none was opened as {{
+             {"{ k }{8}{-}{", "{ k }{8}{-}{"},         // no names
+             {"}{", "}{"}})
+        BOOST_TEST(filled(text) == wanted, text);
+}
+
+BOOST_AUTO_TEST_CASE(what_cannot_be_filled_in_is_told_at_its_place) {
+    BOOST_TEST(
+        refusal({"{element}", {"scene.toml", 3, 5}})
+            .starts_with(
+                "scene.toml:3:5: there is no placeholder {element}; did you mean 'elements'?"),
+        refusal({"{element}", {"scene.toml", 3, 5}}));
+    BOOST_TEST(refusal({"{dt}", {"scene.toml", 3, 5}}).find("has nothing to stand for") !=
+               std::string::npos);
+    // In a file at its line and column.
+    BOOST_TEST(refusal({"one\ntwo {elements} {no}\n", {"a.in"}, true}).starts_with("a.in:2:16: "),
+               refusal({"one\ntwo {elements} {no}\n", {"a.in"}, true}));
+}
+
+BOOST_AUTO_TEST_SUITE_END()
+
+BOOST_AUTO_TEST_SUITE(readings)
+
+namespace {
+
+ReadFigure read(const std::vector<std::string>& lines, const std::string& pattern) {
+    const OutputPattern own("L2", pattern, {});
+    OutputReading reading(own);
+    for (const auto& line : lines)
+        reading.take(line);
+    return reading.figure();
+}
+
+ReadFigure in_file(const std::string& name, const std::string& text) {
+    const TemporaryDirectory directory;
+    return figure_in(directory.write(name, text), "L2");
+}
+
+} // namespace
+
+BOOST_AUTO_TEST_CASE(the_last_line_that_matches_has_the_number) {
+    const std::string pattern = "L2 = (\\S+)";
+    BOOST_TEST(*read({"L2 = 7", "x L2 = 1.5", "H1 = 2"}, pattern).value == 1.5);
+    // Fortran's exponent, a sign, blanks around.
+    BOOST_TEST(*read({"L2 = +1.5D-3"}, pattern).value == 1.5e-3);
+    BOOST_TEST(*read({"L2 = -2d0 "}, "L2 = (.+)").value == -2.0);
+}
+
+BOOST_AUTO_TEST_CASE(what_is_no_one_number_is_a_failure_that_says_why) {
+    const std::string pattern = "L2 = (\\S+)";
+    for (const auto& [line, words] : std::vector<std::pair<std::string, std::string>>{
+             {"H1 = 2", "no L2: nothing on standard output matches"},
+             {"L2 = nan", "L2 is nan"},
+             {"L2 = inf", "L2 is inf"},
+             {"L2 = 1e999", "L2 is 1e999"},
+             {"L2 = 1,5", "L2 is '1,5', which is not one number"},
+             {"L2 = 1 L2 = 2", "has two of them"}}) {
+        const ReadFigure found = read({line}, pattern);
+        BOOST_TEST(!found.value, line);
+        BOOST_TEST(found.failure.find(words) != std::string::npos, found.failure);
+    }
+}
+
+// What a line must begin a match with is looked for first: it must be no more than that.
+BOOST_AUTO_TEST_CASE(the_literal_start_of_a_pattern_passes_over_no_match) {
+    for (const auto& [pattern, literal] :
+         std::vector<std::pair<std::string, std::string>>{{"L2 = (\\S+)", "L2 = "},
+                                                          {"ab?(\\d)", "a"}, // b may be absent
+                                                          {"ab*(\\d)", "a"},
+                                                          {"ab{0}(\\d)", "a"},
+                                                          {"ab+(\\d)", "ab"},
+                                                          {"a|b(\\d)", ""}, // either
+                                                          {"(\\d)", ""},
+                                                          {"^L2 (\\d)", ""}})
+        BOOST_TEST(OutputPattern("x", pattern, {}).literal == literal, pattern);
+    BOOST_TEST(*read({"a4"}, "ab?(\\d)").value == 4.0);
+    BOOST_TEST(*read({"b4"}, "a|b(\\d)").value == 4.0);
+}
+
+BOOST_AUTO_TEST_CASE(a_pattern_has_one_group) {
+    for (const auto* pattern : {"L2", "(a)(b)", "(a", "(?:a)"})
+        BOOST_CHECK_THROW(OutputPattern("L2", pattern, {}), InputError);
+    BOOST_CHECK_NO_THROW(OutputPattern("L2", "(?:a|b) (\\d)", {}));
+}
+
+BOOST_AUTO_TEST_CASE(a_file_has_the_number_by_its_name) {
+    BOOST_TEST(*in_file("e.json", "{\"H1\": 1, \"L2\": 0.5}").value == 0.5);
+    BOOST_TEST(*in_file("e.csv", "step,L2\n1,7\n2,0.5\n\n").value == 0.5);
+    BOOST_TEST(*in_file("e.csv", "step;\"L2\"\n2; 0.5 \n").value == 0.5);
+    BOOST_TEST(*in_file("e.csv", "step  L2\n2\t0.5").value == 0.5);
+    for (const auto& [name, text, words] : std::vector<std::array<std::string, 3>>{
+             {"e.json", "{\"H1\": 1}", "e.json: it has no L2"},
+             {"e.json", "{\"L2\": \"1\"}", "L2 is \"1\", which is not one number"},
+             {"e.json", "[1]", "it is not an object"},
+             {"e.json", "{", "it is not JSON"},
+             {"e.json", std::string(40, '['), "nested too deep"},
+             {"e.csv", "L2\n", "it has no row below its header"},
+             {"e.csv", "H1\n1\n", "its header has no L2"},
+             {"e.csv", "a,L2\n1\n", "its last row has 1 fields and its header 2"},
+             {"e.csv", "L2\nnan\n", "L2 is nan"}}) {
+        const ReadFigure found = in_file(name, text);
+        BOOST_TEST(!found.value, text);
+        BOOST_TEST(found.failure.find(words) != std::string::npos, found.failure);
+    }
+    const TemporaryDirectory directory;
+    BOOST_TEST(figure_in(directory.path() / "e.json", "L2").failure ==
+               "no L2: it wrote no file e.json");
+}
+
+BOOST_AUTO_TEST_CASE(lines_are_told_whole_and_their_last_are_kept) {
+    std::vector<std::string> lines;
+    OutputLines output([&](const std::string& line) { lines.push_back(line); });
+    output.take("on");
+    output.take("e\n\ntwo\nth");
+    output.take("ree\x01");
+    BOOST_TEST(lines == (std::vector<std::string>{"one", "", "two"}));
+    output.finish();
+    BOOST_TEST(lines.back() == "three\x01");
+    BOOST_TEST(output.last_lines(2) == "two | three"); // nothing that a terminal would obey
+    BOOST_TEST(output.last_lines(5) == "one | two | three");
+    // A line without end takes no more memory than this.
+    for (int i = 0; i < 100; ++i)
+        output.take(std::string(1000, 'x'));
+    output.finish();
+    BOOST_TEST(lines.back().size() == OutputLines::longest_line);
+}
+
+BOOST_AUTO_TEST_SUITE_END()
+
+BOOST_AUTO_TEST_SUITE(process)
+
+namespace {
+
+/// A shell that does this in a directory of its own.
+struct Shell {
+    explicit Shell(const std::string& script) {
+        task.program = "/bin/sh";
+        task.arguments = {"-c", script};
+        task.directory = keeper.directory();
+        task.line = [this](const std::string& line) { lines.push_back(line); };
+        task.go_on = [] { return true; };
+    }
+    ProcessResult run() { return run_process(task, keeper); }
+
+    Keeper keeper;
+    ProcessTask task;
+    std::vector<std::string> lines;
+};
+
+bool is_there(pid_t process) {
+    return kill(process, 0) == 0 || errno != ESRCH;
+}
+
+/// Whether it is gone within some seconds: the kernel may be busy elsewhere.
+bool is_gone(pid_t process) {
+    for (int i = 0; i < 500 && is_there(process); ++i)
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    return !is_there(process);
+}
+
+} // namespace
+
+BOOST_AUTO_TEST_CASE(a_program_gets_its_directory_arguments_and_environment) {
+    Shell shell("pwd; echo \"$0|$1|$OWN|$HOME\"; cat");
+    shell.task.arguments.insert(shell.task.arguments.end(), {"a b", "$c"});
+    shell.task.environment = {{"OWN", "own"}, {"HOME", "replaced"}};
+    const ProcessResult result = shell.run();
+    BOOST_TEST(result.failure == "");
+    // No shell has seen the words, and there is nothing on standard input.
+    BOOST_TEST(shell.lines == (std::vector<std::string>{shell.keeper.directory().string(),
+                                                        "a b|$c|own|replaced"}));
+}
+
+BOOST_AUTO_TEST_CASE(an_ending_that_is_none_has_its_reason_and_last_lines) {
+    Shell fails("echo out; echo first >&2; echo last >&2; exit 3");
+    const ProcessResult exited = fails.run();
+    BOOST_TEST(exited.failure == "exit 3");
+    BOOST_TEST(exited.last_lines == "first | last"); // standard error before standard output
+    Shell dies("echo out; kill -SEGV $$");
+    const ProcessResult killed = dies.run();
+    BOOST_TEST(killed.failure.starts_with("killed by signal 11"), killed.failure);
+    BOOST_TEST(killed.last_lines == "out");
+    Shell none("");
+    none.task.program = none.keeper.directory() / "no-such-program";
+    BOOST_TEST(none.run().failure.starts_with("cannot be run: No such file"));
+}
+
+BOOST_AUTO_TEST_CASE(at_the_time_out_the_whole_group_ends_and_not_much_later) {
+    // The child would go on for a minute.
+    Shell shell("sleep 60 & echo $!; wait");
+    shell.task.timeout = 0.15;
+    const ProcessResult result = shell.run();
+    BOOST_TEST(result.failure == "timed out");
+    BOOST_TEST(result.seconds >= 0.15);
+    BOOST_TEST(result.seconds < 0.9); // SIGTERM is enough; SIGKILL would come at 1.15 s
+    BOOST_REQUIRE(shell.lines.size() == 1U);
+    BOOST_TEST(is_gone(std::stoi(shell.lines[0])));
+}
+
+BOOST_AUTO_TEST_CASE(who_is_deaf_to_sigterm_is_killed) {
+    Shell shell("trap '' TERM; while :; do sleep 0.05; done");
+    shell.task.timeout = 0.05;
+    const ProcessResult result = shell.run();
+    BOOST_TEST(result.failure == "timed out");
+    BOOST_TEST(result.seconds >= 1.0);
+    BOOST_TEST(result.seconds < 5.0);
+}
+
+BOOST_AUTO_TEST_CASE(a_run_that_is_not_to_go_on_is_interrupted_and_no_failure) {
+    Shell shell("sleep 60");
+    shell.task.go_on = [] { return false; };
+    const ProcessResult result = shell.run();
+    BOOST_TEST(result.interrupted);
+    BOOST_TEST(result.seconds < 5.0);
+}
+
+BOOST_AUTO_TEST_CASE(what_a_program_leaves_behind_ends_with_it) {
+    Shell shell("sleep 60 > /dev/null 2>&1 & echo $!");
+    BOOST_TEST(shell.run().failure == "");
+    BOOST_REQUIRE(shell.lines.size() == 1U);
+    BOOST_TEST(is_gone(std::stoi(shell.lines[0])));
+}
+
+BOOST_AUTO_TEST_CASE(the_keeper_s_directory_goes_with_it) {
+    fs::path directory;
+    {
+        const Keeper keeper;
+        directory = keeper.directory();
+        BOOST_TEST(fs::is_directory(directory));
+        std::ofstream(directory / "a") << "b";
+    }
+    BOOST_TEST(!fs::exists(directory));
+}
+
+// This process stands in for one that is killed: it lets a child do that.
+BOOST_AUTO_TEST_CASE(where_this_process_is_killed_the_keeper_ends_what_it_began) {
+    std::array<int, 2> ends{};
+    BOOST_REQUIRE(pipe(ends.data()) == 0);
+    const pid_t child = fork();
+    if (child == 0) {
+        const Keeper keeper;
+        const pid_t group = fork();
+        if (group == 0) {
+            setpgid(0, 0);
+            keeper.begun(getpid());
+            execl("/bin/sleep", "sleep", "60", nullptr);
+            _exit(1);
+        }
+        std::this_thread::sleep_for(std::chrono::milliseconds(100));
+        const std::string words = std::to_string(group) + " " + keeper.directory().string() + "\n";
+        [[maybe_unused]] const auto count = write(ends[1], words.data(), words.size());
+        raise(SIGKILL);
+    }
+    close(ends[1]);
+    std::array<char, 4096> buffer{};
+    const auto count = read(ends[0], buffer.data(), buffer.size());
+    close(ends[0]);
+    waitpid(child, nullptr, 0);
+    BOOST_REQUIRE(count > 0);
+    std::istringstream words(std::string(buffer.data(), static_cast<std::size_t>(count)));
+    pid_t group = 0;
+    std::string directory;
+    words >> group >> directory;
+    for (int i = 0; i < 500 && fs::exists(directory); ++i)
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    BOOST_TEST(!fs::exists(directory));
+    // Whoever inherits it may not have waited for it yet.
+    std::string state;
+    for (int i = 0; i < 500; ++i) {
+        std::ifstream stat("/proc/" + std::to_string(group) + "/stat");
+        std::string number, name;
+        if (!(stat >> number >> name >> state) || state == "Z")
+            break;
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+        state = "lives";
+    }
+    BOOST_TEST(state != "lives");
+}
+
+BOOST_AUTO_TEST_SUITE_END()
+
+BOOST_AUTO_TEST_SUITE(identities)
+
+namespace {
+
+/// A scene beside its script, and what its last run is known by.
+struct Known {
+    Known() { directory.write("solve.sh", "echo L2 = 1\n"); }
+
+    [[nodiscard]] std::string scene(const std::string& more = "",
+                                    const std::string& files = "[\"solve.sh\"]") const {
+        return directory.write("scene.toml", "[solver]\ncommand = [\"sh\", \"solve.sh\", "
+                                             "\"{elements}\"]\nfiles = " +
+                                                 files + "\nerrors = { L2 = 'L2 = (\\S+)' }\n" +
+                                                 more +
+                                                 "[ladder]\nelements = [2, 4]\nnorms = [\"L2\"]\n");
+    }
+    [[nodiscard]] std::string identity(const std::string& more = "",
+                                       const std::string& files = "[\"solve.sh\"]") const {
+        const Scene read = read_scene(scene(more, files));
+        return RunIdentities(*read.solver).of(read.series().front(), 1);
+    }
+
+    TemporaryDirectory directory;
+};
+
+} // namespace
+
+BOOST_AUTO_TEST_CASE(a_run_is_known_by_what_its_figures_depend_on) {
+    const Known known;
+    const std::string first = known.identity();
+    BOOST_TEST(known.identity() == first);
+    BOOST_TEST(known.identity("timeout = 10\n") == first); // which no figure depends on
+    BOOST_TEST(known.identity("environment = { A = \"1\" }\n") != first);
+    BOOST_TEST(known.identity("seconds = 't = (\\S+)'\n") != first);
+    known.directory.write("data.in", "{elements}\n");
+    const std::string with_data = known.identity("", "[\"solve.sh\", \"data.in\"]");
+    BOOST_TEST(with_data != first);
+    known.directory.write("data.in", "{elements} \n");
+    BOOST_TEST(known.identity("", "[\"solve.sh\", \"data.in\"]") != with_data);
+    setenv("PYTHONPATH", "/elsewhere", 1);
+    const std::string elsewhere = known.identity();
+    unsetenv("PYTHONPATH");
+    BOOST_TEST(elsewhere != first);
+    known.directory.write("solve.sh", "echo L2 = 2\n");
+    BOOST_TEST(known.identity() != first);
+}
+
+BOOST_AUTO_TEST_CASE(a_file_beside_the_scene_that_no_run_would_find_is_refused_beforehand) {
+    const Known known;
+    const auto required = [&](const std::string& files) {
+        const Scene scene = read_scene(known.scene("", files));
+        require_programs(*scene.solver, scene.series());
+    };
+    BOOST_CHECK_NO_THROW(required("[\"solve.sh\"]"));
+    BOOST_CHECK_EXCEPTION(required("[]"), InputError, [](const InputError& error) {
+        const std::string what = error.what();
+        return what.find("scene.toml:2:18: 'solve.sh' is a file beside the scene") !=
+               std::string::npos;
+    });
+    // A name that is no file, "4" say, is an argument like any other.
+    fs::remove(known.directory.path() / "solve.sh");
+    BOOST_CHECK_NO_THROW(required("[]"));
+}
+
+BOOST_AUTO_TEST_SUITE_END()
+
+BOOST_AUTO_TEST_SUITE_END()
