@@ -73,7 +73,7 @@ private:
         waiting_.emplace_back(begin, middle);
         if (waiting_.size() + result_.pieces.size() > most_pieces)
             result_.reason =
-                fmt::format("by more than {} pieces in time, each a polynomial of degree {}",
+                fmt::format("it takes more than {} pieces in time, each a polynomial of degree {}",
                             most_pieces, degree_of_t - 1);
     }
 
@@ -88,7 +88,7 @@ private:
                 values.col(j) =
                     functions_[f](x, begin + 0.5 * (1.0 + times(j)) * (end - begin)).matrix();
             if (!values.allFinite()) {
-                result_.reason = "where it is not finite";
+                result_.reason = "it is not finite everywhere";
                 return std::nullopt;
             }
             result_.greatest[f] = std::max(result_.greatest[f], values.cwiseAbs().maxCoeff());
@@ -96,8 +96,8 @@ private:
             if (has_ended(coefficients, result_.greatest[f]))
                 return coefficients;
             if (2 * rows_ > most_of_x) {
-                result_.reason =
-                    fmt::format("by a polynomial of x of more than degree {}", rows_ - 1);
+                result_.reason = fmt::format(
+                    "no polynomial of x of degree {} follows it to round-off", rows_ - 1);
                 return std::nullopt;
             }
         }

@@ -230,7 +230,7 @@ SeparatedProblem separated(const ProblemData& data, const std::vector<Norm>& nor
     const auto functions = fields.functions();
     const Expansion expansion = expanded(functions, ends_of(data, final_time));
     if (!expansion.reason.empty())
-        return unchanged(data, "it is not represented to round-off " + expansion.reason);
+        return unchanged(data, expansion.reason);
     const MatrixXd basis = basis_of(expansion);
     if (basis.cols() > most_profiles)
         return unchanged(data, fmt::format("it takes {} products, more than the {} that pay",

@@ -273,7 +273,10 @@ const std::vector<Factor>& factors() {
          [](const Setting& of) { return of.scene.beam.theta_A == 0.0 ? 0U : 1U; }},
         {"source",
          {"of products", "that does not separate"},
-         [](const Setting& of) { return of.run.count("source_evaluations") == 0 ? 0U : 1U; }},
+         [](const Setting& of) {
+             return of.data.heat_source.is_separable() && of.data.moment_load.is_separable() ? 0U
+                                                                                             : 1U;
+         }},
         {"zeta",
          {"zero", "not zero"},
          [](const Setting& of) { return of.scene.beam.zeta == 0.0 ? 0U : 1U; }},
@@ -305,7 +308,6 @@ struct Impossible {
 const std::vector<Impossible> impossible{
     {"mesh graded", "march in sines", "the sine basis wants a uniform mesh"},
     {"mesh of listed nodes", "march in sines", "the sine basis wants a uniform mesh"},
-    {"march in sines", "source that does not separate", "the sine basis wants products"},
     {"march in sines", "errors against a reference", "a reference is no sum of products"},
     {"march in sines", "errors against an extrapolated reference",
      "a reference is no sum of products"},
@@ -376,6 +378,8 @@ void add_runs(const Scene& scene, const AskedKeys& asked, Uses& uses, Uses& pair
     const Scene first = shortest_form(scene);
     const ProblemData data = problem_of(first, first.longest_time());
     const StudyResult result = run_study(first, data);
+    uses["source by products to round-off"] |= result.separation.rank > 0;
+    uses["source at every point of the direct algorithm"] |= !result.separation.reason.empty();
     const auto is_gated = [&](const std::string& study) {
         const auto key = asked.find("expect." + study.substr(0, study.find('.')));
         return key != asked.end() && key->second.given;
