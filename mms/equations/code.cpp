@@ -1,0 +1,219 @@
+#include "mms/equations/code.hpp"
+
+#include "mms/equations/code_lines.hpp"
+#include "mms/equations/dialect.hpp"
+#include "mms/equations/infix.hpp"
+#include "mms/equations/program.hpp"
+#include "mms/expression/algebra.hpp"
+
+#include <algorithm>
+#include <set>
+
+namespace tvbeam {
+
+namespace {
+
+using Operation = Program::Operation;
+using Role = DerivedFunction::Role;
+
+constexpr std::size_t longest_inline = 20'000;
+
+Program program_for(const DerivedSystem& derived, const DerivedFunction& function) {
+    try {
+        return program_of({function.formula}, derived.fields);
+    } catch (const AlgebraError& error) {
+        throw InputError(function.source, function.name + ": " + error.what());
+    }
+}
+
+/// The names of a program that mean something else in the language replaced.
+Program renamed(Program program, const Dialect& dialect) {
+    program.rename([&](const std::string& name) { return dialect.identifier(name); });
+    return program;
+}
+
+/// Steps that are read more than once, and are more than a name or a number: they get names.
+std::vector<int> shared_steps(const Program& program) {
+    const auto& steps = program.steps();
+    std::vector<int> reads(steps.size(), 0);
+    for (const auto& step : steps)
+        for (const int operand : {step.left, step.right})
+            if (operand >= 0)
+                ++reads[static_cast<std::size_t>(operand)];
+    std::vector<int> shared;
+    for (std::size_t i = 0; i < steps.size(); ++i) {
+        const auto& step = steps[i];
+        const bool simple =
+            step.operation == Operation::number || step.operation == Operation::name ||
+            (step.operation == Operation::negate &&
+             steps[static_cast<std::size_t>(step.left)].operation == Operation::name);
+        if (reads[i] > 1 && !simple)
+            shared.push_back(static_cast<int>(i));
+    }
+    return shared;
+}
+
+/// A word for what is shared and no field, with which nothing in the file begins.
+std::string free_prefix(const DerivedSystem& derived) {
+    std::set<std::string> names;
+    for (const auto& parameter : derived.parameters)
+        names.insert(parameter.name);
+    for (const auto& function : derived.functions)
+        names.insert(function.name);
+    for (std::string prefix = "s";; prefix += "s")
+        if (std::none_of(names.begin(), names.end(), [&](const std::string& name) {
+                return name.starts_with(prefix) && name.size() > prefix.size() &&
+                       name.find_first_not_of("0123456789", prefix.size()) == std::string::npos;
+            }))
+            return prefix;
+}
+
+/// The body of a function: what is shared, and the value.
+CodeBody body_of(const Program& program, const Dialect& dialect, const std::string& prefix) {
+    std::map<int, std::string> names;
+    CodeBody body;
+    const auto named = [&](int step) {
+        const auto found = names.find(step);
+        return found == names.end() ? std::string() : found->second;
+    };
+    int count = 0;
+    for (const int step : shared_steps(program)) {
+        const std::string text = infix_text(program, step, dialect.infix, named);
+        const std::string& field = program.steps()[static_cast<std::size_t>(step)].field;
+        names[step] = dialect.identifier(field.empty() ? prefix + std::to_string(++count) : field);
+        body.shared.emplace_back(names[step], text);
+    }
+    const int output = program.outputs().front();
+    body.value =
+        named(output).empty() ? infix_text(program, output, dialect.infix, named) : named(output);
+    return body;
+}
+
+/// In a comment nothing may end it, or join it to the next line.
+std::string comment_text(const std::string& text) {
+    std::string line;
+    for (const char c : text) {
+        const bool blank = c == '\n' || c == '\t' || c == '\r' || c == ' ';
+        if (blank && (line.empty() || line.back() == ' '))
+            continue;
+        const auto byte = static_cast<unsigned char>(c);
+        line += blank ? ' ' : (c == '\\' || byte < 0x20U || byte == 0x7FU) ? '?' : c;
+    }
+    return line;
+}
+
+void require_distinct(const DerivedSystem& derived, const Dialect& dialect) {
+    std::map<std::string, std::string> taken;
+    const auto add = [&](const std::string& name, const Place& place) {
+        const auto [entry, is_new] =
+            taken.try_emplace(dialect.folded(dialect.identifier(name)), name);
+        if (!is_new && entry->second != name)
+            throw InputError(place, "'" + name + "' and '" + entry->second + "' are one name in " +
+                                        dialect.name + "; rename one of them");
+    };
+    for (const auto& name : derived.system.coordinates)
+        add(name, {});
+    for (std::size_t i = 0; i < derived.parameters.size(); ++i)
+        add(derived.parameters[i].name, derived.system.parameters[i].place);
+    for (const auto& function : derived.functions)
+        add(function.name, function.source);
+}
+
+} // namespace
+
+std::string description_of(const DerivedFunction& function) {
+    const std::string place = function.place.empty() ? "" : " at " + function.place;
+    const std::string where = " (" +
+                              std::filesystem::path(function.source.file).filename().string() +
+                              ":" + std::to_string(function.source.line) + ")";
+    switch (function.role) {
+    case Role::source:
+        return "source " + function.of + " = " + function.origin + where;
+    case Role::exact:
+        return "exact " + function.of + " = " + function.origin + where;
+    case Role::gradient:
+        return "derivative of the exact " + function.of + " by " +
+               std::string(1, function.name.back());
+    case Role::boundary:
+        return "boundary value " + function.of + place + " = " + function.origin + where;
+    case Role::initial:
+        break;
+    }
+    return "initial value " + function.of + place + " = " + function.origin + where;
+}
+
+std::string system_code(const DerivedSystem& derived, CodeLanguage language) {
+    const Dialect& dialect = dialect_of(language);
+    require_distinct(derived, dialect);
+    const std::string prefix = free_prefix(derived);
+    CodeFile file{.name = derived.system.name};
+    for (const auto& coordinate : derived.system.coordinates)
+        file.arguments.push_back(coordinate);
+    std::set<std::string> functions; // of the library
+    bool uses_pi = false;
+    std::set<std::string> used;
+    for (const auto& function : derived.functions) {
+        const Program program = renamed(program_for(derived, function), dialect);
+        CodeFunction code{.name = dialect.identifier(function.name),
+                          .comment = comment_text(description_of(function)),
+                          .body = body_of(program, dialect, prefix)};
+        for (const auto& step : program.steps()) {
+            if (step.operation == Operation::function)
+                functions.insert(step.text);
+            if (step.operation == Operation::square_root)
+                functions.insert("sqrt");
+            if (step.operation == Operation::name)
+                used.insert(step.text);
+        }
+        for (const auto& argument : file.arguments)
+            if (!program.uses(argument))
+                code.unused.push_back(argument);
+        file.functions.push_back(code);
+    }
+    uses_pi = used.contains("pi");
+    file.library.assign(functions.begin(), functions.end());
+    file.uses_pi = uses_pi;
+    for (const auto& parameter : derived.parameters) {
+        const std::string name = dialect.identifier(parameter.name);
+        const bool negative = parameter.value < 0.0;
+        file.constants.push_back(
+            {name, (negative ? "-" : "") + literal_text(std::abs(parameter.value), dialect.infix)});
+    }
+    file.comment = comment_text("Derived from " +
+                                std::filesystem::path(derived.system.file).filename().string() +
+                                " by tvbeam: " + derived.system.name);
+    return dialect.write(dialect, file);
+}
+
+std::string inline_code(const DerivedSystem& derived, const DerivedFunction& function,
+                        CodeLanguage language) {
+    const Dialect& dialect = dialect_of(language);
+    GiNaC::exmap values;
+    for (const auto& parameter : derived.parameters)
+        values[parameter.symbol] = parameter.exact;
+    DerivedFunction numbers = function;
+    try {
+        numbers.formula = substituted(derived.fields.exact(function.formula), values);
+    } catch (const AlgebraError& error) {
+        throw InputError(function.source, function.name + ": " + error.what());
+    }
+    const Program program = program_for(derived, numbers);
+    // A text doubles with each part that is used twice.
+    std::vector<double> lengths;
+    for (const auto& step : program.steps()) {
+        double length = 8.0;
+        for (const int operand : {step.left, step.right})
+            length += operand < 0 ? 0.0 : lengths[static_cast<std::size_t>(operand)];
+        lengths.push_back(length);
+    }
+    if (lengths[static_cast<std::size_t>(program.outputs().front())] > longest_inline)
+        throw InputError(function.source,
+                         function.name + " is too long for one expression; take the functions of "
+                                         "`tvbeam derive --code` in its place");
+    return "(" +
+           infix_text(program, program.outputs().front(), dialect.infix,
+                      [](int) { return std::string(); }) +
+           ")";
+}
+
+} // namespace tvbeam
