@@ -124,7 +124,7 @@ private:
         std::set<std::string> occurring;
         const auto equations = derived_.of_role(Role::source);
         for (const DerivedFunction* equation : equations)
-            for (const Field* field : derived_.fields.occurring_in(equation->formula))
+            for (const EquationField* field : derived_.fields.occurring_in(equation->formula))
                 occurring.insert(field->unknown);
         for (std::size_t i = 0; i < derived_.unknowns.size(); ++i)
             if (!occurring.contains(derived_.unknowns[i]))
@@ -199,7 +199,7 @@ private:
         const ex exact = position.entries.front();
         const double at = located(entry.position, "on",
                                   [&] { return numeric_value(substituted(exact, values)); });
-        const Interval range = system().domain.at(entry.variable);
+        const DomainInterval range = system().domain.at(entry.variable);
         if (at != range.begin && at != range.end)
             throw InputError(entry.position.begin(),
                              entry.variable + " = " + number_text(at) +

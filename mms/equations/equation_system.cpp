@@ -96,8 +96,8 @@ std::vector<BoundaryEntry> read_boundary(TableReader& root) {
     return result;
 }
 
-std::map<std::string, Interval> read_domain(TableReader& root) {
-    std::map<std::string, Interval> domain;
+std::map<std::string, DomainInterval> read_domain(TableReader& root) {
+    std::map<std::string, DomainInterval> domain;
     for (const auto& coordinate : coordinate_names())
         domain[coordinate] = {};
     if (auto table = root.table("domain")) {

@@ -25,7 +25,7 @@ struct BoundaryEntry {
     SourceText position;  ///< of the plane: variable = position
 };
 
-struct Interval {
+struct DomainInterval {
     double begin = 0.0;
     double end = 1.0;
 };
@@ -73,7 +73,7 @@ struct EquationSystem {
     std::vector<NamedEntries> equations;
     std::vector<BoundaryEntry> boundary;
     std::vector<NamedEntries> initial;
-    std::map<std::string, Interval> domain; ///< of every coordinate
+    std::map<std::string, DomainInterval> domain; ///< of every coordinate
 };
 
 /// Whether a file is one of equations: TOML with a key `equations`. Throws InputError where it

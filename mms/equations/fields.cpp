@@ -90,14 +90,14 @@ ex Fields::add(const std::string& unknown, const ex& exact) {
     return fields_.back().symbol;
 }
 
-const Field* Fields::find(const std::string& name) const {
+const EquationField* Fields::find(const std::string& name) const {
     const auto found = by_name_.find(name);
     return found == by_name_.end() ? nullptr : found->second;
 }
 
-const Field& Fields::of(const std::string& unknown, const Orders& orders) {
+const EquationField& Fields::of(const std::string& unknown, const Orders& orders) {
     const std::string name = field_name(unknown, orders);
-    if (const Field* known = find(name))
+    if (const EquationField* known = find(name))
         return *known;
     if (std::accumulate(orders.begin(), orders.end(), 0) > highest_order)
         throw AlgebraError("a derivative of " + unknown + " of an order above " +
@@ -116,11 +116,11 @@ const Field& Fields::of(const std::string& unknown, const Orders& orders) {
     return fields_.back();
 }
 
-std::vector<const Field*> Fields::occurring_in(const ex& expression) const {
+std::vector<const EquationField*> Fields::occurring_in(const ex& expression) const {
     std::set<std::string> names;
     collect_symbols(expression, names);
-    std::vector<const Field*> result;
-    for (const Field& field : fields_)
+    std::vector<const EquationField*> result;
+    for (const EquationField& field : fields_)
         if (names.contains(field.symbol.get_name()))
             result.push_back(&field);
     return result;
@@ -128,7 +128,7 @@ std::vector<const Field*> Fields::occurring_in(const ex& expression) const {
 
 ex Fields::derivative(const ex& expression, std::size_t coordinate) {
     ex result = plain_derivative(expression, tvbeam::coordinate(coordinate));
-    for (const Field* field : occurring_in(expression)) {
+    for (const EquationField* field : occurring_in(expression)) {
         Orders higher = field->orders;
         ++higher[coordinate];
         const ex slope = plain_derivative(expression, field->symbol);
@@ -141,7 +141,7 @@ ex Fields::derivative(const ex& expression, std::size_t coordinate) {
 ex Fields::exact(const ex& expression) const {
     GiNaC::exmap values;
     std::map<std::string, double> sizes;
-    for (const Field* field : occurring_in(expression)) {
+    for (const EquationField* field : occurring_in(expression)) {
         values[field->symbol] = field->exact;
         sizes[field->symbol.get_name()] = growth_of(field->exact).nodes;
     }

@@ -18,7 +18,7 @@ inline constexpr std::size_t coordinate_count = 4;
 using Orders = std::array<int, coordinate_count>;
 
 /// An unknown, or a derivative of one, as equations name it: u, u_x, u_xxt.
-struct Field {
+struct EquationField {
     std::string unknown; ///< a component: u, or v1
     Orders orders{};
     GiNaC::realsymbol symbol; ///< its name is u_xxt
@@ -37,19 +37,19 @@ public:
     GiNaC::ex derivative(const GiNaC::ex& expression, std::size_t coordinate);
 
     /// The field of that name, or null.
-    [[nodiscard]] const Field* find(const std::string& name) const;
+    [[nodiscard]] const EquationField* find(const std::string& name) const;
     /// Those that occur, in the order in which they were made.
-    [[nodiscard]] std::vector<const Field*> occurring_in(const GiNaC::ex& expression) const;
+    [[nodiscard]] std::vector<const EquationField*> occurring_in(const GiNaC::ex& expression) const;
     /// An unknown itself, or a derivative of it.
-    const Field& of(const std::string& unknown, const Orders& orders);
+    const EquationField& of(const std::string& unknown, const Orders& orders);
 
     /// The expression for the exact solution, in coordinates and parameters. Throws AlgebraError
     /// where it has no value, or is too large.
     [[nodiscard]] GiNaC::ex exact(const GiNaC::ex& expression) const;
 
 private:
-    std::deque<Field> fields_; ///< which keeps its elements where they are
-    std::map<std::string, const Field*> by_name_;
+    std::deque<EquationField> fields_; ///< which keeps its elements where they are
+    std::map<std::string, const EquationField*> by_name_;
 };
 
 /// The derivative of an expression without fields. Throws AlgebraError before it is computed where

@@ -42,7 +42,7 @@ private:
     /// Fields that are numbers put in, so that nothing is added that is 0.
     [[nodiscard]] ex without_constants(const ex& expression) const {
         GiNaC::exmap values;
-        for (const Field* field : fields_.occurring_in(expression))
+        for (const EquationField* field : fields_.occurring_in(expression))
             if (GiNaC::is_a<numeric>(field->exact))
                 values[field->symbol] = field->exact;
         return values.empty() ? expression : substituted(expression, values);
@@ -86,7 +86,7 @@ private:
     }
 
     int named(const std::string& name) {
-        if (const Field* field = fields_.find(name)) {
+        if (const EquationField* field = fields_.find(name)) {
             const int value = value_of(*canonical(balanced(field->exact)));
             std::string& label = steps_[static_cast<std::size_t>(value)].field;
             if (label.empty())

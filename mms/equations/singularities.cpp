@@ -144,7 +144,7 @@ private:
             DomainPoint point;
             std::size_t rest = i;
             for (const auto& name : names) {
-                const Interval range = derived_.system.domain.at(name);
+                const DomainInterval range = derived_.system.domain.at(name);
                 const double part = double(rest % along) / double(along - 1);
                 point[name] = range.begin + part * (range.end - range.begin);
                 rest /= along;
@@ -236,7 +236,7 @@ private:
         return std::nullopt;
     }
 
-    using Box = std::map<std::string, Interval>;
+    using Box = std::map<std::string, DomainInterval>;
 
     /// Halves the domain until all rules hold in every part.
     [[nodiscard]] std::optional<Singularity>
@@ -287,7 +287,7 @@ private:
         std::string longest;
         double length = 0.0;
         for (const auto& [name, range] : box) {
-            const Interval& all = whole.at(name);
+            const DomainInterval& all = whole.at(name);
             const double here = (range.end - range.begin) / (all.end - all.begin);
             if (here > length) {
                 length = here;

@@ -102,7 +102,7 @@ private:
     }
 
     void look_for_unexercised(const DerivedFunction& source) {
-        for (const Field* field : derived_.fields.occurring_in(source.formula)) {
+        for (const EquationField* field : derived_.fields.occurring_in(source.formula)) {
             if (!is_zero(field->symbol, source))
                 continue;
             ex coefficient;
@@ -133,7 +133,7 @@ private:
 
     /// What the exact values have is not said of their derivatives again.
     void look_for_singularity(const DerivedFunction& function) {
-        for (const Field* field : derived_.fields.occurring_in(function.formula))
+        for (const EquationField* field : derived_.fields.occurring_in(function.formula))
             if (std::find(said_.begin(), said_.end(), field->unknown) != said_.end())
                 return;
         const Program program = located_program({function.formula}, derived_.fields, function);
@@ -168,7 +168,7 @@ std::vector<DomainPoint> points_inside(const EquationSystem& system, std::size_t
         double step = 1.0;
         for (const auto& name : system.coordinates) {
             step /= g;
-            const Interval range = system.domain.at(name);
+            const DomainInterval range = system.domain.at(name);
             const double part = std::fmod(0.5 + double(i + 1) * step, 1.0);
             points[i][name] = range.begin + part * (range.end - range.begin);
         }

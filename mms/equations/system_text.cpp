@@ -42,7 +42,7 @@ std::string parameters_text(const DerivedSystem& derived) {
 using Needed = std::map<std::string, ex>;
 
 void need(Needed& needed, const DerivedSystem& derived, const ex& formula) {
-    for (const Field* field : derived.fields.occurring_in(formula))
+    for (const EquationField* field : derived.fields.occurring_in(formula))
         if (field->symbol.get_name() != field->unknown)
             needed[field->symbol.get_name()] = field->exact;
 }
@@ -64,7 +64,7 @@ void add_formula(std::string& text, const DerivedSystem& derived, const DerivedF
 std::map<std::string, std::string> latex_names(const DerivedSystem& derived) {
     std::map<std::string, std::string> names;
     for (const auto& function : derived.functions)
-        for (const Field* field : derived.fields.occurring_in(function.formula)) {
+        for (const EquationField* field : derived.fields.occurring_in(function.formula)) {
             const std::string name = field->symbol.get_name();
             const std::string unknown = formula_latex(GiNaC::realsymbol(field->unknown));
             if (name != field->unknown)
