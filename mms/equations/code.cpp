@@ -7,6 +7,10 @@
 #include "mms/expression/algebra.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <map>
 #include <set>
 
 namespace tvbeam {
@@ -32,55 +36,61 @@ Program renamed(Program program, const Dialect& dialect) {
     return program;
 }
 
-/// Steps that are read more than once, and are more than a name or a number: they get names.
+/// How many operations a step takes; infinitely many where a function is among them.
+std::vector<double> operation_counts(const Program& program) {
+    std::vector<double> counts;
+    for (const auto& step : program.steps()) {
+        double count = 0.0;
+        for (const int operand : {step.left, step.right})
+            if (operand >= 0)
+                count += 1.0 + counts[static_cast<std::size_t>(operand)];
+        const bool cheap = step.operation != Operation::function &&
+                           step.operation != Operation::power &&
+                           step.operation != Operation::square_root;
+        counts.push_back(cheap ? count : std::numeric_limits<double>::infinity());
+    }
+    return counts;
+}
+
+/// Steps that are read more than once and worth a name: compilers find pi*y/2 again by themselves.
 std::vector<int> shared_steps(const Program& program) {
+    constexpr double worth_a_name = 4.0; // operands: of two operations
     const auto& steps = program.steps();
+    const std::vector<double> counts = operation_counts(program);
     std::vector<int> reads(steps.size(), 0);
     for (const auto& step : steps)
         for (const int operand : {step.left, step.right})
             if (operand >= 0)
                 ++reads[static_cast<std::size_t>(operand)];
     std::vector<int> shared;
-    for (std::size_t i = 0; i < steps.size(); ++i) {
-        const auto& step = steps[i];
-        const bool simple =
-            step.operation == Operation::number || step.operation == Operation::name ||
-            (step.operation == Operation::negate &&
-             steps[static_cast<std::size_t>(step.left)].operation == Operation::name);
-        if (reads[i] > 1 && !simple)
+    for (std::size_t i = 0; i < steps.size(); ++i)
+        if (reads[i] > 1 && counts[i] > worth_a_name)
             shared.push_back(static_cast<int>(i));
-    }
     return shared;
 }
 
-/// A word for what is shared and no field, with which nothing in the file begins.
-std::string free_prefix(const DerivedSystem& derived) {
-    std::set<std::string> names;
-    for (const auto& parameter : derived.parameters)
-        names.insert(parameter.name);
-    for (const auto& function : derived.functions)
-        names.insert(function.name);
-    for (std::string prefix = "s";; prefix += "s")
-        if (std::none_of(names.begin(), names.end(), [&](const std::string& name) {
-                return name.starts_with(prefix) && name.size() > prefix.size() &&
-                       name.find_first_not_of("0123456789", prefix.size()) == std::string::npos;
-            }))
-            return prefix;
-}
-
 /// The body of a function: what is shared, and the value.
-CodeBody body_of(const Program& program, const Dialect& dialect, const std::string& prefix) {
+/// `taken`: names of the file, which those of shared parts must not hide.
+CodeBody body_of(const Program& program, const Dialect& dialect, std::set<std::string> taken) {
     std::map<int, std::string> names;
     CodeBody body;
+    int count = 0;
+    const auto free_name = [&](const std::string& wanted) {
+        std::string name = dialect.identifier(wanted);
+        while (wanted.empty() || !taken.insert(dialect.folded(name)).second) {
+            name = "s" + std::to_string(++count);
+            if (taken.insert(dialect.folded(name)).second)
+                break;
+        }
+        return name;
+    };
     const auto named = [&](int step) {
         const auto found = names.find(step);
         return found == names.end() ? std::string() : found->second;
     };
-    int count = 0;
     for (const int step : shared_steps(program)) {
         const std::string text = infix_text(program, step, dialect.infix, named);
-        const std::string& field = program.steps()[static_cast<std::size_t>(step)].field;
-        names[step] = dialect.identifier(field.empty() ? prefix + std::to_string(++count) : field);
+        names[step] = free_name(program.steps()[static_cast<std::size_t>(step)].field);
         body.shared.emplace_back(names[step], text);
     }
     const int output = program.outputs().front();
@@ -102,8 +112,9 @@ std::string comment_text(const std::string& text) {
     return line;
 }
 
-void require_distinct(const DerivedSystem& derived, const Dialect& dialect) {
-    std::map<std::string, std::string> taken;
+/// The names of a file, as the language tells them apart.
+std::set<std::string> require_distinct(const DerivedSystem& derived, const Dialect& dialect) {
+    std::map<std::string, std::string> taken = {{"pi", "pi"}};
     const auto add = [&](const std::string& name, const Place& place) {
         const auto [entry, is_new] =
             taken.try_emplace(dialect.folded(dialect.identifier(name)), name);
@@ -117,6 +128,10 @@ void require_distinct(const DerivedSystem& derived, const Dialect& dialect) {
         add(derived.parameters[i].name, derived.system.parameters[i].place);
     for (const auto& function : derived.functions)
         add(function.name, function.source);
+    std::set<std::string> names;
+    for (const auto& [name, written] : taken)
+        names.insert(name);
+    return names;
 }
 
 } // namespace
@@ -144,8 +159,7 @@ std::string description_of(const DerivedFunction& function) {
 
 std::string system_code(const DerivedSystem& derived, CodeLanguage language) {
     const Dialect& dialect = dialect_of(language);
-    require_distinct(derived, dialect);
-    const std::string prefix = free_prefix(derived);
+    const std::set<std::string> taken = require_distinct(derived, dialect);
     CodeFile file{.name = derived.system.name};
     for (const auto& coordinate : derived.system.coordinates)
         file.arguments.push_back(coordinate);
@@ -156,7 +170,7 @@ std::string system_code(const DerivedSystem& derived, CodeLanguage language) {
         const Program program = renamed(program_for(derived, function), dialect);
         CodeFunction code{.name = dialect.identifier(function.name),
                           .comment = comment_text(description_of(function)),
-                          .body = body_of(program, dialect, prefix)};
+                          .body = body_of(program, dialect, taken)};
         for (const auto& step : program.steps()) {
             if (step.operation == Operation::function)
                 functions.insert(step.text);

@@ -22,8 +22,9 @@ std::optional<CodeLanguage> code_language(const std::string& name);
 /// so that arrays do as well) and Julia are files of their own. FreeFEM's is for include, UFL's for
 /// import (coordinates are UFL's or numbers), MOOSE's is a block [Functions] of ParsedFunction.
 ///
-/// Names that mean something else in a language get a _ at their end. Throws InputError where two
-/// names become one.
+/// Names that mean something else in a language get a _ at their end. FreeFEM knows no _ in names:
+/// u_exact_x is uexactx there, and what is reserved gets a 0. Throws InputError where two names
+/// become one.
 std::string system_code(const DerivedSystem& derived, CodeLanguage language);
 
 /// One of the functions as an expression of that language, in brackets, without names but the

@@ -38,6 +38,21 @@ struct Braces {
     bool marks_unused = false;
 };
 
+/// As many to a line as fit.
+std::string declarations(const Braces& braces, const CodeBody& body) {
+    std::string text;
+    std::string line;
+    for (const auto& [name, value] : body.shared) {
+        const std::string one = name + " = " + value;
+        if (!line.empty() && is_long(line + ", " + one + ";")) {
+            text += wrapped_code(line + ";", 8, "");
+            line.clear();
+        }
+        line += (line.empty() ? "    " + braces.declaration : ", ") + one;
+    }
+    return line.empty() ? text : text + wrapped_code(line + ";", 8, "");
+}
+
 std::string written_in_braces(const Braces& braces, const CodeFile& file) {
     std::string text;
     for (const auto& function : file.functions) {
@@ -50,9 +65,8 @@ std::string written_in_braces(const Braces& braces, const CodeFile& file) {
                 text += " (void)" + name + ";";
             text += "\n";
         }
-        for (const auto& [name, value] : function.body.shared)
-            text += wrapped_code("    " + braces.declaration + name + " = " + value + ";", 8, "");
-        text += wrapped_code("    return " + function.body.value + ";", 8, "") + "}\n";
+        text += declarations(braces, function.body) +
+                wrapped_code("    return " + function.body.value + ";", 8, "") + "}\n";
     }
     return text;
 }
@@ -274,7 +288,13 @@ const std::array<Dialect, 8>& dialects() {
                 write_fortran},
         Dialect{python, "python", {.power = "**"}, words(words_of_python), false, write_python},
         Dialect{julia, "julia", {.power = "^"}, words(words_of_julia), false, write_julia},
-        Dialect{freefem, "freefem", {.power = "^"}, words(words_of_freefem), false, write_freefem},
+        Dialect{freefem,
+                "freefem",
+                {.power = "^"},
+                words(words_of_freefem),
+                false,
+                write_freefem,
+                false},
         Dialect{ufl, "ufl", {.power = "**"}, words(words_of_python), false, write_ufl},
         Dialect{moose,
                 "moose",
@@ -297,7 +317,12 @@ std::string Dialect::folded(const std::string& text) const {
 }
 
 std::string Dialect::identifier(const std::string& text) const {
-    return reserved.contains(folded(text)) ? text + "_" : text;
+    std::string result = text;
+    if (!underscores)
+        result.erase(std::remove(result.begin(), result.end(), '_'), result.end());
+    if (reserved.contains(folded(result)))
+        result += underscores ? "_" : "0";
+    return result;
 }
 
 const Dialect& dialect_of(CodeLanguage language) {

@@ -18,8 +18,10 @@ struct Dialect {
     std::set<std::string> reserved;
     bool ignores_case = false;
     std::string (*write)(const Dialect& dialect, const CodeFile& file);
+    bool underscores = true; ///< in names
 
-    /// The name, with a _ at its end where it is reserved.
+    /// The name, without what names may not have, and with a _ (or 0) at its end where it is
+    /// reserved.
     [[nodiscard]] std::string identifier(const std::string& name) const;
     /// Equal for names that the language takes for one.
     [[nodiscard]] std::string folded(const std::string& name) const;
