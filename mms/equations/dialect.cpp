@@ -94,7 +94,8 @@ std::string write_cpp(const Dialect& /*dialect*/, const CodeFile& file) {
     return text +
            written_in_braces({.declaration = "const double ",
                               .function = "inline double ",
-                              .argument = "[[maybe_unused]] double "},
+                              .argument = "double ",
+                              .marks_unused = true},
                              file) +
            "\n}\n";
 }

@@ -50,8 +50,11 @@ private:
 
     int value_of(const CanonicalNode& node) {
         const auto known = by_key_.find(node.key);
-        if (known != by_key_.end())
+        if (known != by_key_.end()) {
+            if (node.kind != Kind::Name)
+                steps_[static_cast<std::size_t>(known->second)].field.clear();
             return known->second;
+        }
         const int value = new_value_of(node);
         by_key_.emplace(node.key, value);
         return value;
@@ -82,15 +85,18 @@ private:
         const auto [entry, is_new] = by_operation_.try_emplace(key, int(steps_.size()));
         if (is_new)
             steps_.push_back({.operation = operation, .left = left, .right = right, .text = text});
+        else
+            steps_[static_cast<std::size_t>(entry->second)].field.clear();
         return entry->second;
     }
 
     int named(const std::string& name) {
         if (const EquationField* field = fields_.find(name)) {
+            // What was there before, or is met again as something else, is not called after it.
+            const std::size_t before = steps_.size();
             const int value = value_of(*canonical(balanced(field->exact)));
-            std::string& label = steps_[static_cast<std::size_t>(value)].field;
-            if (label.empty())
-                label = name;
+            if (static_cast<std::size_t>(value) >= before)
+                steps_[static_cast<std::size_t>(value)].field = name;
             return value;
         }
         return step(Operation::name, -1, -1, name);
@@ -117,16 +123,27 @@ private:
         return entry->second;
     }
 
+    /// Of −a the a, and the sign is changed: it goes to the sum or product that this is part of.
+    int without_sign(int value, bool& negative) const {
+        const Step& one = steps_[static_cast<std::size_t>(value)];
+        if (one.operation != Operation::negate)
+            return value;
+        negative = !negative;
+        return one.left;
+    }
+
     int sum(const CanonicalNode& node) {
         std::optional<int> total;
         std::vector<int> subtracted;
         for (const Canonical& term : node.operands) {
-            if (term->coefficient.is_negative()) {
-                subtracted.push_back(value_of(*with_coefficient(*term, -term->coefficient)));
-                continue;
-            }
-            const int value = value_of(*term);
-            total = total ? step(Operation::add, *total, value) : value;
+            bool negative = term->coefficient.is_negative();
+            const int value = without_sign(
+                negative ? value_of(*with_coefficient(*term, -term->coefficient)) : value_of(*term),
+                negative);
+            if (negative)
+                subtracted.push_back(value);
+            else
+                total = total ? step(Operation::add, *total, value) : value;
         }
         for (const int value : subtracted)
             total =
@@ -134,17 +151,19 @@ private:
         return *total;
     }
 
-    /// Numerator over denominator; a coefficient p/q gives p to the one and q to the other.
+    /// Numerator over denominator; a coefficient 1/q gives q to the latter.
     int product(const CanonicalNode& node) {
         std::optional<int> above;
         std::optional<int> below;
-        const auto multiply = [this](std::optional<int>& target, int value) {
-            target = target ? step(Operation::multiply, *target, value) : value;
+        bool negative = node.coefficient.is_negative();
+        const auto multiply = [&](std::optional<int>& target, int value) {
+            const int factor = without_sign(value, negative);
+            target = target ? step(Operation::multiply, *target, factor) : factor;
         };
         const numeric coefficient = GiNaC::abs(node.coefficient);
-        const bool is_quotient = coefficient.is_rational() && !coefficient.is_integer() &&
-                                 coefficient.numer().is_equal(1);
-        if (is_quotient)
+        const bool divides_alone = coefficient.is_rational() && !coefficient.is_integer() &&
+                                   coefficient.numer().is_equal(1);
+        if (divides_alone)
             below = number(coefficient.denom());
         else if (!coefficient.is_equal(1))
             above = number(coefficient);
@@ -159,7 +178,7 @@ private:
         }
         const int numerator = above ? *above : number(1);
         const int result = below ? step(Operation::divide, numerator, *below) : numerator;
-        return node.coefficient.is_negative() ? step(Operation::negate, result) : result;
+        return negative ? step(Operation::negate, result) : result;
     }
 
     int power(const CanonicalNode& base, const CanonicalNode& exponent) {
