@@ -21,6 +21,7 @@ using Operation = Program::Operation;
 using Role = DerivedFunction::Role;
 
 constexpr std::size_t longest_inline = 20'000;
+constexpr const char* all_sources = "sources"; // require_names keeps it free
 
 Program program_for(const DerivedSystem& derived, const DerivedFunction& function) {
     try {
@@ -62,6 +63,8 @@ std::vector<int> shared_steps(const Program& program) {
         for (const int operand : {step.left, step.right})
             if (operand >= 0)
                 ++reads[static_cast<std::size_t>(operand)];
+    for (const int output : program.outputs())
+        ++reads[static_cast<std::size_t>(output)];
     std::vector<int> shared;
     for (std::size_t i = 0; i < steps.size(); ++i)
         if (reads[i] > 1 && counts[i] > worth_a_name)
@@ -93,9 +96,10 @@ CodeBody body_of(const Program& program, const Dialect& dialect, std::set<std::s
         names[step] = free_name(program.steps()[static_cast<std::size_t>(step)].field);
         body.shared.emplace_back(names[step], text);
     }
-    const int output = program.outputs().front();
-    body.value =
-        named(output).empty() ? infix_text(program, output, dialect.infix, named) : named(output);
+    for (const int output : program.outputs())
+        body.values.push_back(named(output).empty()
+                                  ? infix_text(program, output, dialect.infix, named)
+                                  : named(output));
     return body;
 }
 
@@ -134,6 +138,50 @@ std::set<std::string> require_distinct(const DerivedSystem& derived, const Diale
     return names;
 }
 
+CodeFile empty_file(const DerivedSystem& derived, const Dialect& dialect) {
+    CodeFile file{.name = derived.system.name, .arguments = derived.system.coordinates};
+    file.comment = comment_text("Derived from " +
+                                std::filesystem::path(derived.system.file).filename().string() +
+                                " by tvbeam: " + derived.system.name);
+    for (const auto& parameter : derived.parameters)
+        file.constants.emplace_back(dialect.identifier(parameter.name),
+                                    (parameter.value < 0.0 ? "-" : "") +
+                                        literal_text(std::abs(parameter.value), dialect.infix));
+    return file;
+}
+
+/// What a program takes of the library, and which arguments it leaves alone.
+void note_uses(const Program& program, CodeFile& file, CodeFunction& function) {
+    std::set<std::string> library(file.library.begin(), file.library.end());
+    for (const auto& step : program.steps())
+        if (step.operation == Operation::function || step.operation == Operation::square_root)
+            library.insert(step.operation == Operation::function ? step.text : "sqrt");
+    file.library.assign(library.begin(), library.end());
+    file.uses_pi = file.uses_pi || program.uses("pi");
+    for (const auto& argument : file.arguments)
+        if (!program.uses(argument))
+            function.unused.push_back(argument);
+}
+
+/// All sources, of which the parts are shared.
+void add_together(const DerivedSystem& derived, const Dialect& dialect,
+                  const std::set<std::string>& taken, CodeFile& file) {
+    std::vector<GiNaC::ex> formulas;
+    std::string names;
+    for (const DerivedFunction* source : derived.of_role(Role::source)) {
+        formulas.push_back(source->formula);
+        names += (names.empty() ? "" : ", ") + source->of;
+    }
+    if (formulas.size() < 2)
+        return;
+    const Program program = renamed(program_of(formulas, derived.fields), dialect);
+    CodeFunction code{.name = all_sources,
+                      .comment = "all sources at once: " + names,
+                      .body = body_of(program, dialect, taken)};
+    note_uses(program, file, code);
+    file.together = code;
+}
+
 } // namespace
 
 std::string description_of(const DerivedFunction& function) {
@@ -160,42 +208,16 @@ std::string description_of(const DerivedFunction& function) {
 std::string system_code(const DerivedSystem& derived, CodeLanguage language) {
     const Dialect& dialect = dialect_of(language);
     const std::set<std::string> taken = require_distinct(derived, dialect);
-    CodeFile file{.name = derived.system.name};
-    for (const auto& coordinate : derived.system.coordinates)
-        file.arguments.push_back(coordinate);
-    std::set<std::string> functions; // of the library
-    bool uses_pi = false;
-    std::set<std::string> used;
+    CodeFile file = empty_file(derived, dialect);
     for (const auto& function : derived.functions) {
         const Program program = renamed(program_for(derived, function), dialect);
         CodeFunction code{.name = dialect.identifier(function.name),
                           .comment = comment_text(description_of(function)),
                           .body = body_of(program, dialect, taken)};
-        for (const auto& step : program.steps()) {
-            if (step.operation == Operation::function)
-                functions.insert(step.text);
-            if (step.operation == Operation::square_root)
-                functions.insert("sqrt");
-            if (step.operation == Operation::name)
-                used.insert(step.text);
-        }
-        for (const auto& argument : file.arguments)
-            if (!program.uses(argument))
-                code.unused.push_back(argument);
+        note_uses(program, file, code);
         file.functions.push_back(code);
     }
-    uses_pi = used.contains("pi");
-    file.library.assign(functions.begin(), functions.end());
-    file.uses_pi = uses_pi;
-    for (const auto& parameter : derived.parameters) {
-        const std::string name = dialect.identifier(parameter.name);
-        const bool negative = parameter.value < 0.0;
-        file.constants.push_back(
-            {name, (negative ? "-" : "") + literal_text(std::abs(parameter.value), dialect.infix)});
-    }
-    file.comment = comment_text("Derived from " +
-                                std::filesystem::path(derived.system.file).filename().string() +
-                                " by tvbeam: " + derived.system.name);
+    add_together(derived, dialect, taken, file);
     return dialect.write(dialect, file);
 }
 

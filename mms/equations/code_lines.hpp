@@ -1,16 +1,20 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace tvbeam {
 
-/// What is computed once and used more than once, by name, and the value.
+/// What is computed once and used more than once, by name, and the values.
 struct CodeBody {
     std::vector<std::pair<std::string, std::string>> shared;
-    std::string value;
+    std::vector<std::string> values;
+
+    /// Of a function with one.
+    [[nodiscard]] const std::string& value() const { return values.front(); }
 };
 
 struct CodeFunction {
@@ -29,6 +33,8 @@ struct CodeFile {
     std::vector<std::string> library = {}; ///< functions of the standard library in use
     bool uses_pi = false;
     std::vector<CodeFunction> functions = {};
+    /// All sources at once, with what they have in common computed once; where there are several.
+    std::optional<CodeFunction> together = {};
 };
 
 /// Text of code in lines of at most 100 characters where it can be broken: behind an operator or a

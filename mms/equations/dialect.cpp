@@ -38,6 +38,14 @@ struct Braces {
     bool marks_unused = false;
 };
 
+/// (void)x; for arguments that a function does not use.
+std::string unused_marks(const CodeFunction& function) {
+    std::string text;
+    for (const auto& name : function.unused)
+        text += " (void)" + name + ";";
+    return text.empty() ? "" : "   " + text + "\n";
+}
+
 /// As many to a line as fit.
 std::string declarations(const Braces& braces, const CodeBody& body) {
     std::string text;
@@ -53,20 +61,33 @@ std::string declarations(const Braces& braces, const CodeBody& body) {
     return line.empty() ? text : text + wrapped_code(line + ";", 8, "");
 }
 
+/// void sources(…, double values[n]), with the values from 0.
+std::string together_in_braces(const Braces& braces, const CodeFile& file) {
+    if (!file.together)
+        return {};
+    const CodeFunction& function = *file.together;
+    const std::string count = std::to_string(function.body.values.size());
+    const std::string storage = braces.function == "double " ? "void " : "inline void ";
+    std::string text = "\n" + wrapped_comment(function.comment, braces.comment);
+    text += storage + function.name + "(" + joined(file.arguments, braces.argument) +
+            (file.arguments.empty() ? "" : ", ") + "double values[" + count + "]) {\n" +
+            unused_marks(function) + declarations(braces, function.body);
+    for (std::size_t i = 0; i < function.body.values.size(); ++i)
+        text += wrapped_code(
+            "    values[" + std::to_string(i) + "] = " + function.body.values[i] + ";", 8, "");
+    return text + "}\n";
+}
+
 std::string written_in_braces(const Braces& braces, const CodeFile& file) {
     std::string text;
     for (const auto& function : file.functions) {
         text += "\n" + wrapped_comment(function.comment, braces.comment);
         text += braces.function + function.name + "(" + joined(file.arguments, braces.argument) +
                 ") {\n";
-        if (braces.marks_unused && !function.unused.empty()) {
-            text += "   ";
-            for (const auto& name : function.unused)
-                text += " (void)" + name + ";";
-            text += "\n";
-        }
+        if (braces.marks_unused)
+            text += unused_marks(function);
         text += declarations(braces, function.body) +
-                wrapped_code("    return " + function.body.value + ";", 8, "") + "}\n";
+                wrapped_code("    return " + function.body.value() + ";", 8, "") + "}\n";
     }
     return text;
 }
@@ -77,11 +98,11 @@ std::string write_c(const Dialect& /*dialect*/, const CodeFile& file) {
         text += fmt::format("static const double pi = {};\n", pi_digits);
     for (const auto& [name, value] : file.constants)
         text += fmt::format("static const double {} = {};\n", name, value);
-    return text + written_in_braces({.declaration = "const double ",
-                                     .function = "double ",
-                                     .argument = "double ",
-                                     .marks_unused = true},
-                                    file);
+    const Braces braces{.declaration = "const double ",
+                        .function = "double ",
+                        .argument = "double ",
+                        .marks_unused = true};
+    return text + written_in_braces(braces, file) + together_in_braces(braces, file);
 }
 
 std::string write_cpp(const Dialect& /*dialect*/, const CodeFile& file) {
@@ -91,13 +112,11 @@ std::string write_cpp(const Dialect& /*dialect*/, const CodeFile& file) {
         text += fmt::format("constexpr double pi = {};\n", pi_digits);
     for (const auto& [name, value] : file.constants)
         text += fmt::format("constexpr double {} = {};\n", name, value);
-    return text +
-           written_in_braces({.declaration = "const double ",
-                              .function = "inline double ",
-                              .argument = "double ",
-                              .marks_unused = true},
-                             file) +
-           "\n}\n";
+    const Braces braces{.declaration = "const double ",
+                        .function = "inline double ",
+                        .argument = "double ",
+                        .marks_unused = true};
+    return text + written_in_braces(braces, file) + together_in_braces(braces, file) + "\n}\n";
 }
 
 std::string write_freefem(const Dialect& /*dialect*/, const CodeFile& file) {
@@ -107,6 +126,23 @@ std::string write_freefem(const Dialect& /*dialect*/, const CodeFile& file) {
     return text +
            written_in_braces(
                {.declaration = "real ", .function = "func real ", .argument = "real "}, file);
+}
+
+std::string fortran_arguments(const CodeFile& file) {
+    return file.arguments.empty() ? ""
+                                  : "    real(dp), intent(in) :: " + joined(file.arguments) + "\n";
+}
+
+/// Declarations and values of what is shared.
+std::string fortran_body(const CodeFunction& function) {
+    std::vector<std::string> names;
+    std::string values;
+    for (const auto& [name, value] : function.body.shared) {
+        names.push_back(name);
+        values += wrapped_code("    " + name + " = " + value, 8, " &");
+    }
+    return (names.empty() ? "" : wrapped_code("    real(dp) :: " + joined(names), 8, " &")) +
+           values;
 }
 
 std::string write_fortran(const Dialect& /*dialect*/, const CodeFile& file) {
@@ -121,17 +157,24 @@ std::string write_fortran(const Dialect& /*dialect*/, const CodeFile& file) {
         text += "\n" + wrapped_comment(function.comment, "  !");
         text +=
             fmt::format("  pure real(dp) function {}({})\n", function.name, joined(file.arguments));
-        if (!file.arguments.empty())
-            text += "    real(dp), intent(in) :: " + joined(file.arguments) + "\n";
-        std::vector<std::string> names;
-        for (const auto& [name, value] : function.body.shared)
-            names.push_back(name);
-        if (!names.empty())
-            text += wrapped_code("    real(dp) :: " + joined(names), 8, " &");
-        for (const auto& [name, value] : function.body.shared)
-            text += wrapped_code("    " + name + " = " + value, 8, " &");
-        text += wrapped_code("    " + function.name + " = " + function.body.value, 8, " &") +
+        text += fortran_arguments(file) + fortran_body(function);
+        text += wrapped_code("    " + function.name + " = " + function.body.value(), 8, " &") +
                 "  end function\n";
+    }
+    if (file.together) {
+        const CodeFunction& function = *file.together;
+        const std::string comma = file.arguments.empty() ? "" : ", ";
+        text += "\n" + wrapped_comment(function.comment, "  !");
+        text += fmt::format("  pure subroutine {}({}{}values)\n", function.name,
+                            joined(file.arguments), comma);
+        text += fortran_arguments(file);
+        text +=
+            fmt::format("    real(dp), intent(out) :: values({})\n", function.body.values.size());
+        text += fortran_body(function);
+        for (std::size_t i = 0; i < function.body.values.size(); ++i)
+            text += wrapped_code(fmt::format("    values({}) = {}", i + 1, function.body.values[i]),
+                                 8, " &");
+        text += "  end subroutine\n";
     }
     return text + "end module\n";
 }
@@ -141,15 +184,23 @@ std::string bracketed_if_long(const std::string& line, const std::string& value)
     return is_long(line + value) ? line + "(" + value + ")" : line + value;
 }
 
+/// All functions, where one may return several values.
+std::vector<CodeFunction> with_together(const CodeFile& file) {
+    std::vector<CodeFunction> all = file.functions;
+    if (file.together)
+        all.push_back(*file.together);
+    return all;
+}
+
 /// Functions of Python, with or without arrays.
 std::string python_functions(const CodeFile& file) {
     std::string text;
-    for (const auto& function : file.functions) {
+    for (const auto& function : with_together(file)) {
         text += "\n\n" + wrapped_comment(function.comment, "#");
         text += "def " + function.name + "(" + joined(file.arguments) + "):\n";
         for (const auto& [name, value] : function.body.shared)
             text += wrapped_code(bracketed_if_long("    " + name + " = ", value), 8, "");
-        text += wrapped_code(bracketed_if_long("    return ", function.body.value), 8, "");
+        text += wrapped_code(bracketed_if_long("    return ", joined(function.body.values)), 8, "");
     }
     return text;
 }
@@ -195,13 +246,14 @@ std::string write_julia(const Dialect& /*dialect*/, const CodeFile& file) {
     std::string text = wrapped_comment(file.comment, "#");
     for (const auto& [name, value] : file.constants)
         text += "const " + name + " = " + value + "\n";
-    for (const auto& function : file.functions) {
+    for (const auto& function : with_together(file)) {
         text += "\n" + wrapped_comment(function.comment, "#");
         text += "function " + function.name + "(" + joined(file.arguments) + ")\n";
         for (const auto& [name, value] : function.body.shared)
             text += wrapped_code(bracketed_if_long("    " + name + " = ", value), 8, "");
         text +=
-            wrapped_code(bracketed_if_long("    return ", function.body.value), 8, "") + "end\n";
+            wrapped_code(bracketed_if_long("    return ", joined(function.body.values)), 8, "") +
+            "end\n";
     }
     return text;
 }
@@ -220,7 +272,8 @@ std::string write_moose(const Dialect& /*dialect*/, const CodeFile& file) {
             expression += name + " := " + value + "; ";
         text += wrapped_comment(function.comment, "  #");
         text += "  [" + function.name + "]\n    type = ParsedFunction\n";
-        text += wrapped_code("    expression = '" + expression + function.body.value + "'", 8, "");
+        text +=
+            wrapped_code("    expression = '" + expression + function.body.value() + "'", 8, "");
         if (!names.empty())
             text += "    symbol_names = '" + names + "'\n    symbol_values = '" + values + "'\n";
         text += "  []\n";

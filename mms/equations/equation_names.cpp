@@ -26,8 +26,9 @@ void require_identifier(const NamedEntries& named) {
         throw InputError(named.place, "'" + name +
                                           "' is not a name: at most 40 letters, digits and _, a "
                                           "letter first, no _ last");
-    if (name == "pi" || name == "identity" || is_among(coordinate_names(), name) ||
-        is_among(function_names(), name) || is_among(operator_names(), name))
+    if (name == "pi" || name == "identity" || name == "sources" ||
+        is_among(coordinate_names(), name) || is_among(function_names(), name) ||
+        is_among(operator_names(), name))
         throw InputError(named.place, "'" + name + "' hides a known name; call it something else");
 }
 

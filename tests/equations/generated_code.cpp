@@ -305,6 +305,24 @@ BOOST_AUTO_TEST_CASE(compressible_flow_in_space_takes_less_than_300_lines_of_c) 
     BOOST_TEST(std::count(code.begin(), code.end(), '\n') < 300);
 }
 
+BOOST_AUTO_TEST_CASE(all_sources_at_once_are_those_one_by_one) {
+    if (TVBEAM_SHORT_TESTS || !has_program("cc"))
+        return;
+    const Case one = case_of("maxwell");
+    const Folder folder;
+    folder.write("code.h", system_code(one.derived, CodeLanguage::c));
+    const auto sources = one.derived.of_role(DerivedFunction::Role::source);
+    std::string text = "#include \"code.h\"\nint main(void) {\n    double v[" +
+                       std::to_string(sources.size()) + "];\n    sources(0.1, 0.2, 0.3, 0.4, v);\n";
+    for (std::size_t i = 0; i < sources.size(); ++i)
+        text += "    if (fabs(v[" + std::to_string(i) + "] - " + sources[i]->name +
+                "(0.1, 0.2, 0.3, 0.4)) > 1e-13)\n        return " + std::to_string(i + 1) + ";\n";
+    folder.write("driver.c", text + "    return 0;\n}\n");
+    const std::string command = "cd '" + folder.path().string() +
+                                "' && cc -Wall -Wextra -Werror driver.c -lm -o driver && ./driver";
+    BOOST_TEST(std::system(command.c_str()) == 0);
+}
+
 BOOST_AUTO_TEST_CASE(no_line_is_longer_than_a_hundred_characters) {
     const Case one = case_of("compressible-navier-stokes");
     for (const auto& name : code_language_names()) {
