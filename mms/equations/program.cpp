@@ -145,10 +145,11 @@ private:
             else
                 total = total ? step(Operation::add, *total, value) : value;
         }
+        const bool positive = total.has_value();
         for (const int value : subtracted)
-            total =
-                total ? step(Operation::subtract, *total, value) : step(Operation::negate, value);
-        return *total;
+            total = total ? step(positive ? Operation::subtract : Operation::add, *total, value)
+                          : value;
+        return positive ? *total : step(Operation::negate, *total);
     }
 
     /// Numerator over denominator; a coefficient 1/q gives q to the latter.

@@ -42,6 +42,12 @@ Sources heat() {
     return {{"f", d(u, T) - (d(u, X, X) + d(u, Y, Y))}};
 }
 
+Sources heat_rod() {
+    const Function u = FIELD(sin(pi() * x) * cos(t) + x * x * exp(-t));
+    const Function k = FIELD((1 + x) / 2);
+    return {{"f", d(u, T) - k * d(u, X, X) - Real("0.5") * d(u, X)}};
+}
+
 Sources advection_diffusion() {
     const Function c = FIELD(exp(-t) * sin(2 * x + y) * cos(y - 1) + x * y);
     const Function b1 = FIELD(-y);
@@ -171,6 +177,7 @@ Sources wave() {
 const std::map<std::string, Sources>& counterparts() {
     static const std::map<std::string, Sources> all = {
         {"heat-2d", heat()},
+        {"heat-rod", heat_rod()},
         {"advection-diffusion", advection_diffusion()},
         {"elasticity", elasticity()},
         {"navier-stokes", navier_stokes()},
