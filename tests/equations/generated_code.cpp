@@ -356,6 +356,21 @@ BOOST_AUTO_TEST_CASE(what_is_used_once_is_not_named_and_what_is_zero_is_not_adde
                "}");
 }
 
+BOOST_AUTO_TEST_CASE(the_readme_shows_what_is_derived) {
+    std::ifstream stream(TVBEAM_README);
+    const std::string readme(std::istreambuf_iterator<char>(stream), {});
+    const auto block = [&](const std::string& opening, std::size_t from) {
+        const std::size_t begin = readme.find(opening, from) + opening.find('\n') + 1;
+        return readme.substr(begin, readme.find("```", begin) - begin);
+    };
+    const std::size_t section = readme.find("## Equations of your own");
+    BOOST_REQUIRE(section != std::string::npos);
+    const auto derived =
+        derive_system(parse_equation_system(block("```toml\n", section), "heat.toml"));
+    BOOST_TEST(system_code(derived, CodeLanguage::c).find(block("```c\n", section)) !=
+               std::string::npos);
+}
+
 BOOST_AUTO_TEST_CASE(expressions_for_templates_have_the_parameters_in_them) {
     const Case one = case_of("heat-2d");
     const auto& source = one.derived.functions.front();
