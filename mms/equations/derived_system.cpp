@@ -156,7 +156,8 @@ private:
             const ex slope = located(named.entries.front(), "the gradient of " + unknown, [&] {
                 return ex(derived_.fields.of(unknown, orders).symbol);
             });
-            add(Role::gradient, unknown + "_exact_" + name, unknown, named, component, slope);
+            add(Role::gradient, std::string(unknown).append("_exact_").append(name), unknown, named,
+                component, slope);
         }
     }
 
