@@ -17,7 +17,7 @@ constexpr const char* pi_digits = "3.141592653589793";
 std::string joined(const std::vector<std::string>& words, const std::string& before = {}) {
     std::string text;
     for (const auto& word : words)
-        text += (text.empty() ? "" : ", ") + before + word;
+        text.append(text.empty() ? "" : ", ").append(before).append(word);
     return text;
 }
 
@@ -51,8 +51,8 @@ std::string declarations(const Braces& braces, const CodeBody& body) {
     std::string text;
     std::string line;
     for (const auto& [name, value] : body.shared) {
-        const std::string one = name + " = " + value;
-        if (!line.empty() && is_long(line + ", " + one + ";")) {
+        const std::string one = fmt::format("{} = {}", name, value);
+        if (!line.empty() && is_long(fmt::format("{}, {};", line, one))) {
             text += wrapped_code(line + ";", 8, "");
             line.clear();
         }
@@ -139,7 +139,7 @@ std::string fortran_body(const CodeFunction& function) {
     std::string values;
     for (const auto& [name, value] : function.body.shared) {
         names.push_back(name);
-        values += wrapped_code("    " + name + " = " + value, 8, " &");
+        values += wrapped_code(fmt::format("    {} = {}", name, value), 8, " &");
     }
     return (names.empty() ? "" : wrapped_code("    real(dp) :: " + joined(names), 8, " &")) +
            values;
@@ -208,7 +208,7 @@ std::string python_functions(const CodeFile& file) {
 std::string assignments(const CodeFile& file) {
     std::string text;
     for (const auto& [name, value] : file.constants)
-        text += name + " = " + value + "\n";
+        text += fmt::format("{} = {}\n", name, value);
     return text.empty() ? "" : "\n" + text;
 }
 
@@ -245,7 +245,7 @@ std::string write_ufl(const Dialect& /*dialect*/, const CodeFile& file) {
 std::string write_julia(const Dialect& /*dialect*/, const CodeFile& file) {
     std::string text = wrapped_comment(file.comment, "#");
     for (const auto& [name, value] : file.constants)
-        text += "const " + name + " = " + value + "\n";
+        text += fmt::format("const {} = {}\n", name, value);
     for (const auto& function : with_together(file)) {
         text += "\n" + wrapped_comment(function.comment, "#");
         text += "function " + function.name + "(" + joined(file.arguments) + ")\n";
@@ -269,13 +269,14 @@ std::string write_moose(const Dialect& /*dialect*/, const CodeFile& file) {
     for (const auto& function : file.functions) {
         std::string expression;
         for (const auto& [name, value] : function.body.shared)
-            expression += name + " := " + value + "; ";
+            expression += fmt::format("{} := {}; ", name, value);
         text += wrapped_comment(function.comment, "  #");
         text += "  [" + function.name + "]\n    type = ParsedFunction\n";
         text +=
             wrapped_code("    expression = '" + expression + function.body.value() + "'", 8, "");
         if (!names.empty())
-            text += "    symbol_names = '" + names + "'\n    symbol_values = '" + values + "'\n";
+            text +=
+                fmt::format("    symbol_names = '{}'\n    symbol_values = '{}'\n", names, values);
         text += "  []\n";
     }
     return text + "[]\n";

@@ -3,6 +3,8 @@
 #include "mms/expression/algebra.hpp"
 #include "mms/text/characters.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <map>
 
@@ -99,7 +101,7 @@ void require_names(const EquationSystem& system) {
     for (const auto& [name, place] : given)
         if (const std::string other = reading(name, given); !other.empty())
             throw InputError(place,
-                             "'" + name + "' reads as " + other + "; call it something else");
+                             fmt::format("'{}' reads as {}; call it something else", name, other));
 }
 
 } // namespace tvbeam

@@ -30,6 +30,7 @@ public:
 
     Program program(const std::vector<ex>& expressions) {
         std::vector<int> outputs;
+        outputs.reserve(expressions.size());
         for (const ex& expression : expressions)
             outputs.push_back(value_of(*canonical(balanced(without_constants(expression)))));
         return only_needed(outputs);

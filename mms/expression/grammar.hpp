@@ -135,7 +135,7 @@ private:
             return power();
         const std::size_t at = offset_;
         const char sign = take();
-        const Value operand = with_sign();
+        Value operand = with_sign();
         if (sign == '+')
             return operand;
         return placed(at, [&] { return language_.negated(operand); });

@@ -371,6 +371,13 @@ BOOST_AUTO_TEST_CASE(the_readme_shows_what_is_derived) {
                std::string::npos);
 }
 
+BOOST_AUTO_TEST_CASE(brackets_stand_where_the_order_asks_for_them) {
+    const auto derived = derive_system(parse_equation_system(
+        "[unknowns]\nu = \"t/((1 + x)*(2 + x))\"\n[equations]\nf = \"u\"\n", "my.toml"));
+    BOOST_TEST(inline_code(derived, derived.functions.front(), CodeLanguage::c) ==
+               "(t/((x + 1.0)*(x + 2.0)))");
+}
+
 BOOST_AUTO_TEST_CASE(expressions_for_templates_have_the_parameters_in_them) {
     const Case one = case_of("heat-2d");
     const auto& source = one.derived.functions.front();

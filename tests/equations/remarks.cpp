@@ -1,6 +1,7 @@
 // What is no error and yet to be said of equations and their solution.
 
 #include "mms/equations/system_checks.hpp"
+#include "mms/text/number_text.hpp"
 
 #include <boost/test/unit_test.hpp>
 
@@ -50,6 +51,13 @@ BOOST_AUTO_TEST_CASE(zero_is_seen_where_the_algebra_does_not_see_it) {
 
 BOOST_AUTO_TEST_CASE(a_small_source_is_not_zero) {
     BOOST_TEST(remark_of("1e-15*sin(x)*exp(-2*t)", "diff(u, t) - diff(u, x, 2)") == "");
+}
+
+BOOST_AUTO_TEST_CASE(zero_at_one_of_the_points_is_not_zero_everywhere) {
+    const auto points = points_inside(
+        parse_equation_system("[unknowns]\nu = \"x\"\n[equations]\nf = \"u\"\n", "my.toml"), 1);
+    const std::string place = number_text(points.front().at("x"), 17);
+    BOOST_TEST(remark_of("(x - " + place + ")*(x - " + place + ")", "u") == "");
 }
 
 BOOST_AUTO_TEST_CASE(a_term_that_is_not_exercised_is_named_with_its_coefficient) {
