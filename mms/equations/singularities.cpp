@@ -8,7 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+#include <limits>
 #include <vector>
 
 namespace tvbeam {
@@ -123,7 +123,8 @@ public:
 
 private:
     struct Extremes {
-        long double least = INFINITY, greatest = -INFINITY;
+        long double least = std::numeric_limits<long double>::infinity();
+        long double greatest = -std::numeric_limits<long double>::infinity();
         DomainPoint at_least, at_greatest;
     };
 

@@ -142,7 +142,7 @@ std::string system_latex(const DerivedSystem& derived) {
                     " \\\\\n";
             continue;
         }
-        text += left + " &= " + in_fields + place + " \\\\\n";
+        text.append(left).append(" &= ").append(in_fields).append(place).append(" \\\\\n");
         const auto solved = with_solution(derived, function, latex);
         if (!solved)
             need(needed, derived, function.formula);
