@@ -191,6 +191,10 @@ class TextWriter final : public Writer {
 };
 
 class LatexWriter final : public Writer {
+public:
+    explicit LatexWriter(const std::map<std::string, std::string>& names) : names_(names) {}
+
+private:
     [[nodiscard]] std::string symbol(const std::string& name) const override {
         static const std::map<std::string, std::string> known = {
             {"pi", "\\pi"},       {"alpha", "\\alpha"},     {"beta", "\\beta"},
@@ -201,8 +205,9 @@ class LatexWriter final : public Writer {
             {"tau", "\\tau"},     {"phi", "\\phi"},         {"psi", "\\psi"},
             {"omega", "\\omega"}, {"theta_A", "\\theta_A"},
         };
-        if (const auto found = known.find(name); found != known.end())
-            return found->second;
+        for (const auto* table : {&names_, &known})
+            if (const auto found = table->find(name); found != table->end())
+                return found->second;
         if (name.size() == 1 && is_letter(name.front()))
             return name;
         const bool numbered =
@@ -241,6 +246,8 @@ class LatexWriter final : public Writer {
                                    const Printed& denominator) const override {
         return "\\frac{" + numerator.text + "}{" + denominator.text + "}";
     }
+
+    const std::map<std::string, std::string>& names_;
 };
 
 } // namespace
@@ -250,7 +257,12 @@ std::string formula_text(const GiNaC::ex& expression) {
 }
 
 std::string formula_latex(const GiNaC::ex& expression) {
-    return LatexWriter().print(canonical(expression)).text;
+    return formula_latex_named(expression, {});
+}
+
+std::string formula_latex_named(const GiNaC::ex& expression,
+                                const std::map<std::string, std::string>& names) {
+    return LatexWriter(names).print(canonical(expression)).text;
 }
 
 } // namespace tvbeam

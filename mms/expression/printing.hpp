@@ -2,6 +2,7 @@
 
 #include <ginac/ginac.h>
 
+#include <map>
 #include <string>
 
 namespace tvbeam {
@@ -12,5 +13,9 @@ std::string formula_text(const GiNaC::ex& expression);
 
 /// The expression in LaTeX's mathematical mode.
 std::string formula_latex(const GiNaC::ex& expression);
+
+/// The same, with symbols written as `names` says, where it does.
+std::string formula_latex_named(const GiNaC::ex& expression,
+                                const std::map<std::string, std::string>& names);
 
 } // namespace tvbeam

@@ -391,22 +391,36 @@ bool TableReader::is_string(std::string_view key) const {
     return node != nullptr && node->is_string();
 }
 
-std::optional<SourceText> TableReader::expression(std::string_view key) {
-    const toml::node* node = find(key);
-    if (node == nullptr)
-        return std::nullopt;
-    const Place opening = place(key);
-    if (node->is_integer())
-        return SourceText(fmt::format("{}", node->as_integer()->get()), opening);
-    if (node->is_floating_point())
-        return SourceText(fmt::format("{}", checked_number(key, *node, Infinity::refused)),
-                          opening);
-    if (!node->is_string())
-        throw wrong_type(key, *node, "an expression in quotes, or a number");
-    const std::string& value = node->as_string()->get();
+SourceText TableReader::expression_in(std::string_view key, const toml::node& node) const {
+    const Place opening = place_of(node);
+    if (node.is_integer())
+        return SourceText(fmt::format("{}", node.as_integer()->get()), opening);
+    if (node.is_floating_point())
+        return SourceText(fmt::format("{}", checked_number(key, node, Infinity::refused)), opening);
+    if (!node.is_string())
+        throw wrong_type(key, node, "an expression in quotes, or a number");
+    const std::string& value = node.as_string()->get();
     if (opening.line == 0) // an override
         return SourceText(value, opening);
     return SourceText::of_toml_string(value, document_->text, opening, document_->lines);
+}
+
+std::optional<SourceText> TableReader::expression(std::string_view key) {
+    const toml::node* node = find(key);
+    return node == nullptr ? std::nullopt : std::optional(expression_in(key, *node));
+}
+
+std::optional<std::vector<SourceText>> TableReader::expressions(std::string_view key) {
+    const toml::node* node = find(key);
+    if (node == nullptr)
+        return std::nullopt;
+    const toml::array* array = node->as_array();
+    if (array == nullptr)
+        return std::vector{expression_in(key, *node)};
+    std::vector<SourceText> result;
+    for (const auto& element : *array)
+        result.push_back(expression_in(key, element));
+    return result;
 }
 
 std::optional<std::vector<double>> TableReader::numbers(std::string_view key, Infinity infinity) {

@@ -61,6 +61,8 @@ public:
     std::optional<std::string> word(std::string_view key);
     /// An expression: a string, or a number as it is.
     std::optional<SourceText> expression(std::string_view key);
+    /// One expression, or an array of them.
+    std::optional<std::vector<SourceText>> expressions(std::string_view key);
     std::optional<std::vector<double>> numbers(std::string_view key,
                                                Infinity infinity = Infinity::refused);
     std::optional<std::vector<std::int64_t>> integers(std::string_view key);
@@ -115,6 +117,7 @@ private:
     std::optional<std::vector<Value>> values(std::string_view key, const std::string& wanted);
     [[nodiscard]] InputError wrong_type(std::string_view key, const toml::node& node,
                                         const std::string& wanted) const;
+    SourceText expression_in(std::string_view key, const toml::node& node) const;
     Band checked_band(std::string_view key, const toml::node& node) const;
     double checked_number(std::string_view key, const toml::node& node, Infinity infinity) const;
 

@@ -18,6 +18,8 @@ bool is_name(std::string_view text) {
                        [](char c) { return is_letter(c) || is_digit(c) || c == '_'; });
 }
 
+} // namespace
+
 Place place_in(const Template& whole, std::size_t offset) {
     if (!whole.is_file)
         return whole.place;
@@ -28,8 +30,6 @@ Place place_in(const Template& whole, std::size_t offset) {
         static_cast<int>(line_start == std::string_view::npos ? offset : offset - line_start - 1) +
             1};
 }
-
-} // namespace
 
 std::string Template::filled(const Placeholders& values) const {
     std::string result;

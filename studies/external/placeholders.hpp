@@ -2,6 +2,7 @@
 
 #include "mms/text/input_error.hpp"
 
+#include <cstddef>
 #include <map>
 #include <optional>
 #include <string>
@@ -25,5 +26,8 @@ struct Template {
     /// has nothing to stand for.
     [[nodiscard]] std::string filled(const Placeholders& values) const;
 };
+
+/// Where a character of a template stands.
+Place place_in(const Template& whole, std::size_t offset);
 
 } // namespace tvbeam

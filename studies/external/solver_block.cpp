@@ -3,6 +3,8 @@
 #include "mms/text/characters.hpp"
 #include "mms/text/nearest_name.hpp"
 #include "mms/text/toml_reader.hpp"
+#include "studies/external/solution_formulas.hpp"
+#include "studies/scene/shipped.hpp"
 
 #include <algorithm>
 #include <array>
@@ -167,6 +169,32 @@ std::map<std::string, std::string> read_environment(TableReader& table) {
     return environment;
 }
 
+/// Puts the formulas of a file of equations into the command and the templates.
+void fill_in_solution(TableReader& table, SolverBlock& solver) {
+    const auto name = table.text("solution");
+    const auto language = table.choice("language", code_language_names());
+    if (!name) {
+        if (language)
+            throw table.error("language", " is given, and no solution is; it says in what language "
+                                          "the formulas of solver.solution are written");
+        return;
+    }
+    if (!language)
+        throw table.error("solution", " needs solver.language, in which its formulas are written: "
+                                      "language = \"python\"");
+    SolutionFormulas formulas(
+        find_file(Shipped::equations, *name, solver.folder, table.place("solution")),
+        *code_language(code_language_names()[*language]));
+    for (Template& word : solver.command)
+        word = formulas.filled(word);
+    for (SolverFile& file : solver.files)
+        if (file.contents)
+            file.contents = formulas.filled(*file.contents);
+    if (!formulas.used())
+        throw table.error("solution", " is used by nothing; write {source.NAME}, {exact.NAME} or "
+                                      "{functions} into a file NAME.in, or leave it out");
+}
+
 std::string text_of(const Parameters& parameters) {
     std::string text;
     for (const auto& [name, value] : parameters)
@@ -195,6 +223,7 @@ SolverBlock read_solver(TableReader table, const std::filesystem::path& folder) 
                                          "; it must be > 0, the seconds that a run may take");
     solver.environment = read_environment(table);
     solver.parameters = read_parameters(table, nullptr);
+    fill_in_solution(table, solver);
     table.finish();
     return solver;
 }

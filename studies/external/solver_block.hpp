@@ -49,6 +49,8 @@ struct SolverBlock {
 ///     timeout      s
 ///     environment  NAME = "text"
 ///     parameters   NAME = number, text or true/false: more placeholders
+///     solution     a file of equations, or one that is shipped: placeholders (SolutionFormulas)
+///     language     what their formulas are written in (code_language_names)
 ///
 /// Throws InputError where a value is missing or breaks its rule, or a file is not there.
 SolverBlock read_solver(TableReader table, const std::filesystem::path& folder);

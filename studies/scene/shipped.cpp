@@ -10,7 +10,7 @@ namespace tvbeam {
 
 namespace {
 
-/// Where the two kinds may be, the first that is there counts.
+/// Where all kinds may be, the first that is there counts.
 std::vector<std::filesystem::path> data_directories() {
     if (const char* named = std::getenv("TVBEAM_DATA"); named != nullptr && *named != '\0')
         return {named};
@@ -28,8 +28,9 @@ std::vector<std::filesystem::path> data_directories() {
 }
 
 std::filesystem::path directory(Shipped kind) {
-    const std::filesystem::path inside =
-        kind == Shipped::scene ? "studies/scenes" : "mms/solutions";
+    const std::filesystem::path inside = kind == Shipped::scene      ? "studies/scenes"
+                                         : kind == Shipped::solution ? "mms/solutions"
+                                                                     : "mms/systems";
     std::error_code error;
     for (const auto& candidate : data_directories())
         if (std::filesystem::is_directory(candidate / inside, error))
@@ -52,11 +53,15 @@ std::vector<ShippedFile> shipped_files(Shipped kind) {
 
 std::filesystem::path find_file(Shipped kind, const std::string& name,
                                 const std::filesystem::path& beside, const Place& place) {
-    const std::string word = kind == Shipped::scene ? "scene" : "solution";
+    const std::string word = kind == Shipped::scene      ? "scene"
+                             : kind == Shipped::solution ? "solution"
+                                                         : "file of equations";
     if (name.find('/') != std::string::npos || name.ends_with(".toml")) {
         auto path = beside / name;
         if (std::error_code error; !std::filesystem::exists(path, error))
-            throw InputError(place, "there is no " + word + " file '" + path.string() + "'");
+            throw InputError(place, "there is no " + word +
+                                        (kind == Shipped::equations ? " '" : " file '") +
+                                        path.string() + "'");
         return path;
     }
     std::vector<std::string> names;

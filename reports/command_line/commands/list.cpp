@@ -1,3 +1,4 @@
+#include "mms/equations/equation_system.hpp"
 #include "mms/text/input_error.hpp"
 #include "reports/command_line/commands/command.hpp"
 #include "reports/document/text_table.hpp"
@@ -20,7 +21,7 @@ namespace {
 
 int names_command() {
     std::string text;
-    for (const auto kind : {Shipped::scene, Shipped::solution})
+    for (const auto kind : {Shipped::scene, Shipped::solution, Shipped::equations})
         for (const auto& file : shipped_files(kind))
             text += file.name + "\n";
     write_standard_output(text);
@@ -42,6 +43,9 @@ int list_command() {
                             (solution.purpose.empty() ? solution.source : solution.purpose),
                         4);
     }
+    text += "\nEquations with a solution (tvbeam derive NAME):\n";
+    for (const auto& file : shipped_files(Shipped::equations))
+        text += wrapped("  " + file.name + ": " + read_equation_system(file.path).purpose, 4);
     write_standard_output(visible(text));
     return done;
 }
@@ -84,8 +88,8 @@ int features_command(const std::string& word) {
 } // namespace
 
 Command add_list(CLI::App& app) {
-    auto* list =
-        app.add_subcommand("list", "List the shipped scenes and solutions.\nExample: tvbeam list");
+    auto* list = app.add_subcommand(
+        "list", "List the shipped scenes, solutions and equations.\nExample: tvbeam list");
     const auto names = std::make_shared<bool>(false);
     const auto word = std::make_shared<std::string>();
     list->add_flag("--names", *names, "the names alone, one a line");

@@ -1,0 +1,55 @@
+#include "mms/equations/code_lines.hpp"
+
+namespace tvbeam {
+
+namespace {
+
+constexpr std::size_t longest_line = 100;
+
+/// Whether a line may end behind this character: no operator of two, as **, and no sign of a
+/// number's exponent is parted.
+bool may_break(const std::string& text, std::size_t at) {
+    const char c = text[at];
+    const char next = at + 1 < text.size() ? text[at + 1] : '\0';
+    const char before = at > 0 ? text[at - 1] : '\0';
+    return c == ' ' || (c == '*' && next != '*' && before != '*') || (c == '/' && next != '/');
+}
+
+} // namespace
+
+bool is_long(const std::string& text) {
+    return text.size() > longest_line;
+}
+
+std::string wrapped_code(const std::string& text, std::size_t indent, const std::string& ending) {
+    std::string result;
+    std::string rest = text;
+    while (is_long(rest)) {
+        std::size_t end = longest_line - ending.size();
+        while (end > indent + 20 && !may_break(rest, end - 1))
+            --end;
+        if (end <= indent + 20)
+            break;
+        std::string line = rest.substr(0, end);
+        while (!line.empty() && line.back() == ' ')
+            line.pop_back();
+        result += line + ending + "\n";
+        rest = std::string(indent, ' ') + rest.substr(end);
+    }
+    return result + rest + "\n";
+}
+
+std::string wrapped_comment(const std::string& text, const std::string& sign) {
+    std::string result;
+    std::string rest = text;
+    while (sign.size() + 1 + rest.size() > longest_line) {
+        std::size_t end = rest.rfind(' ', longest_line - sign.size() - 1);
+        if (end == std::string::npos || end == 0)
+            end = longest_line - sign.size() - 1;
+        result += sign + " " + rest.substr(0, end) + "\n";
+        rest = "  " + rest.substr(rest[end] == ' ' ? end + 1 : end);
+    }
+    return result + sign + " " + rest + "\n";
+}
+
+} // namespace tvbeam

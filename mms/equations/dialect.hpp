@@ -1,0 +1,32 @@
+#pragma once
+
+#include "mms/equations/code.hpp"
+#include "mms/equations/code_lines.hpp"
+#include "mms/equations/infix.hpp"
+
+#include <set>
+#include <string>
+
+namespace tvbeam {
+
+/// A language: how expressions look in it, what names it does not leave free, and how a file is
+/// written.
+struct Dialect {
+    CodeLanguage language;
+    std::string name;
+    InfixStyle infix;
+    std::set<std::string> reserved;
+    bool ignores_case = false;
+    std::string (*write)(const Dialect& dialect, const CodeFile& file);
+    bool underscores = true; ///< in names
+
+    /// The name, without what names may not have, and with a _ (or 0) at its end where it is
+    /// reserved.
+    [[nodiscard]] std::string identifier(const std::string& name) const;
+    /// Equal for names that the language takes for one.
+    [[nodiscard]] std::string folded(const std::string& name) const;
+};
+
+const Dialect& dialect_of(CodeLanguage language);
+
+} // namespace tvbeam

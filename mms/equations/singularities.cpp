@@ -1,0 +1,317 @@
+#include "mms/equations/singularities.hpp"
+
+#include "mms/equations/infix.hpp"
+#include "mms/equations/system_checks.hpp"
+#include "mms/text/number_text.hpp"
+
+#include <boost/numeric/interval.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace tvbeam {
+
+namespace {
+
+using Operation = Program::Operation;
+namespace bni = boost::numeric::interval_lib;
+// Libraries of mathematics are right to about an ulp and not rounded; widened() allows for that.
+using Span =
+    boost::numeric::interval<double, bni::policies<bni::save_state<bni::rounded_transc_std<double>>,
+                                                   bni::checking_base<double>>>;
+
+constexpr std::size_t most_evaluations = 4'000'000; ///< of steps, at points of the grid
+constexpr std::size_t most_parts = 2'000;
+constexpr std::size_t finest_grid = 9; ///< points along a coordinate
+constexpr std::size_t longest_text = 60;
+
+Span widened(const Span& a) {
+    constexpr double relative = 1e-14;
+    const double width = relative * std::max(std::abs(a.lower()), std::abs(a.upper()));
+    return std::isfinite(width) ? Span(a.lower() - width, a.upper() + width) : a;
+}
+
+/// A step that is not smooth for every operand.
+struct Critical {
+    enum class Rule { not_zero, positive, cosine, below_one };
+    Rule rule;
+    int operand;
+    bool pole; ///< where it is not met, infinite; otherwise a kink
+};
+
+std::vector<Critical> criticals_of(const Program& program) {
+    std::vector<Critical> result;
+    using Rule = Critical::Rule;
+    const auto is_constant = [&](int step) {
+        return program.steps()[static_cast<std::size_t>(step)].operation == Operation::number;
+    };
+    for (const auto& step : program.steps()) {
+        const std::string& name = step.text;
+        if (step.operation == Operation::divide && !is_constant(step.right))
+            result.push_back({Rule::not_zero, step.right, true});
+        else if (step.operation == Operation::power || step.operation == Operation::square_root)
+            result.push_back({Rule::positive, step.left, false});
+        else if (step.operation == Operation::function && name == "log")
+            result.push_back({Rule::positive, step.left, true});
+        else if (step.operation == Operation::function && name == "tan")
+            result.push_back({Rule::cosine, step.left, true});
+        else if (step.operation == Operation::function && (name == "asin" || name == "acos"))
+            result.push_back({Rule::below_one, step.left, false});
+    }
+    std::vector<Critical> different;
+    for (const Critical& one : result)
+        if (std::none_of(different.begin(), different.end(), [&](const Critical& other) {
+                return other.rule == one.rule && other.operand == one.operand;
+            }))
+            different.push_back(one);
+    return different;
+}
+
+/// What must be away from 0: of a sign that never changes (not_zero, cosine), or positive.
+long double margin(const Critical& critical, long double operand) {
+    switch (critical.rule) {
+    case Critical::Rule::cosine:
+        return std::cos(operand);
+    case Critical::Rule::below_one:
+        return 1.0L - std::abs(operand);
+    default:
+        return operand;
+    }
+}
+
+bool holds(const Critical& critical, const Span& operand) {
+    const Span a = widened(operand);
+    if (std::isnan(a.lower()) || std::isnan(a.upper()))
+        return false;
+    switch (critical.rule) {
+    case Critical::Rule::not_zero:
+        return a.lower() > 0.0 || a.upper() < 0.0;
+    case Critical::Rule::positive:
+        return a.lower() > 0.0;
+    case Critical::Rule::cosine: {
+        const Span c = widened(cos(a));
+        return c.lower() > 0.0 || c.upper() < 0.0;
+    }
+    case Critical::Rule::below_one:
+        return a.lower() > -1.0 && a.upper() < 1.0;
+    }
+    return false;
+}
+
+class Search {
+public:
+    Search(const Program& program, const DerivedSystem& derived)
+        : program_(program), derived_(derived), criticals_(criticals_of(program)) {}
+
+    std::optional<Singularity> worst() {
+        if (criticals_.empty())
+            return std::nullopt;
+        sample();
+        std::optional<Singularity> found;
+        std::vector<const Critical*> open;
+        for (std::size_t i = 0; i < criticals_.size(); ++i) {
+            const auto one = sampled(i);
+            if (!one)
+                open.push_back(&criticals_[i]);
+            else if (!found || one->kind < found->kind)
+                found = one;
+        }
+        return found || open.empty() ? found : not_excluded(open);
+    }
+
+private:
+    struct Extremes {
+        long double least = std::numeric_limits<long double>::infinity();
+        long double greatest = -std::numeric_limits<long double>::infinity();
+        DomainPoint at_least, at_greatest;
+    };
+
+    [[nodiscard]] std::vector<std::string> coordinates() const {
+        return derived_.system.coordinates;
+    }
+
+    /// Margins at a grid of points that has the ends of the domain.
+    void sample() {
+        const auto names = coordinates();
+        std::size_t along = finest_grid;
+        const auto points = [&] { return std::pow(double(along), double(names.size())); };
+        while (along > 3 && points() * double(program_.steps().size()) > double(most_evaluations))
+            along -= 2;
+        extremes_.resize(criticals_.size());
+        const auto count = static_cast<std::size_t>(points());
+        for (std::size_t i = 0; i < count; ++i) {
+            DomainPoint point;
+            std::size_t rest = i;
+            for (const auto& name : names) {
+                const DomainInterval range = derived_.system.domain.at(name);
+                const double part = double(rest % along) / double(along - 1);
+                point[name] = range.begin + part * (range.end - range.begin);
+                rest /= along;
+            }
+            look_at(point);
+        }
+    }
+
+    void look_at(const DomainPoint& point) {
+        const auto values = program_.values(names_at(derived_, point));
+        for (std::size_t k = 0; k < criticals_.size(); ++k) {
+            const long double here =
+                margin(criticals_[k], values[static_cast<std::size_t>(criticals_[k].operand)]);
+            Extremes& seen = extremes_[k];
+            if (here < seen.least) {
+                seen.least = here;
+                seen.at_least = point;
+            }
+            if (here > seen.greatest) {
+                seen.greatest = here;
+                seen.at_greatest = point;
+            }
+        }
+    }
+
+    [[nodiscard]] long double margin_at(const Critical& critical, const DomainPoint& point) const {
+        const auto values = program_.values(names_at(derived_, point));
+        return margin(critical, values[static_cast<std::size_t>(critical.operand)]);
+    }
+
+    /// The point between two, at which the margins have different signs, where it is 0.
+    [[nodiscard]] DomainPoint crossing(const Critical& critical, DomainPoint below,
+                                       DomainPoint above) const {
+        for (int i = 0; i < 60; ++i) {
+            DomainPoint middle;
+            for (const auto& [name, value] : below)
+                middle[name] = 0.5 * (value + above.at(name));
+            (margin_at(critical, middle) < 0.0L ? below : above) = middle;
+        }
+        return above;
+    }
+
+    static std::string text_of(const DomainPoint& point) {
+        std::string text;
+        for (const auto& [name, value] : point)
+            text.append(text.empty() ? "" : ", ")
+                .append(name)
+                .append(" = ")
+                .append(number_text(std::abs(value) < 1e-15 ? 0.0 : value));
+        return text.empty() ? "everywhere" : "at " + text;
+    }
+
+    [[nodiscard]] std::string said(const Critical& critical) const {
+        const std::string operand = readable_text(program_, critical.operand, longest_text);
+        switch (critical.rule) {
+        case Critical::Rule::not_zero:
+            return "the divisor " + operand + " is 0 ";
+        case Critical::Rule::positive:
+            return "the argument " + operand +
+                   (critical.pole ? " of log is 0 " : " of a root is 0 ");
+        case Critical::Rule::cosine:
+            return "the argument " + operand + " of tan is an odd multiple of pi/2 ";
+        case Critical::Rule::below_one:
+            break;
+        }
+        return "the argument " + operand + " of asin or acos is 1 in size ";
+    }
+
+    [[nodiscard]] std::optional<Singularity> sampled(std::size_t i) const {
+        const Critical& critical = criticals_[i];
+        const Extremes& seen = extremes_[i];
+        using Kind = Singularity::Kind;
+        constexpr long double zero = 1e-15L; // what sin(pi) is of
+        const bool one_sided =
+            critical.rule == Critical::Rule::positive || critical.rule == Critical::Rule::below_one;
+        const bool crosses = seen.least < -zero && seen.greatest > zero;
+        const auto with = [&](Kind kind, const DomainPoint& point) {
+            return Singularity{kind, said(critical) + text_of(point)};
+        };
+        if (crosses)
+            return with(one_sided ? Kind::no_value : Kind::pole,
+                        crossing(critical, seen.at_least, seen.at_greatest));
+        if (one_sided && seen.least < -zero)
+            return Singularity{Kind::no_value, said(critical) + "or beyond everywhere"};
+        if (std::abs(seen.least) <= zero)
+            return with(critical.pole ? Kind::pole : Kind::kink, seen.at_least);
+        if (std::abs(seen.greatest) <= zero)
+            return with(critical.pole ? Kind::pole : Kind::kink, seen.at_greatest);
+        return std::nullopt;
+    }
+
+    using Box = std::map<std::string, DomainInterval>;
+
+    /// Halves the domain until all rules hold in every part.
+    [[nodiscard]] std::optional<Singularity>
+    not_excluded(const std::vector<const Critical*>& open) const {
+        Box whole;
+        for (const auto& name : coordinates())
+            whole[name] = derived_.system.domain.at(name);
+        std::vector<Box> left = {whole};
+        std::size_t looked_at = 0;
+        while (!left.empty()) {
+            const Box box = left.back();
+            left.pop_back();
+            const Critical* broken = first_broken(open, box);
+            if (broken == nullptr)
+                continue;
+            if (++looked_at > most_parts || box.empty())
+                return Singularity{Singularity::Kind::not_excluded,
+                                   "it could not be excluded that " + said(*broken) + "near " +
+                                       text_of(middle_of(box)).substr(3)};
+            halve(box, whole, left);
+        }
+        return std::nullopt;
+    }
+
+    [[nodiscard]] const Critical* first_broken(const std::vector<const Critical*>& open,
+                                               const Box& box) const {
+        std::map<std::string, Span> names;
+        for (const auto& [name, value] : names_at(derived_, {}))
+            names[name] = widened(Span(static_cast<double>(value)));
+        for (const auto& [name, range] : box)
+            names[name] = Span(range.begin, range.end);
+        const auto values = program_.values(names);
+        for (const Critical* critical : open)
+            if (!holds(*critical, values[static_cast<std::size_t>(critical->operand)]))
+                return critical;
+        return nullptr;
+    }
+
+    static DomainPoint middle_of(const Box& box) {
+        DomainPoint point;
+        for (const auto& [name, range] : box)
+            point[name] = 0.5 * (range.begin + range.end);
+        return point;
+    }
+
+    /// Across the coordinate in which the part is longest, measured by the whole.
+    static void halve(const Box& box, const Box& whole, std::vector<Box>& parts) {
+        std::string longest;
+        double length = 0.0;
+        for (const auto& [name, range] : box) {
+            const DomainInterval& all = whole.at(name);
+            const double here = (range.end - range.begin) / (all.end - all.begin);
+            if (here > length) {
+                length = here;
+                longest = name;
+            }
+        }
+        const double middle = 0.5 * (box.at(longest).begin + box.at(longest).end);
+        parts.push_back(box);
+        parts.back()[longest].end = middle;
+        parts.push_back(box);
+        parts.back()[longest].begin = middle;
+    }
+
+    const Program& program_;
+    const DerivedSystem& derived_;
+    std::vector<Critical> criticals_;
+    std::vector<Extremes> extremes_;
+};
+
+} // namespace
+
+std::optional<Singularity> singularity_of(const Program& program, const DerivedSystem& derived) {
+    return Search(program, derived).worst();
+}
+
+} // namespace tvbeam

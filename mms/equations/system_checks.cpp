@@ -1,0 +1,189 @@
+#include "mms/equations/system_checks.hpp"
+
+#include "mms/equations/infix.hpp"
+#include "mms/equations/program.hpp"
+#include "mms/equations/rounded.hpp"
+#include "mms/equations/singularities.hpp"
+#include "mms/expression/algebra.hpp"
+#include "mms/expression/printing.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace tvbeam {
+
+using GiNaC::ex;
+using Role = DerivedFunction::Role;
+
+namespace {
+
+constexpr std::size_t point_count = 64;
+constexpr std::size_t longest_shown = 60;
+
+Program located_program(const std::vector<ex>& formulas, const Fields& fields,
+                        const DerivedFunction& function) {
+    try {
+        return program_of(formulas, fields);
+    } catch (const AlgebraError& error) {
+        throw InputError(function.source, function.name + ": " + error.what());
+    }
+}
+
+class SystemCheck {
+public:
+    explicit SystemCheck(DerivedSystem& derived)
+        : derived_(derived), points_(points_inside(derived.system, point_count)) {}
+
+    std::vector<Remark> remarks() {
+        for (const DerivedFunction* exact : derived_.of_role(Role::exact))
+            require_values(*exact);
+        for (const DerivedFunction* source : derived_.of_role(Role::source)) {
+            look_for_zero(*source);
+            look_for_unexercised(*source);
+        }
+        look_for_idle_parameters();
+        for (const auto& function : derived_.functions)
+            if (function.role != Role::exact)
+                look_for_singularity(function);
+        return remarks_;
+    }
+
+private:
+    void say(const Place& place, const std::string& text) { remarks_.push_back({place, text}); }
+
+    [[nodiscard]] std::vector<Rounded> values_of(const Program& program) const {
+        std::vector<Rounded> result;
+        for (const auto& point : points_) {
+            std::map<std::string, Rounded> names;
+            for (const auto& [name, value] : names_at(derived_, point))
+                names[name] = value;
+            result.push_back(program.evaluate(names).front());
+        }
+        return result;
+    }
+
+    /// Where the algebra does not see it, the values do.
+    [[nodiscard]] bool is_zero(const ex& formula, const DerivedFunction& of) const {
+        const Program program = located_program({formula}, derived_.fields, of);
+        const auto values = values_of(program);
+        return std::all_of(values.begin(), values.end(),
+                           [](const Rounded& value) { return value.may_be_zero(); });
+    }
+
+    /// An exact value must be finite in all of the domain.
+    void require_values(const DerivedFunction& exact) {
+        const Program program = located_program({exact.formula}, derived_.fields, exact);
+        const std::string advice = "; choose another solution, or a [domain] without that place";
+        if (const auto found = singularity_of(program, derived_)) {
+            using Kind = Singularity::Kind;
+            if (found->kind == Kind::pole || found->kind == Kind::no_value)
+                throw InputError(
+                    exact.source,
+                    exact.of + (found->kind == Kind::pole ? " has a pole: " : " has no value: ") +
+                        found->text + advice);
+            say(exact.source,
+                exact.of + (found->kind == Kind::kink ? " is not smooth: " : ": ") + found->text);
+            said_.push_back(exact.of);
+        }
+        for (const Rounded& value : values_of(program))
+            if (!(std::abs(value.value) <= std::numeric_limits<double>::max()))
+                throw InputError(exact.source,
+                                 exact.of + " has values beyond the range of doubles" + advice);
+    }
+
+    void look_for_zero(const DerivedFunction& source) {
+        if (is_zero(source.formula, source))
+            say(source.source, source.name +
+                                   " is zero everywhere: the solution meets the equation already, "
+                                   "as one must that has no source; otherwise, does it test "
+                                   "anything?");
+    }
+
+    void look_for_unexercised(const DerivedFunction& source) {
+        for (const EquationField* field : derived_.fields.occurring_in(source.formula)) {
+            if (!is_zero(field->symbol, source))
+                continue;
+            ex coefficient;
+            try {
+                coefficient = plain_derivative(source.formula, field->symbol);
+            } catch (const AlgebraError&) {
+                coefficient = field->symbol; // what it is multiplied by is not said
+            }
+            std::string text = formula_text(coefficient);
+            if (text.size() > longest_shown)
+                text = text.substr(0, longest_shown) + "…";
+            say(source.source, field->symbol.get_name() +
+                                   " is zero everywhere: its coefficient in " + source.name + ", " +
+                                   text + ", is not tested");
+        }
+    }
+
+    void look_for_idle_parameters() {
+        std::vector<ex> formulas;
+        for (const auto& function : derived_.functions)
+            formulas.push_back(function.formula);
+        const Program all = located_program(formulas, derived_.fields, derived_.functions.front());
+        for (std::size_t i = 0; i < derived_.parameters.size(); ++i)
+            if (const std::string& name = derived_.parameters[i].name; !all.uses(name))
+                say(derived_.system.parameters[i].place,
+                    "parameter " + name + " has no effect on anything that is derived");
+    }
+
+    /// What the exact values have is not said of their derivatives again.
+    void look_for_singularity(const DerivedFunction& function) {
+        for (const EquationField* field : derived_.fields.occurring_in(function.formula))
+            if (std::find(said_.begin(), said_.end(), field->unknown) != said_.end())
+                return;
+        const Program program = located_program({function.formula}, derived_.fields, function);
+        const auto found = singularity_of(program, derived_);
+        if (!found)
+            return;
+        using Kind = Singularity::Kind;
+        const std::string what = found->kind == Kind::pole       ? " has a pole: "
+                                 : found->kind == Kind::no_value ? " has no value in places: "
+                                 : found->kind == Kind::kink     ? " is not smooth: "
+                                                                 : ": ";
+        say(function.source, function.name + what + found->text);
+    }
+
+    DerivedSystem& derived_;
+    std::vector<DomainPoint> points_;
+    std::vector<std::string> said_; ///< unknowns
+    std::vector<Remark> remarks_;
+};
+
+} // namespace
+
+std::vector<Remark> checked_system(DerivedSystem& derived) {
+    return SystemCheck(derived).remarks();
+}
+
+std::vector<DomainPoint> points_inside(const EquationSystem& system, std::size_t count) {
+    // 1/g, 1/g², … with g^5 = g + 1.
+    constexpr double g = 1.1673039782614187;
+    std::vector<DomainPoint> points(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        double step = 1.0;
+        for (const auto& name : system.coordinates) {
+            step /= g;
+            const DomainInterval range = system.domain.at(name);
+            const double part = std::fmod(0.5 + double(i + 1) * step, 1.0);
+            points[i][name] = range.begin + part * (range.end - range.begin);
+        }
+    }
+    return points;
+}
+
+std::map<std::string, long double> names_at(const DerivedSystem& derived,
+                                            const DomainPoint& point) {
+    std::map<std::string, long double> names = {{"pi", std::numbers::pi_v<long double>}};
+    for (const auto& parameter : derived.parameters)
+        names[parameter.name] = parameter.value;
+    for (const auto& [name, value] : point)
+        names[name] = value;
+    return names;
+}
+
+} // namespace tvbeam

@@ -1,0 +1,109 @@
+// What is no error and yet to be said of equations and their solution.
+
+#include "mms/equations/system_checks.hpp"
+#include "mms/text/number_text.hpp"
+
+#include <boost/test/unit_test.hpp>
+
+using namespace tvbeam;
+
+namespace {
+
+std::vector<std::string> remarks_of(const std::string& unknown, const std::string& equation,
+                                    const std::string& rest = {}) {
+    DerivedSystem derived = derive_system(parse_equation_system(
+        "[unknowns]\nu = \"" + unknown + "\"\n[equations]\nf = \"" + equation + "\"\n" + rest,
+        "my.toml"));
+    std::vector<std::string> texts;
+    for (const Remark& remark : checked_system(derived))
+        texts.push_back(InputError(remark.place, remark.text).what());
+    return texts;
+}
+
+/// The one remark, or all of them.
+std::string remark_of(const std::string& unknown, const std::string& equation,
+                      const std::string& rest = {}) {
+    std::string all;
+    for (const auto& text : remarks_of(unknown, equation, rest))
+        all += (all.empty() ? "" : "\n") + text;
+    return all;
+}
+
+} // namespace
+
+BOOST_AUTO_TEST_SUITE(equation_remarks)
+
+BOOST_AUTO_TEST_CASE(of_a_solution_that_exercises_all_nothing_is_said) {
+    BOOST_TEST(remark_of("sin(x + 2*y)*exp(-t)", "diff(u, t) - k*laplace(u)",
+                         "[parameters]\nk = 2\n") == "");
+}
+
+BOOST_AUTO_TEST_CASE(an_equation_that_is_met_already_is_named) {
+    const std::string said = remark_of("sin(x)*exp(-t)", "diff(u, t) - diff(u, x, 2)");
+    BOOST_TEST(said.starts_with("my.toml:4:6: f is zero everywhere"), said);
+}
+
+BOOST_AUTO_TEST_CASE(zero_is_seen_where_the_algebra_does_not_see_it) {
+    // sin² + cos² − 1
+    const std::string said = remark_of("t*x^2", "u*(sin(x)^2 + cos(x)^2 - 1)");
+    BOOST_TEST(said.find("f is zero everywhere") != std::string::npos, said);
+}
+
+BOOST_AUTO_TEST_CASE(a_small_source_is_not_zero) {
+    BOOST_TEST(remark_of("1e-15*sin(x)*exp(-2*t)", "diff(u, t) - diff(u, x, 2)") == "");
+}
+
+BOOST_AUTO_TEST_CASE(zero_at_one_of_the_points_is_not_zero_everywhere) {
+    const auto points = points_inside(
+        parse_equation_system("[unknowns]\nu = \"x\"\n[equations]\nf = \"u\"\n", "my.toml"), 1);
+    const std::string place = number_text(points.front().at("x"), 17);
+    BOOST_TEST(remark_of("(x - " + place + ")*(x - " + place + ")", "u") == "");
+}
+
+BOOST_AUTO_TEST_CASE(a_term_that_is_not_exercised_is_named_with_its_coefficient) {
+    const std::string said =
+        remark_of("sin(x)*y*t", "diff(u, t) - k*laplace(u)", "[parameters]\nk = 2\n");
+    BOOST_TEST(said == "my.toml:4:6: u_yy is zero everywhere: its coefficient in f, -k, is not "
+                       "tested");
+}
+
+BOOST_AUTO_TEST_CASE(a_parameter_without_effect_is_named) {
+    const std::string said =
+        remark_of("sin(x)*exp(-2*t)", "diff(u, t) - diff(u, x, 2)", "[parameters]\nq = 2\n");
+    BOOST_TEST(said == "my.toml:6:1: parameter q has no effect on anything that is derived");
+}
+
+BOOST_AUTO_TEST_CASE(kinks_at_the_edge_of_the_domain_are_said_once) {
+    const std::string said = remark_of("sqrt(x)*exp(t)", "diff(u, t) - diff(u, x)");
+    BOOST_TEST(said.starts_with("my.toml:2:6: u is not smooth: "), said);
+    BOOST_TEST(said.find("at ") != std::string::npos, said);
+    BOOST_TEST(said.find('\n') == std::string::npos, said);
+}
+
+BOOST_AUTO_TEST_CASE(a_pole_of_a_source_alone_is_said_of_it) {
+    const std::string said = remark_of("exp(x)*(2 + t)", "diff(u, t) - u/(x - 1/2)");
+    BOOST_TEST(said.starts_with("my.toml:4:6: f has a pole: the divisor 2*x - 1 is 0 at "), said);
+    BOOST_TEST(said.find("x = 0.5") != std::string::npos, said);
+}
+
+BOOST_AUTO_TEST_CASE(a_narrow_pole_between_the_points_is_not_overlooked) {
+    // (x − 1/π)² has no change of sign, and no point of a grid is at 1/π.
+    const std::string said =
+        remark_of("exp(x)*(2 + t)", "diff(u, t) + u/((x - 1/pi)*(x - 1/pi)*(2 + sin(x)))");
+    BOOST_TEST(said.find("could not be excluded") != std::string::npos, said);
+    BOOST_TEST(said.find("x = 0.318") != std::string::npos, said);
+}
+
+BOOST_AUTO_TEST_CASE(what_is_smooth_is_proven_to_be) {
+    BOOST_TEST(remark_of("exp(-x*t)/(1.01 + sin(5*x))*sqrt(1 + x*t) + atan(x)/(2 + cos(t))",
+                         "diff(u, t) - diff(u, x, 2)") == "");
+}
+
+BOOST_AUTO_TEST_CASE(the_domain_is_what_the_file_says) {
+    const std::string pole = "1/(3 - x)*t";
+    BOOST_TEST(remark_of(pole, "diff(u, t) + diff(u, x)") == "");
+    BOOST_CHECK_THROW(remark_of(pole, "diff(u, t) + diff(u, x)", "[domain]\nx = [0, 4]\n"),
+                      InputError);
+}
+
+BOOST_AUTO_TEST_SUITE_END()
