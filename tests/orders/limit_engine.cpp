@@ -100,6 +100,20 @@ BOOST_AUTO_TEST_CASE(the_orders_of_celik_are_those_of_his_table) {
     BOOST_TEST(std::abs(order({980, 4500, 18000}, {6.0909, 5.9624, 6.0042}) - 1.51) < 0.005);
 }
 
+// f = 1 + h^p on widths whose ratios differ, 3 and then 2: the limit is f_1 − (f_2 − f_1)/(2^p −
+// 1), with the ratio of the pair that it is extrapolated from, and the order is p.
+BOOST_AUTO_TEST_CASE(celik_extrapolates_with_the_ratio_of_the_fine_pair) {
+    for (const double p : {0.75, 1.0, 2.0}) {
+        std::vector<ValueRow> rows;
+        for (const double h : {6.0, 2.0, 1.0})
+            rows.push_back({h, 1 + 0.01 * std::pow(h, p)});
+        const auto found = celik_of(rows);
+        BOOST_REQUIRE(found.has_value());
+        BOOST_TEST(std::abs(found->order - p) < 1e-6);
+        BOOST_TEST(std::abs(found->limit - 1.0) < 1e-8);
+    }
+}
+
 // A 95 % interval may miss one case of twenty, and of these the most extreme: p = ½, and a next
 // term as large as the first.
 BOOST_AUTO_TEST_CASE(the_limit_of_a_power_with_a_next_term_is_held) {
