@@ -8,8 +8,9 @@
 
 namespace tvbeam {
 
-/// What comes with the toolkit: scenes, solutions, and files of equations. They are looked for in the directory that the
-/// environment variable TVBEAM_DATA names, and nowhere else then; or beside the running program
+/// What comes with the toolkit: scenes, solutions, and files of equations. They are looked for in
+/// the directory that the environment variable TVBEAM_DATA names, and nowhere else then; or beside
+/// the running program
 /// (../share/tvbeam), in the sources if it is one of their own build, and where tvbeam is
 /// installed.
 enum class Shipped { scene, solution, equations };
