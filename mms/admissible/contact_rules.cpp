@@ -128,10 +128,11 @@ void ContactRules::require_between_stops(const ContactPhase& phase, double t, do
     const bool above = tip > stops_.upper + tip_tolerance_;
     if (!below && !above)
         return;
-    throw InputError(phase.u, "(6): u(1,t) is " + number_text(tip) + " at t = " + number_text(t) +
-                                  "; it must be at " + (below ? "least g1 = " : "most g2 = ") +
-                                  number_text(below ? stops_.lower : stops_.upper) + "; " +
-                                  repair_of_tip(below));
+    const double stop = below ? stops_.lower : stops_.upper;
+    throw InputError(phase.u, "(6): u(1,t) is " + number_text_beside(tip, stop) +
+                                  " at t = " + number_text(t) + "; it must be at " +
+                                  (below ? "least g1 = " : "most g2 = ") + number_text(stop) +
+                                  "; " + repair_of_tip(below));
 }
 
 /// What brings the tip back between the stops: measured where it is farthest out.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "mms/expression/algebra.hpp"
+#include "mms/expression/foreign_notation.hpp"
 #include "mms/text/characters.hpp"
 #include "mms/text/nearest_name.hpp"
 #include "mms/text/source_text.hpp"
@@ -74,7 +75,7 @@ public:
                 fail(offset_, "')' without a '(' before it");
             const bool operand = grammar::continues_name(peek()) || peek() == '(' || peek() == '.';
             fail(offset_, "expected an operator or the end, found " + seen() +
-                              (operand ? "; a product needs '*'" : ""));
+                              (operand ? "; a product needs '*'" : advice_on_character(rest())));
         }
         return result;
     }
@@ -163,7 +164,8 @@ private:
                 return list();
         if (at_end())
             fail(offset_, "the expression ends where a number, a name or '(' must follow");
-        fail(offset_, "expected a number, a name or '(', found " + seen());
+        fail(offset_,
+             "expected a number, a name or '(', found " + seen() + advice_on_character(rest()));
     }
 
     Value bracketed() {
@@ -183,7 +185,7 @@ private:
             fail(opening, std::string("'") + text_[opening] + "' is never closed");
         const bool operand = grammar::continues_name(peek()) || peek() == '(';
         fail(offset_, std::string("expected an operator or '") + bracket + "', found " + seen() +
-                          (operand ? "; a product needs '*'" : ""));
+                          (operand ? "; a product needs '*'" : advice_on_character(rest())));
     }
 
     Value number() {
@@ -237,15 +239,19 @@ private:
         skip_blanks();
         if (grammar::contains(language_.functions(), word)) {
             if (peek() != '(')
-                fail(at, "the function '" + word + "' needs its argument in brackets");
+                fail(at, "the function '" + word + "' needs its argument in brackets" +
+                             (peek() == '^' ? ", and its power behind them: " + word + "(…)^2"
+                                            : std::string()));
             return call(word, at);
         }
         const std::optional<Value> value = language_.name(word);
         if (!value) {
             if (peek() == '(')
                 fail(at, "unknown function '" + word + "'" +
-                             hint(word, language_.functions(), "the functions are "));
-            fail(at, "unknown symbol '" + word + "'" + hint(word, language_.names(), "known are "));
+                             hint(word, advice_on_function(word), language_.functions(),
+                                  "the functions are "));
+            fail(at, "unknown symbol '" + word + "'" +
+                         hint(word, advice_on_symbol(word), language_.names(), "known are "));
         }
         return *value;
     }
@@ -281,8 +287,11 @@ private:
         return placed(opening, [&] { return language_.list(entries); });
     }
 
-    static std::string hint(const std::string& word, const std::vector<std::string>& known,
+    static std::string hint(const std::string& word, const std::string& advice,
+                            const std::vector<std::string>& known,
                             const std::string& introduction) {
+        if (!advice.empty())
+            return advice;
         const std::string meant = did_you_mean(word, known);
         return meant.empty() ? fmt::format("; {}{}", introduction, fmt::join(known, ", ")) : meant;
     }
@@ -298,6 +307,10 @@ private:
 
     [[noreturn]] void fail(std::size_t at, const std::string& message) const {
         throw InputError(source_.at(at), message);
+    }
+
+    [[nodiscard]] std::string_view rest() const {
+        return std::string_view(text_).substr(std::min(offset_, text_.size()));
     }
 
     /// The next character, as a message shows it.

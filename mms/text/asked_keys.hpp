@@ -6,11 +6,11 @@
 
 namespace tvbeam {
 
-/// What readers of a document asked for, by path: whether it was there, and of a choice all that it
-/// may be and what it was.
+/// What readers of a document asked for, by path: whether it was there, its path in the table of
+/// keys, and of a choice what it was.
 struct AskedKey {
     bool given = false;
-    std::vector<std::string> choices = {};
+    std::string entry = {};
     std::string chosen = {};
 };
 using AskedKeys = std::map<std::string, AskedKey>;

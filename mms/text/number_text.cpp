@@ -10,4 +10,14 @@ std::string number_text(double value, int digits) {
     return std::isnan(value) ? "nan" : fmt::format("{:.{}g}", value, digits);
 }
 
+std::string number_text_beside(double value, double limit) {
+    constexpr int fewest = 6;
+    constexpr int all = 17; // which no two doubles share
+    int digits = fewest;
+    while (digits < all && value != limit &&
+           number_text(value, digits) == number_text(limit, digits))
+        ++digits;
+    return number_text(value, digits);
+}
+
 } // namespace tvbeam

@@ -9,6 +9,8 @@
 #include <charconv>
 #include <cmath>
 #include <set>
+#include <sstream>
+#include <stdexcept>
 #include <string_view>
 #include <utility>
 
@@ -48,6 +50,19 @@ std::string type_name(const toml::node& node) {
     default:
         return "a date or time";
     }
+}
+
+/// How a single value is written as an array of it: ", [0.01]".
+std::string in_brackets(const toml::node& node) {
+    std::ostringstream text;
+    if (node.is_number())
+        node.visit([&](const auto& value) {
+            if constexpr (toml::is_number<decltype(value)>)
+                text << ", [" << number_text(static_cast<double>(value.get()), 12) << "]";
+        });
+    else if (node.is_string())
+        text << ", [\"" << node.as_string()->get() << "\"]";
+    return text.str();
 }
 
 /// Parts of a dotted key, and brackets within each other. Whoever writes a scene needs five; the
@@ -133,14 +148,23 @@ private:
     int open_ = 0;
 };
 
+/// Of what the parser says where a value begins as none can: mostly a formula without quotes.
+std::string advice_on(const std::string& description) {
+    for (const char* what : {"value type", "parsing boolean", "parsing floating-point", "integer"})
+        if (description.find(what) != std::string::npos)
+            return "; a text or an expression stands in quotes: key = \"…\"";
+    return {};
+}
+
 toml::table parse(const std::string& text, const std::string& file) {
     DepthCheck(text, file).run();
     try {
         return toml::parse(text, file);
     } catch (const toml::parse_error& error) {
         const auto& begin = error.source().begin;
+        const std::string description(error.description());
         throw InputError({file, static_cast<int>(begin.line), static_cast<int>(begin.column)},
-                         "not TOML: " + std::string(error.description()));
+                         "not TOML: " + description + advice_on(description));
     }
 }
 
@@ -239,8 +263,9 @@ void merge_block(TomlDocument& document, std::string_view key) {
     merge(document.table, block);
 }
 
-TableReader::TableReader(const TomlDocument& document, const toml::table& table, std::string path)
-    : document_(&document), table_(&table), path_(std::move(path)) {}
+TableReader::TableReader(const TomlDocument& document, const toml::table& table, std::string path,
+                         const KeyTable::Node* keys)
+    : document_(&document), table_(&table), path_(std::move(path)), keys_(keys) {}
 
 std::string TableReader::full(std::string_view key) const {
     if (path_.empty() || key.empty())
@@ -248,12 +273,44 @@ std::string TableReader::full(std::string_view key) const {
     return path_ + "." + std::string(key);
 }
 
-const toml::node* TableReader::find(std::string_view key) {
+namespace {
+
+/// Whether a key of the one type may be asked for as the other: a choice of words, for one, is read
+/// as texts where each is looked up.
+bool may_be_read_as(KeyType type, KeyType asked) {
+    switch (type) {
+    case KeyType::words:
+        return asked == KeyType::words || asked == KeyType::texts;
+    case KeyType::steps:
+        return asked == KeyType::numbers || asked == KeyType::expression;
+    case KeyType::patterns:
+        return asked == KeyType::table || asked == KeyType::text;
+    default:
+        return type == asked;
+    }
+}
+
+} // namespace
+
+const toml::node* TableReader::find(std::string_view key, KeyType type) {
     known_.emplace_back(key);
     const toml::node* node = table_->get(key);
-    if (document_->asked != nullptr)
-        (*document_->asked)[full(key)].given |= node != nullptr;
+    const KeyTable::Node* entry = keys_ != nullptr ? keys_->find(key) : nullptr;
+    if (keys_ != nullptr && (entry == nullptr || !may_be_read_as(entry->entry->type, type)))
+        throw std::logic_error("the table of keys does not say that " + full(key) + " may be " +
+                               words_of(type));
+    if (document_->asked != nullptr) {
+        AskedKey& asked = (*document_->asked)[full(key)];
+        asked.given |= node != nullptr;
+        asked.entry = entry != nullptr ? entry->entry->path : full(key);
+    }
     return node;
+}
+
+void TableReader::require_choices(std::string_view key,
+                                  const std::vector<std::string>& choices) const {
+    if (keys_ != nullptr && keys_->find(key)->entry->words != choices)
+        throw std::logic_error("the table of keys has other choices for " + full(key));
 }
 
 Place TableReader::place(std::string_view key) const {
@@ -313,8 +370,9 @@ double TableReader::checked_number(std::string_view key, const toml::node& node,
 }
 
 template <typename Value>
-std::optional<Value> TableReader::value(std::string_view key, const std::string& wanted) {
-    const toml::node* node = find(key);
+std::optional<Value> TableReader::value(std::string_view key, KeyType type,
+                                        const std::string& wanted) {
+    const toml::node* node = find(key, type);
     if (node == nullptr)
         return std::nullopt;
     if (!node->is<Value>())
@@ -323,14 +381,14 @@ std::optional<Value> TableReader::value(std::string_view key, const std::string&
 }
 
 template <typename Value>
-std::optional<std::vector<Value>> TableReader::values(std::string_view key,
+std::optional<std::vector<Value>> TableReader::values(std::string_view key, KeyType type,
                                                       const std::string& wanted) {
-    const toml::node* node = find(key);
+    const toml::node* node = find(key, type);
     if (node == nullptr)
         return std::nullopt;
     const toml::array* array = node->as_array();
     if (array == nullptr)
-        throw wrong_type(key, *node, "an array of " + wanted);
+        throw wrong_type(key, *node, "an array of " + wanted + in_brackets(*node));
     std::vector<Value> values;
     for (const auto& element : *array) {
         if (!element.is<Value>())
@@ -342,32 +400,32 @@ std::optional<std::vector<Value>> TableReader::values(std::string_view key,
 }
 
 std::optional<std::int64_t> TableReader::integer(std::string_view key) {
-    return value<std::int64_t>(key, "an integer");
+    return value<std::int64_t>(key, KeyType::integer, "an integer");
 }
 
 std::optional<bool> TableReader::flag(std::string_view key) {
-    return value<bool>(key, "true or false");
+    return value<bool>(key, KeyType::flag, "true or false");
 }
 
 std::optional<std::string> TableReader::text(std::string_view key) {
-    return value<std::string>(key, "a string");
+    return value<std::string>(key, KeyType::text, "a string");
 }
 
 std::optional<std::vector<std::int64_t>> TableReader::integers(std::string_view key) {
-    return values<std::int64_t>(key, "integers");
+    return values<std::int64_t>(key, KeyType::integers, "integers");
 }
 
 std::optional<std::vector<std::string>> TableReader::texts(std::string_view key) {
-    return values<std::string>(key, "strings");
+    return values<std::string>(key, KeyType::texts, "strings");
 }
 
 std::optional<double> TableReader::number(std::string_view key, Infinity infinity) {
-    const toml::node* node = find(key);
+    const toml::node* node = find(key, KeyType::number);
     return node == nullptr ? std::nullopt : std::optional(checked_number(key, *node, infinity));
 }
 
 std::optional<std::string> TableReader::word(std::string_view key) {
-    const toml::node* node = find(key);
+    const toml::node* node = find(key, KeyType::word);
     if (node == nullptr)
         return std::nullopt;
     if (node->is_integer())
@@ -384,6 +442,16 @@ std::optional<std::string> TableReader::word(std::string_view key) {
 bool TableReader::is_table(std::string_view key) const {
     const toml::node* node = table_->get(key);
     return node != nullptr && node->is_table();
+}
+
+bool TableReader::is_array_of_tables(std::string_view key) const {
+    const toml::node* node = table_->get(key);
+    return node != nullptr && node->is_array_of_tables();
+}
+
+bool TableReader::is_number(std::string_view key) const {
+    const toml::node* node = table_->get(key);
+    return node != nullptr && node->is_number();
 }
 
 bool TableReader::is_string(std::string_view key) const {
@@ -406,12 +474,12 @@ SourceText TableReader::expression_in(std::string_view key, const toml::node& no
 }
 
 std::optional<SourceText> TableReader::expression(std::string_view key) {
-    const toml::node* node = find(key);
+    const toml::node* node = find(key, KeyType::expression);
     return node == nullptr ? std::nullopt : std::optional(expression_in(key, *node));
 }
 
 std::optional<std::vector<SourceText>> TableReader::expressions(std::string_view key) {
-    const toml::node* node = find(key);
+    const toml::node* node = find(key, KeyType::expression);
     if (node == nullptr)
         return std::nullopt;
     const toml::array* array = node->as_array();
@@ -424,12 +492,12 @@ std::optional<std::vector<SourceText>> TableReader::expressions(std::string_view
 }
 
 std::optional<std::vector<double>> TableReader::numbers(std::string_view key, Infinity infinity) {
-    const toml::node* node = find(key);
+    const toml::node* node = find(key, KeyType::numbers);
     if (node == nullptr)
         return std::nullopt;
     const toml::array* array = node->as_array();
     if (array == nullptr)
-        throw wrong_type(key, *node, "an array of numbers");
+        throw wrong_type(key, *node, "an array of numbers" + in_brackets(*node));
     std::vector<double> values;
     for (const auto& element : *array)
         values.push_back(checked_number(key, element, infinity));
@@ -450,12 +518,12 @@ TableReader::Band TableReader::checked_band(std::string_view key, const toml::no
 }
 
 std::optional<TableReader::Band> TableReader::band(std::string_view key) {
-    const toml::node* node = find(key);
+    const toml::node* node = find(key, KeyType::band);
     return node == nullptr ? std::nullopt : std::optional(checked_band(key, *node));
 }
 
 std::optional<std::vector<TableReader::Band>> TableReader::bands(std::string_view key) {
-    const toml::node* node = find(key);
+    const toml::node* node = find(key, KeyType::bands);
     if (node == nullptr)
         return std::nullopt;
     const toml::array* array = node->as_array();
@@ -469,12 +537,10 @@ std::optional<std::vector<TableReader::Band>> TableReader::bands(std::string_vie
 
 std::optional<std::size_t> TableReader::choice(std::string_view key,
                                                const std::vector<std::string>& choices) {
-    const auto value = text(key);
-    if (document_->asked != nullptr) {
-        auto& asked = (*document_->asked)[full(key)];
-        asked.choices = choices;
-        asked.chosen = value.value_or("");
-    }
+    const auto value = this->value<std::string>(key, KeyType::choice, "a string");
+    require_choices(key, choices);
+    if (document_->asked != nullptr)
+        (*document_->asked)[full(key)].chosen = value.value_or("");
     if (!value)
         return std::nullopt;
     const auto found = std::find(choices.begin(), choices.end(), *value);
@@ -486,17 +552,18 @@ std::optional<std::size_t> TableReader::choice(std::string_view key,
 }
 
 std::optional<TableReader> TableReader::table(std::string_view key) {
-    const toml::node* node = find(key);
+    const toml::node* node = find(key, KeyType::table);
     if (node == nullptr)
         return std::nullopt;
     const toml::table* inner = node->as_table();
     if (inner == nullptr)
         throw wrong_type(key, *node, "a table");
-    return TableReader(*document_, *inner, full(key));
+    return TableReader(*document_, *inner, full(key),
+                       keys_ != nullptr ? keys_->find(key) : nullptr);
 }
 
 std::vector<TableReader> TableReader::tables(std::string_view key) {
-    const toml::node* node = find(key);
+    const toml::node* node = find(key, KeyType::tables);
     std::vector<TableReader> tables;
     if (node == nullptr)
         return tables;
@@ -505,7 +572,8 @@ std::vector<TableReader> TableReader::tables(std::string_view key) {
         throw wrong_type(key, *node, "an array of tables, each headed [[" + full(key) + "]]");
     for (const auto& element : *array)
         tables.push_back(TableReader(*document_, *element.as_table(),
-                                     full(key) + "." + std::to_string(tables.size())));
+                                     full(key) + "." + std::to_string(tables.size()),
+                                     keys_ != nullptr ? keys_->find(key) : nullptr));
     return tables;
 }
 

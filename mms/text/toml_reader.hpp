@@ -2,6 +2,7 @@
 
 #include "mms/text/asked_keys.hpp"
 #include "mms/text/input_error.hpp"
+#include "mms/text/key_table.hpp"
 #include "mms/text/number_text.hpp"
 #include "mms/text/source_text.hpp"
 
@@ -45,10 +46,12 @@ inline std::string message_text(double value) {
 
 /// One table of a document, read key by key: every reader notes the key as known, and finish()
 /// refuses the others. All readers throw InputError at the value when it has the wrong type or
-/// breaks the rule they are given.
+/// breaks the rule they are given; and std::logic_error where the table of keys, if there is one,
+/// has no such key of that type.
 class TableReader {
 public:
-    TableReader(const TomlDocument& document, const toml::table& table, std::string path);
+    TableReader(const TomlDocument& document, const toml::table& table, std::string path,
+                const KeyTable::Node* keys = nullptr);
 
     /// A finite number, or also ±inf.
     enum class Infinity { refused, allowed };
@@ -89,7 +92,9 @@ public:
 
     [[nodiscard]] bool has(std::string_view key) const { return table_->contains(key); }
     [[nodiscard]] bool is_string(std::string_view key) const;
+    [[nodiscard]] bool is_number(std::string_view key) const;
     [[nodiscard]] bool is_table(std::string_view key) const;
+    [[nodiscard]] bool is_array_of_tables(std::string_view key) const;
 
     /// Where a key's value stands, or its element; the table itself when the key is missing.
     [[nodiscard]] Place place(std::string_view key) const;
@@ -110,11 +115,13 @@ public:
     void finish() const;
 
 private:
-    const toml::node* find(std::string_view key);
+    const toml::node* find(std::string_view key, KeyType type);
     template <typename Value>
-    std::optional<Value> value(std::string_view key, const std::string& wanted);
+    std::optional<Value> value(std::string_view key, KeyType type, const std::string& wanted);
     template <typename Value>
-    std::optional<std::vector<Value>> values(std::string_view key, const std::string& wanted);
+    std::optional<std::vector<Value>> values(std::string_view key, KeyType type,
+                                             const std::string& wanted);
+    void require_choices(std::string_view key, const std::vector<std::string>& choices) const;
     [[nodiscard]] InputError wrong_type(std::string_view key, const toml::node& node,
                                         const std::string& wanted) const;
     SourceText expression_in(std::string_view key, const toml::node& node) const;
@@ -124,6 +131,7 @@ private:
     const TomlDocument* document_;
     const toml::table* table_;
     std::string path_;
+    const KeyTable::Node* keys_;
     std::vector<std::string> known_;
 };
 

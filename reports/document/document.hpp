@@ -13,6 +13,7 @@ namespace tvbeam {
 struct Paragraph {
     std::string text;
     std::size_t indent = 2;
+    bool introduces = false; ///< the caption of the table below says it where captions are shown
 };
 
 /// One point of a list.

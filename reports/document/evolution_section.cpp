@@ -87,9 +87,9 @@ void add_contact(Section& section, const EvolutionResult& result, const Stops& s
     if (whole)
         section.blocks.emplace_back(
             Finding{result.beyond_stops > 0.0
-                        ? "The tip passes a stop by " + scientific(result.beyond_stops, 1) +
+                        ? "The tip penetrates a stop by " + scientific(result.beyond_stops, 1) +
                               " at most" + (stops.epsilon > 0.0 ? ": the stops yield." : ".")
-                        : "The tip never passes a stop, to the last digit."});
+                        : "The tip never penetrates a stop."});
 }
 
 Table period_table(const EvolutionResult& result) {
@@ -102,7 +102,7 @@ Table period_table(const EvolutionResult& result) {
         for (std::size_t k = 0; k < period.changes.size(); ++k)
             changes[k].columns[0].cells.push_back(scientific(period.changes[k], 1));
     }
-    return {"The greatest change of each probe from one period to the next.", key, changes};
+    return {"The largest change of each probe since the previous period.", key, changes};
 }
 
 } // namespace
@@ -127,7 +127,7 @@ Section evolution_section(const EvolutionResult& result, const Scene& scene) {
     if (!result.periods.empty()) {
         section.blocks.emplace_back(BlankLine{});
         section.blocks.emplace_back(
-            Paragraph{"greatest change from the period before, by period and probe:"});
+            Paragraph{"largest change since the previous period, by period and probe:", 2, true});
         section.blocks.emplace_back(period_table(result));
         const auto& last = result.periods.back().changes;
         section.blocks.emplace_back(Finding{fmt::format(

@@ -1,7 +1,10 @@
 #include "reports/document/html_text.hpp"
 
+#include <algorithm>
 #include <cctype>
 #include <map>
+#include <optional>
+#include <utility>
 
 namespace tvbeam {
 
@@ -56,6 +59,25 @@ std::size_t end_of_exponent(const std::string& formula, std::size_t at) {
     return end;
 }
 
+/// √2 and e with its exponent raised, for sqrt(2) and exp(-t): what is set, and where its bracket
+/// ends. None of other functions, and of arguments that need their brackets.
+std::optional<std::pair<std::string, std::size_t>>
+without_brackets(const std::string& name, const std::string& formula, std::size_t opening) {
+    if (name != "sqrt" && name != "exp")
+        return std::nullopt;
+    const std::size_t end = end_of_exponent(formula, opening);
+    const std::string inner = formula.substr(opening + 1, end - opening - 2);
+    const bool is_one = std::all_of(inner.begin(), inner.end(), is_of_name);
+    constexpr std::size_t longest = 16;
+    if (inner.empty() || formula[end - 1] != ')')
+        return std::nullopt;
+    if (name == "sqrt")
+        return is_one ? std::optional(std::pair("√" + html_formula(inner), end)) : std::nullopt;
+    if (inner.size() > longest || inner.find_first_of("^(") != std::string::npos)
+        return std::nullopt;
+    return std::pair("<i>e</i><sup>" + html_formula(inner) + "</sup>", end);
+}
+
 } // namespace
 
 std::string html_text(const std::string& text) {
@@ -92,8 +114,15 @@ std::string html_formula(const std::string& formula) {
             std::size_t end = at;
             while (end < formula.size() && is_of_name(formula[end]))
                 ++end;
-            html += html_name(formula.substr(at, end - at),
-                              end < formula.size() && formula[end] == '(');
+            const std::string name = formula.substr(at, end - at);
+            const bool is_function = end < formula.size() && formula[end] == '(';
+            if (const auto shorter =
+                    is_function ? without_brackets(name, formula, end) : std::nullopt) {
+                html += shorter->first;
+                at = shorter->second;
+                continue;
+            }
+            html += html_name(name, is_function);
             at = end;
         } else if (c == '^') {
             const std::size_t end = end_of_exponent(formula, at + 1);

@@ -119,9 +119,13 @@ Table ladder_table(const LadderResult& ladder, const LadderBlock& block, const M
         key.columns.push_back(column(ladder, "s", [&](std::size_t i) {
             return std::to_string(ladder.rungs[i].rung.elements);
         }));
-    if (first.has_steps())
+    if (first.has_steps()) {
+        std::vector<double> steps;
+        for (const auto& rung : ladder.rungs)
+            steps.push_back(rung.rung.dt);
         key.columns.push_back(
-            column(ladder, "dt", [&](std::size_t i) { return shortest(ladder.rungs[i].rung.dt); }));
+            column(ladder, "dt", [texts = alike(steps)](std::size_t i) { return texts[i]; }));
+    }
     std::vector<Table::Group> groups;
     for (std::size_t k = 0; k < ladder.norms.size(); ++k)
         groups.push_back(norm_group(ladder, block, k));
@@ -137,6 +141,30 @@ Table ladder_table(const LadderResult& ladder, const LadderBlock& block, const M
                         what_is_shown(block), first.has_mesh() ? " on s elements" : "",
                         first.has_steps() ? " with the step dt" : "", method.words),
             key, groups};
+}
+
+/// What a ladder says nothing by: a level that is given twice, errors that are all zero.
+std::vector<std::string> empty_words(const LadderResult& ladder) {
+    std::vector<std::string> sentences;
+    for (std::size_t i = 1; i < ladder.rungs.size(); ++i) {
+        const Rung& rung = ladder.rungs[i].rung;
+        const Rung& before = ladder.rungs[i - 1].rung;
+        if (rung.elements == before.elements && rung.dt == before.dt)
+            sentences.push_back(fmt::format("{} stands there twice: two runs of one level have no "
+                                            "order.",
+                                            rung.name(shortest)));
+    }
+    bool measured = false;
+    bool all_zero = true;
+    for (const auto& run : ladder.rungs)
+        for (const double error : run.errors) {
+            measured = true;
+            all_zero = all_zero && error == 0.0;
+        }
+    if (measured && all_zero)
+        sentences.emplace_back("Every error is zero: the solution is zero, or the scheme is exact "
+                               "for it. That tests nothing of its order.");
+    return sentences;
 }
 
 } // namespace
@@ -157,8 +185,9 @@ Section ladder_section(const LadderResult& ladder, const LadderBlock& block, con
                       "; ratio: error / published; ord.: observed order"});
     for (const auto& rung : ladder.rungs)
         if (rung.status != RungStatus::ok)
-            add(Finding{fmt::format("{} {}: {}", rung.rung.name(shortest), name_of(rung.status),
-                                    rung.reason)});
+            add(Finding{rung.trouble(shortest)});
+    for (const auto& sentence : empty_words(ladder))
+        add(Finding{sentence});
     if (!ladder.quadrature_remark.empty())
         add(Finding{ladder.quadrature_remark});
     if (!ladder.reference_remark.empty())

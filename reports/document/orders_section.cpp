@@ -117,8 +117,7 @@ Section orders_section(const OrdersResult& orders) {
     }
     for (const auto& run : orders.runs)
         if (run.status != RungStatus::ok)
-            notes.emplace_back(
-                Paragraph{fmt::format("{} failed: {}", run.rung.name(shortest), run.reason)});
+            notes.emplace_back(Paragraph{run.trouble(shortest)});
     const std::string from = fmt::format("rom {} runs", orders.runs.size());
     Section section{
         "Orders in h and dt",

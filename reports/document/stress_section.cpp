@@ -83,8 +83,8 @@ tallies_of(const std::vector<StressCase>& cases) {
         if (one.parameters.stops.exist())
             raise(tally.contact, std::max({one.checks->penetration, one.checks->wrong_sign,
                                            one.checks->complementarity}));
-        if (one.checks->path)
-            raise(tally.path, *one.checks->path / one.checks->path_limit);
+        if (const auto part = one.checks->path_part())
+            raise(tally.path, *part);
     };
     for (const auto& one : cases) {
         const auto regimes = regimes_of(one.parameters);
@@ -159,8 +159,8 @@ std::vector<Block> worst_cases(const std::vector<StressCase>& cases) {
         {"penetration", of_contact(&StressChecks::penetration)},
         {"wrong sign", of_contact(&StressChecks::wrong_sign)},
         {"min-residual", of_contact(&StressChecks::complementarity)},
-        {"path",
-         [](const StressCase& one) { return one.checks ? one.checks->path : std::nullopt; }},
+        {"path, of its limit",
+         [](const StressCase& one) { return one.checks ? one.checks->path_part() : std::nullopt; }},
         {"error/predicted",
          [](const StressCase& one) { return one.checks ? one.checks->error : std::nullopt; }}};
     std::vector<Block> items{BlankLine{}, Paragraph{"Worst cases:"}};

@@ -24,7 +24,7 @@ bool ran_once(const std::optional<Timing>& timing, const WorkPrecisionBlock& blo
 
 /// Marked where it is of one run; blank where there is none.
 std::string median_text(const std::optional<Timing>& timing, const WorkPrecisionBlock& block) {
-    return timing ? with_prefix(timing->median) + (ran_once(timing, block) ? "*" : "") : "";
+    return timing ? scientific(timing->median, 2) + (ran_once(timing, block) ? "*" : "") : "";
 }
 
 Table::Column column(const SchemeRuns& scheme, const std::string& heading,
@@ -39,7 +39,7 @@ Table::Group time_group(const SchemeRuns& scheme, const WorkPrecisionBlock& bloc
     const auto quartile = [&](const char* heading, double Timing::*value) {
         return column(scheme, heading, [&, value](std::size_t i) {
             const auto& timing = scheme.timings[i];
-            return timing && timing->runs > 1 ? with_prefix((*timing).*value) : std::string();
+            return timing && timing->runs > 1 ? scientific((*timing).*value, 2) : std::string();
         });
     };
     return {"seconds",
@@ -110,8 +110,7 @@ std::vector<Block> rows_blocks(const SchemeRuns& scheme, const TimedScheme& time
               std::move(key), std::move(groups)}};
     for (const auto& run : scheme.runs)
         if (run.status != RungStatus::ok)
-            blocks.emplace_back(
-                Paragraph{fmt::format("{} failed: {}", run.rung.name(shortest), run.reason)});
+            blocks.emplace_back(Paragraph{run.trouble(shortest)});
     return blocks;
 }
 
@@ -154,8 +153,8 @@ Finding comparison(const SchemeComparison& pair, const ReachedError& error,
                            ratio_text(pair.times.highest));
     const std::string ratio = ratio_text(pair.times.ratio);
     return {pair.times.distinguishable
-                ? fmt::format("by {} {} times sooner than by {} {}", faster, ratio, slower, spread)
-                : fmt::format("by {} and by {} in times that are not distinguishable: ratio {} {}",
+                ? fmt::format("{} is {} times faster than {} {}", faster, ratio, slower, spread)
+                : fmt::format("{} and {} are equally fast, as far as can be told: ratio {} {}",
                               faster, slower, ratio, spread),
             4};
 }
@@ -164,16 +163,16 @@ Finding comparison(const SchemeComparison& pair, const ReachedError& error,
 std::vector<Block> comparisons(const ReachedError& error, const NormCosts& costs,
                                const WorkPrecisionBlock& block) {
     std::vector<Block> findings{
-        Finding{fmt::format("{} = {} is reached", costs.norm.name, shortest(error.error))}};
+        Finding{fmt::format("To reach {} = {}:", costs.norm.name, shortest(error.error))}};
     for (const auto& pair : error.comparisons)
         findings.emplace_back(comparison(pair, error, block));
     for (std::size_t k = 0; k < block.schemes.size(); ++k)
         if (error.times[k] && error.comparisons.empty())
-            findings.emplace_back(Finding{"by " + block.schemes[k].name + " alone", 4});
+            findings.emplace_back(Finding{block.schemes[k].name + " alone does", 4});
     for (std::size_t k = 0; k < block.schemes.size(); ++k)
         if (!error.times[k])
             findings.emplace_back(
-                Finding{"not, as far as measured, by " + block.schemes[k].name, 4});
+                Finding{block.schemes[k].name + " does not, as far as measured", 4});
     return findings;
 }
 
@@ -200,7 +199,7 @@ Section work_precision_section(const WorkPrecisionResult& result, const WorkPrec
     Section section{"Work and precision",
                     {Paragraph{fmt::format(
                         "Work and precision{}; timed runs a row: {}, in turns, one at a time, "
-                        "without error norms. µ: 1e-6, m: 1e-3{}",
+                        "without error norms{}",
                         has_end ? " up to T = " + shortest(block.final_time) : "", block.runs,
                         has_end ? "; node-steps: elements times steps" : "")}}};
     auto& blocks = section.blocks;

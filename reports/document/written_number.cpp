@@ -33,10 +33,7 @@ std::optional<WrittenNumber> written_number(const std::string& text) {
         return std::nullopt;
     if (!given("e").empty() && (number.exponent = integer()).empty())
         return std::nullopt;
-    for (const char* prefix : {"µ", "m", "n"})
-        if (number.suffix.empty())
-            number.suffix = given(prefix);
-    number.suffix += given("*");
+    number.suffix = given("*");
     return rest.empty() ? std::optional(number) : std::nullopt;
 }
 

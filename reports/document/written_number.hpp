@@ -7,12 +7,12 @@
 namespace tvbeam {
 
 /// A number as number_text.hpp writes it, in its parts: "-1.25e-3" is "-1", "25", "-3"; behind it
-/// may stand a prefix or a mark, as in "2.31µ" and "3.00*".
+/// may stand a mark, as in "3.00*".
 struct WrittenNumber {
     std::string whole;    ///< with its sign
     std::string fraction; ///< the digits behind the point; empty: none
     std::string exponent; ///< of ten, with its sign; empty: none
-    std::string suffix;   ///< "µ", "m", "n", "*" or both; empty: none
+    std::string suffix;   ///< "*"; empty: none
 };
 
 /// None where the text is not just a number.

@@ -11,6 +11,8 @@
 #include <cmath>
 #include <filesystem>
 #include <map>
+#include <set>
+#include <system_error>
 
 namespace tvbeam {
 
@@ -72,10 +74,22 @@ BaselineEntry baseline_entry(const DataAnalysis& analysis) {
             std::move(figures)};
 }
 
-std::string baseline_of(const std::vector<BaselineEntry>& entries) {
+std::string earlier_baseline(const std::string& file) {
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(file, error) ||
+        std::filesystem::file_size(file, error) == 0)
+        return {};
+    const Baseline earlier(file); // which refuses what is none
+    return file_text(file, largest_baseline);
+}
+
+std::string baseline_of(const std::vector<BaselineEntry>& entries, const std::string& earlier) {
     Json scenes = Json::object();
+    std::set<std::string> names;
+    if (!earlier.empty())
+        scenes = Json::parse(earlier)["scenes"];
     for (const auto& [name, place, figures] : entries) {
-        if (scenes.contains(name))
+        if (!names.insert(name).second)
             throw InputError(place, "is the second scene that is called " + name +
                                         "; a baseline goes by their names: rename one");
         Json errors = Json::object();

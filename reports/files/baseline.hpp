@@ -25,9 +25,14 @@ BaselineEntry baseline_entry(const StudyResult& result);
 void require_recordable(const Scene& scene);
 BaselineEntry baseline_entry(const DataAnalysis& analysis);
 
-/// Entries as JSON (schema tvbeam-baseline/1), to hold later runs against. Throws InputError where
-/// two have one name, or one has nothing to keep.
-std::string baseline_of(const std::vector<BaselineEntry>& entries);
+/// Entries as JSON (schema tvbeam-baseline/1), to hold later runs against. earlier: an earlier
+/// baseline, whose entries of other names stay; empty: none. Throws InputError where two have one
+/// name, or one has nothing to keep.
+std::string baseline_of(const std::vector<BaselineEntry>& entries, const std::string& earlier = {});
+
+/// What stands in a file that a baseline is to be recorded in: a baseline, or nothing. Throws
+/// InputError where it is something else.
+std::string earlier_baseline(const std::string& file);
 
 /// A recorded baseline.
 class Baseline {

@@ -135,8 +135,11 @@ void OutputFile::commit(const std::string& text) {
 
 void write_standard_output(const std::string& text) {
     // What the library of the command line has printed comes first.
-    if (std::fflush(stdout) != 0 || !write_whole(STDOUT_FILENO, text))
+    if (std::fflush(stdout) != 0 || !write_whole(STDOUT_FILENO, text)) {
+        if (errno == EPIPE)
+            throw ClosedPipe("cannot write to standard output: nobody reads it");
         throw OutputError("cannot write to standard output: " + reason());
+    }
 }
 
 } // namespace tvbeam

@@ -12,6 +12,12 @@ public:
     using std::runtime_error::runtime_error;
 };
 
+/// Whoever read standard output does not any more, as `head` when it has its lines.
+class ClosedPipe : public OutputError {
+public:
+    using OutputError::OutputError;
+};
+
 /// A file that appears whole or not at all: the text goes to a temporary file beside it, which is
 /// flushed to the disk and renamed. A place that cannot be written is told when the object is made,
 /// before a long run, and nothing is made there until the text is at hand. A device or a pipe is
@@ -61,7 +67,8 @@ private:
     State state_ = State::older;
 };
 
-/// Writes to standard output; throws OutputError when that fails (a closed pipe, a full disk).
+/// Writes to standard output; throws ClosedPipe, or OutputError when it fails otherwise (a full
+/// disk).
 void write_standard_output(const std::string& text);
 
 } // namespace tvbeam

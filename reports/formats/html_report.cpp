@@ -4,6 +4,7 @@
 #include "reports/document/raised_text.hpp"
 #include "reports/document/written_number.hpp"
 
+#include <boost/algorithm/string/replace.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -15,9 +16,9 @@ namespace {
 
 const char* const style = R"(
 :root { color-scheme: light dark; --ink: #1c2126; --quiet: #57606a; --rule: #c9d1d9; --page: #fff;
-  --card: #f5f7f9; --accent: #0072b2; }
+  --card: #f5f7f9; --accent: #0072b2; --shade: #0005; }
 @media (prefers-color-scheme: dark) { :root { --ink: #e3e8ec; --quiet: #9aa7b2; --rule: #3a444d;
-  --page: #14181c; --card: #1d2329; --accent: #56b4e9; } }
+  --page: #14181c; --card: #1d2329; --accent: #56b4e9; --shade: #fff5; } }
 * { box-sizing: border-box; }
 html { -webkit-text-size-adjust: 100%; }
 body { margin: 0 auto; max-width: 72rem; padding: 1.5rem 1rem 3rem; background: var(--page);
@@ -43,8 +44,15 @@ figcaption { font-size: .9rem; margin-bottom: .4rem; }
 .picture { background: #fff; border: 1px solid var(--rule); border-radius: .3rem; padding: .4rem;
   max-width: 46rem; }
 .picture svg { display: block; height: auto; width: 100%; }
+@media (prefers-color-scheme: dark) { .picture { background: #14181c; }
+  .picture svg { filter: invert(.91) hue-rotate(180deg); } }
 .figures figcaption { margin: .4rem 0 0; }
-.scroll { overflow-x: auto; }
+/* Where a table goes on beyond the edge, a shadow stands there. */
+.scroll { overflow-x: auto; background: linear-gradient(to right, var(--page) 30%, transparent) left / 2.5rem 100%,
+  linear-gradient(to left, var(--page) 30%, transparent) right / 2.5rem 100%,
+  linear-gradient(to right, var(--shade), transparent) left / .9rem 100%,
+  linear-gradient(to left, var(--shade), transparent) right / .9rem 100%;
+  background-repeat: no-repeat; background-attachment: local, local, scroll, scroll; }
 .scroll:focus-visible { outline: 2px solid var(--accent); }
 table { border-collapse: collapse; font-size: .92rem; font-variant-numeric: tabular-nums;
   overflow-wrap: normal; border-top: 2px solid var(--ink); border-bottom: 2px solid var(--ink); }
@@ -82,7 +90,8 @@ std::string html_number(const WrittenNumber& number, const NumberColumn& column)
     const auto unseen = [](const std::string& text) {
         return text.empty() ? text : "<span class=\"pad\" aria-hidden=\"true\">" + text + "</span>";
     };
-    html += number.suffix.empty() ? unseen(missing) : "";
+    // Powers of ten stand below each other already; a gap before them would not be understood.
+    html += number.suffix.empty() && column.exponent == 0 ? unseen(missing) : "";
     const std::string power = " × 10<sup>";
     if (!number.exponent.empty()) {
         std::string exponent = number.exponent;
@@ -90,10 +99,13 @@ std::string html_number(const WrittenNumber& number, const NumberColumn& column)
         if (exponent.starts_with('-'))
             exponent.replace(0, 1, "−");
         html += power + exponent + unseen(more) + "</sup>";
-    } else if (column.exponent > 0) {
-        html += unseen(power + std::string(column.exponent, '0') + "</sup>");
     }
     return html + html_text(number.suffix);
+}
+
+/// Words with the ∞ of a space raised, as the ² of another is.
+std::string html_words(const std::string& text) {
+    return boost::algorithm::replace_all_copy(html_text(text), "L∞", "L<sup>∞</sup>");
 }
 
 /// Its numbers with powers of ten, and what stands behind a ^ raised.
@@ -102,7 +114,7 @@ std::string html_sentence(const std::string& text) {
     for (const auto& piece : pieces_of(text))
         html += piece.number
                     ? "<span class=\"number\">" + html_number(*piece.number, {}) + "</span>"
-                    : with_raised(html_text(piece.text), "^", "<sup>", "</sup>");
+                    : with_raised(html_words(piece.text), "^", "<sup>", "</sup>");
     return html;
 }
 
@@ -162,7 +174,7 @@ std::string html_of(const Table& table) {
 }
 
 std::string html_of(const Paragraph& paragraph) {
-    return "<p>" + html_sentence(paragraph.text) + "</p>\n";
+    return paragraph.introduces ? "" : "<p>" + html_sentence(paragraph.text) + "</p>\n";
 }
 
 std::string html_of(const Item& item) {
@@ -220,7 +232,7 @@ std::string html_of(const std::vector<Finding>& findings) {
 std::string rows_of(const std::vector<std::pair<std::string, std::string>>& rows) {
     std::string html = "<dl class=\"rows\">\n";
     for (const auto& [name, value] : rows)
-        html += "<dt>" + html_text(name) + "</dt><dd>" + html_text(value) + "</dd>\n";
+        html += "<dt>" + html_text(name) + "</dt><dd>" + html_words(value) + "</dd>\n";
     return html + "</dl>\n";
 }
 

@@ -41,10 +41,18 @@ ptree suite_of(const CheckedScene& scene) {
     }
     for (const auto& checked : scene.expectations) {
         ptree entry = test_case(checked.what);
-        if (!checked.holds)
-            entry.put(
-                "failure.<xmlattr>.message",
-                visible(fmt::format("expected {}, found {}", checked.expected, checked.found)));
+        if (!checked.holds) {
+            // Where the scene says so: what reads JUnit marks that line.
+            if (checked.place.line > 0) {
+                entry.put("<xmlattr>.file", visible(checked.place.file));
+                entry.put("<xmlattr>.line", checked.place.line);
+            }
+            const std::string message =
+                visible(fmt::format("expected {}, found {}", checked.expected, checked.found));
+            entry.put("failure.<xmlattr>.message", message);
+            entry.put("failure", fmt::format("{}:{}:{}: {}", visible(checked.place.file),
+                                             checked.place.line, checked.place.column, message));
+        }
         suite.add_child("testcase", entry);
     }
     return suite;

@@ -245,7 +245,7 @@ std::string latex_of(const Table& table) {
 }
 
 std::string latex_of(const Paragraph& paragraph) {
-    return latex_sentence(paragraph.text) + "\n\n";
+    return paragraph.introduces ? "" : latex_sentence(paragraph.text) + "\n\n";
 }
 
 std::string latex_of(const Item& item) {

@@ -35,7 +35,7 @@ std::string markdown_of(const Table& table) {
 }
 
 std::string markdown_of(const Paragraph& paragraph) {
-    return markdown_text(paragraph.text) + "\n\n";
+    return paragraph.introduces ? "" : markdown_text(paragraph.text) + "\n\n";
 }
 
 std::string markdown_of(const Item& item) {

@@ -1,14 +1,16 @@
 #include "reports/plots/drawing.hpp"
+#include "reports/plots/free_space.hpp"
 #include "reports/plots/plot.hpp"
 #include "reports/plots/plot_style.hpp"
 #include "studies/ladder/ladder.hpp"
 #include "studies/text/number_text.hpp"
 
-#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
 namespace tvbeam {
 
@@ -71,37 +73,37 @@ std::optional<double> positive_error(const RungResult& rung, std::size_t k) {
                : std::nullopt;
 }
 
-/// The straight line through the rows of a ladder whose orders agree.
-struct FittedLine {
-    double order = 0.0;
-    double from = 0.0; ///< widths that it is drawn over
-    double to = 0.0;
-    double error_in_the_middle = 0.0;
+/// The order of the rows of a ladder that agree; none where none do: what is not determined is not
+/// said.
+std::optional<double> order_of(const LadderResult& ladder, std::size_t k) {
+    const auto rows = judge(records_of(ladder.rungs, k)).window;
+    return rows ? std::optional(rows->order) : std::nullopt;
+}
 
-    [[nodiscard]] double middle() const { return std::sqrt(from * to); }
-    [[nodiscard]] double error(double width) const {
-        return error_in_the_middle * std::pow(width / middle(), order);
+/// The axes of the figure: a rectangle in its picture, and the powers of ten that it shows.
+struct Axes {
+    PictureBox frame;
+    double left, right, low, high; ///< decimal logarithms
+
+    [[nodiscard]] double decade_x() const { return (frame.right - frame.left) / (right - left); }
+    [[nodiscard]] double decade_y() const { return (frame.bottom - frame.top) / (high - low); }
+    [[nodiscard]] PicturePoint at(double width, double error) const {
+        return {frame.left + (std::log10(width) - left) * decade_x(),
+                frame.bottom - (std::log10(error) - low) * decade_y()};
+    }
+    [[nodiscard]] double width_at(double x) const {
+        return std::pow(10.0, left + (x - frame.left) / decade_x());
+    }
+    [[nodiscard]] double error_at(double y) const {
+        return std::pow(10.0, low + (frame.bottom - y) / decade_y());
     }
 };
 
-/// None where no orders agree: what is not determined is not drawn.
-std::optional<FittedLine> line_of(const LadderResult& ladder, std::size_t k,
-                                  const std::vector<double>& abscissa) {
-    const auto records = records_of(ladder.rungs, k);
-    const auto rows = judge(records).window;
-    if (!rows)
-        return std::nullopt;
-    const auto [least, greatest] = std::minmax(abscissa[rows->first], abscissa[rows->last]);
-    FittedLine line{rows->order, least, greatest};
-    double sum = 0.0;
-    int count = 0;
-    for (std::size_t i = rows->first; i <= rows->last; ++i)
-        if (is_positive(records[i].error)) {
-            sum += std::log(records[i].error) - rows->order * std::log(abscissa[i] / line.middle());
-            ++count;
-        }
-    line.error_in_the_middle = std::exp(sum / count);
-    return line;
+/// Of a label of that many characters, in pixels.
+constexpr double label_height = 18.0;
+constexpr double label_width(std::size_t characters) {
+    constexpr double character = 12.5;
+    return character * static_cast<double>(characters);
 }
 
 class ConvergencePlot {
@@ -118,23 +120,18 @@ public:
         if (errors_.empty())
             return {};
         const auto [least, greatest] = std::minmax_element(errors_.begin(), errors_.end());
-        extent_ = errors_;
-        apart_ = std::pow(*greatest / *least, 0.05) * 1.2;
-        for (std::size_t k = 0; k < ladder_.norms.size(); ++k)
-            lines_.push_back(line_of(ladder_, k, widths_.abscissa()));
         for (std::size_t k = 0; k < ladder_.norms.size(); ++k)
             add_norm(k);
         add_legend_of_marks();
-        const bool squares = std::all_of(ladder_.norms.begin(), ladder_.norms.end(),
-                                         [](const auto& norm) { return norm.norm.squared; });
-        const auto ticks = widths_.in_time ? value_ticks(widths_.dt) : width_ticks(widths_.h);
-        const std::string settings = fmt::format(
-            "set logscale xy\n{}{}set xtics {}\nset format y '10^{{%L}}'\n"
-            "set xlabel {} noenhanced\nset ylabel '{}'\n{}",
-            range_text("x", widths_.abscissa(), 1.5), range_text("y", extent_, 2.0 * apart_),
-            ticks_text(ticks, 6), gnuplot_text(widths_.axis_title()),
-            squares ? "squared error" : "error", labels_);
-        return {drawing_.plot("convergence", caption(), settings)};
+        const auto slopes = reference_slopes();
+        // Where there is no room for a slope, the axis of errors is made longer below.
+        constexpr int longest = 8;
+        for (int more = 0; more <= longest; ++more) {
+            const Axes axes = axes_with(*least, *greatest, more);
+            if (place(slopes, axes) || more == longest)
+                return {drawing_.plot("convergence", caption(slopes), settings(axes))};
+        }
+        return {};
     }
 
 private:
@@ -148,15 +145,22 @@ private:
     void add_norm(std::size_t k) {
         const LadderNorm& norm = ladder_.norms[k];
         add_points(k, norm);
-        if (lines_[k])
-            add_line(k, *lines_[k]);
         const SeriesStyle style = series_style(k);
         std::string name = norm.norm.words;
-        if (lines_[k])
-            name += ": slope " + fixed(lines_[k]->order, 2);
+        // The axis says it.
+        if (const std::string square = ", squared"; squares() && name.ends_with(square))
+            name.resize(name.size() - square.size());
+        if (const auto order = order_of(ladder_, k))
+            name += ": slope " + fixed(*order, 2);
         drawing_.add_curve(fmt::format("NaN with linespoints lc rgb '{}' pt {} ps 0.9 dt {} lw 1.6",
                                        style.colour, style.point, style.dash),
                            name);
+    }
+
+    /// Every norm's, where all are squares.
+    [[nodiscard]] bool squares() const {
+        return std::all_of(ladder_.norms.begin(), ladder_.norms.end(),
+                           [](const auto& norm) { return norm.norm.squared; });
     }
 
     void add_points(std::size_t k, const LadderNorm& norm) {
@@ -176,8 +180,9 @@ private:
                 fmt::format("{} using {}:5 with lines lc rgb '#000000' dt 3 lw 1.2", block, x));
             predicted_ = true;
         }
-        drawing_.add_curve(fmt::format("{} using {}:3 with points lc rgb '{}' pt {} ps 0.9", block,
-                                       x, style.colour, style.point));
+        drawing_.add_curve(
+            fmt::format("{} using {}:3 with linespoints lc rgb '{}' pt {} ps 0.9 dt {} lw 1.6",
+                        block, x, style.colour, style.point, style.dash));
         if (figures != nullptr) {
             drawing_.add_curve(fmt::format(
                 "{} using {}:4 with points lc rgb '#000000' pt 4 ps 1.9 lw 1.3", block, x));
@@ -185,58 +190,133 @@ private:
         }
     }
 
-    void add_line(std::size_t k, const FittedLine& line) {
-        const SeriesStyle style = series_style(k);
-        std::string rows;
-        for (const double width : {line.from, line.to})
-            rows += fmt::format("{} {}\n", width, line.error(width));
-        const std::string block =
-            drawing_.add_block(ladder_.norms[k].norm.name + ": the fitted line", rows);
-        drawing_.add_curve(fmt::format("{} using 1:2 with lines lc rgb '{}' dt {} lw 1.6", block,
-                                       style.colour, style.dash));
-        add_triangle(k, line);
+    /// Whole orders that some norm shows twice in a row, or at its only pair of levels, as near as
+    /// 0.2 (of a square: 0.4); the most frequent three.
+    [[nodiscard]] std::vector<int> reference_slopes() const {
+        std::map<int, int> seen;
+        for (std::size_t k = 0; k < ladder_.norms.size(); ++k) {
+            const double near = ladder_.norms[k].norm.squared ? 0.4 : 0.2;
+            const auto orders = observed_orders(records_of(ladder_.rungs, k));
+            int before = 0;
+            for (std::size_t i = 1; i < orders.size(); ++i) {
+                const double order = orders[i].value_or(0.0);
+                const int whole = static_cast<int>(std::lround(std::clamp(order, 0.0, 99.0)));
+                const bool holds = whole > 0 && std::abs(order - whole) <= near;
+                if (holds && (whole == before || orders.size() == 2))
+                    ++seen[whole];
+                before = holds ? whole : 0;
+            }
+        }
+        std::vector<std::pair<int, int>> all(seen.begin(), seen.end());
+        std::sort(all.begin(), all.end(),
+                  [](const auto& a, const auto& b) { return a.second > b.second; });
+        constexpr std::size_t most = 3;
+        std::vector<int> slopes;
+        for (std::size_t i = 0; i < std::min(most, all.size()); ++i)
+            slopes.push_back(all[i].first);
+        std::sort(slopes.begin(), slopes.end());
+        return slopes;
     }
 
-    /// The topmost line has its triangle above it, the others below, each further to the right.
-    void add_triangle(std::size_t k, const FittedLine& line) {
-        const auto drawn = std::count_if(lines_.begin(), lines_.end(),
-                                         [](const auto& one) { return one.has_value(); });
-        const bool above = drawn > 1 && k == topmost();
-        const double part =
-            ladder_.norms.size() > 2
-                ? 0.2 + 0.6 * static_cast<double>(k) / static_cast<double>(ladder_.norms.size() - 1)
-                : 0.5;
-        const double middle = line.from * std::pow(line.to / line.from, part);
-        const auto [least, greatest] =
+    /// more: tenths of the decades that the errors span, added below.
+    [[nodiscard]] Axes axes_with(double least, double greatest, int more) const {
+        const auto [narrowest, widest] =
             std::minmax_element(widths_.abscissa().begin(), widths_.abscissa().end());
-        const double half = std::pow(*greatest / *least, 0.08);
-        const double left = middle / half;
-        const double right = middle * half;
-        const double apart = above ? apart_ : 1.0 / apart_;
-        const double low = line.error(left) * apart;
-        const double high = line.error(right) * apart;
-        const std::string block =
-            drawing_.add_block(ladder_.norms[k].norm.name + ": the triangle of its slope",
-                               fmt::format("{0} {2}\n{4} {5}\n{1} {3}\n{0} {2}\n", left, right, low,
-                                           high, above ? left : right, above ? high : low));
-        drawing_.add_curve(block + " using 1:2 with lines lc rgb '#444444' lt 1 lw 1");
-        // The 1 beside the triangle wants room, too.
-        extent_.push_back(above ? high * apart_ : low / apart_);
-        labels_ += fmt::format("set label '{}' at {},{} {} front font ',16'\n",
-                               fixed(line.order, 2), above ? left : right, std::sqrt(low * high),
-                               above ? "right offset -0.5,0" : "left offset 0.5,0");
-        labels_ += fmt::format("set label '1' at {},{} center offset 0,{} front font ',16'\n",
-                               middle, above ? high : low, above ? 0.6 : -0.7);
+        const double span = std::max(1.0, std::log10(greatest / least));
+        return {frame_, std::log10(*narrowest / 1.5), std::log10(*widest * 1.5),
+                std::log10(least) - span * (0.08 + 0.1 * more), std::log10(greatest) + span * 0.08};
     }
 
-    /// The norm with the largest errors.
-    [[nodiscard]] std::size_t topmost() const {
-        std::size_t top = 0;
-        for (std::size_t k = 1; k < lines_.size(); ++k)
-            if (lines_[k] && (!lines_[top] || lines_[k]->error(lines_[k]->middle()) >
-                                                  lines_[top]->error(lines_[k]->middle())))
-                top = k;
-        return top;
+    /// What stands on the axes.
+    [[nodiscard]] FreeSpace space_of(const Axes& axes) const {
+        FreeSpace space(axes.frame);
+        for (std::size_t k = 0; k < ladder_.norms.size(); ++k) {
+            const auto& predicted = ladder_.norms[k].predictions;
+            const auto* figures = printed(k);
+            std::optional<PicturePoint> before;
+            std::optional<PicturePoint> predicted_before;
+            for (std::size_t i = 0; i < ladder_.rungs.size(); ++i) {
+                const double width = widths_.abscissa()[i];
+                constexpr double marker = 7.0;
+                constexpr double square = 11.0;
+                std::optional<PicturePoint> here;
+                if (const auto error = positive_error(ladder_.rungs[i], k)) {
+                    here = axes.at(width, *error);
+                    space.occupy(*here, marker);
+                    if (before)
+                        space.occupy(*before, *here);
+                }
+                before = here ? here : before;
+                if (figures != nullptr && (*figures)[i] > 0.0)
+                    space.occupy(axes.at(width, (*figures)[i]), square);
+                if (predicted.empty() || !(predicted[i].value > 0.0))
+                    continue;
+                const PicturePoint there = axes.at(width, predicted[i].value);
+                if (predicted_before)
+                    space.occupy(*predicted_before, there);
+                predicted_before = there;
+            }
+        }
+        return space;
+    }
+
+    /// Puts a triangle for each slope where nothing else is; false where some do not fit.
+    bool place(const std::vector<int>& slopes, const Axes& axes) {
+        labels_.clear();
+        triangles_.clear();
+        FreeSpace space = space_of(axes);
+        const PicturePoint middle{(axes.frame.left + axes.frame.right) / 2.0,
+                                  (axes.frame.top + axes.frame.bottom) / 2.0};
+        for (const int slope : slopes) {
+            constexpr double usual = 56.0;
+            constexpr double highest = 80.0;
+            const double rise = slope * axes.decade_y() / axes.decade_x();
+            const double width = std::min(usual, highest / rise);
+            const std::string text = std::to_string(slope);
+            const double beside = label_width(text.size());
+            const auto box = space.find(
+                width + beside, std::max(width * rise, label_height) + label_height, middle);
+            if (!box)
+                return false;
+            space.occupy(*box);
+            add_triangle(text, *box, width, width * rise, axes);
+        }
+        for (const auto& [name, rows] : triangles_)
+            drawing_.add_curve(drawing_.add_block(name, rows) +
+                               " using 1:2 with lines lc rgb '#444444' lt 1 lw 1");
+        return true;
+    }
+
+    /// In the upper left corner of its box: its labels stand to the right and below.
+    void add_triangle(const std::string& slope, const PictureBox& box, double width, double height,
+                      const Axes& axes) {
+        const double left = axes.width_at(box.left);
+        const double right = axes.width_at(box.left + width);
+        const double bottom = box.bottom - label_height;
+        const double low = axes.error_at(bottom);
+        const double high = axes.error_at(bottom - height);
+        triangles_.emplace_back(
+            "the slope " + slope,
+            fmt::format("{0} {2}\n{1} {2}\n{1} {3}\n{0} {2}\n", left, right, low, high));
+        const auto label = [&](const std::string& text, double x, double y) {
+            labels_ += fmt::format("set label '{}' at {},{} center front font ',16'\n", text,
+                                   axes.width_at(x), axes.error_at(y));
+        };
+        label(slope, (box.left + width + box.right) / 2.0 + 2.0, bottom - height / 2.0);
+        label("1", box.left + width / 2.0, bottom + label_height / 2.0);
+    }
+
+    [[nodiscard]] std::string settings(const Axes& axes) const {
+        const auto ticks = widths_.in_time ? value_ticks(widths_.dt) : width_ticks(widths_.h);
+        constexpr double many_decades = 5.0;
+        return fmt::format(
+            "set logscale xy\nset xrange [{}:{}]\nset yrange [{}:{}]\nset xtics {}\n"
+            "set format y '10^{{%L}}'\n{}set xlabel {} noenhanced\nset ylabel '{}' offset "
+            "1.5,0\n{}",
+            std::pow(10.0, axes.left), std::pow(10.0, axes.right), std::pow(10.0, axes.low),
+            std::pow(10.0, axes.high), ticks_text(ticks, 6),
+            axes.high - axes.low > many_decades ? "unset mytics\n" : "",
+            gnuplot_text(widths_.axis_title()), squares() ? "squared error" : "error", labels_);
     }
 
     void add_legend_of_marks() {
@@ -248,11 +328,13 @@ private:
                                "predicted by the fits of [orders]");
     }
 
-    [[nodiscard]] std::string caption() const {
+    [[nodiscard]] std::string caption(const std::vector<int>& slopes) const {
         return fmt::format(
-            "Errors{} along the ladder, on logarithmic axes, with fitted lines and "
-            "their slopes{}{}.",
+            "Errors{} along the ladder, on logarithmic axes{}{}{}.",
             block_.final_time > 0.0 ? " up to T = " + shortest(block_.final_time) : "",
+            slopes.empty() ? ""
+                           : fmt::format("; triangles: the slope{} {}",
+                                         slopes.size() == 1 ? "" : "s", fmt::join(slopes, ", ")),
             has_printed_ ? "; open squares: published in " + block_.printed->source : "",
             predicted_ ? "; dotted: predicted by the fits of [orders]" : "");
     }
@@ -261,11 +343,10 @@ private:
     const LadderBlock& block_;
     LadderWidths widths_;
     std::vector<double> errors_;
-    std::vector<double> extent_; ///< what the axis of errors shows
-    std::vector<std::optional<FittedLine>> lines_;
-    double apart_ = 1.0; ///< how far, as a factor, a triangle lies from its line
     Drawing drawing_;
+    PictureBox frame_ = drawing_.fix_axes();
     std::string labels_;
+    std::vector<std::pair<std::string, std::string>> triangles_; ///< names and rows
     bool has_printed_ = false;
     bool predicted_ = false;
 };

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "reports/plots/free_space.hpp"
 #include "reports/plots/plot.hpp"
 
 #include <cstddef>
@@ -18,6 +19,9 @@ public:
     void add_curve(const std::string& curve);
     void add_curve(const std::string& curve, const std::string& title);
 
+    /// Keeps the axes where they stand, whatever their ticks take: there, in pixels.
+    PictureBox fix_axes();
+
     [[nodiscard]] bool is_empty() const { return curves_.empty(); }
 
     /// The figure. settings: the lines of its script before `plot`. The legend stands below the
@@ -29,7 +33,9 @@ private:
     std::string data_;
     std::size_t blocks_ = 0;
     std::string curves_;
-    std::size_t legend_ = 0; ///< its lines
+    bool axes_are_fixed_ = false;
+    std::size_t legend_ = 0;        ///< its lines
+    std::size_t longest_title_ = 0; ///< of them, in characters
 };
 
 } // namespace tvbeam

@@ -213,7 +213,7 @@ private:
         if (best > room)
             labels_ += fmt::format("set label '{}' at {:.6g},{:.6g} center boxed front font "
                                    "',15'\n",
-                                   shortest(level), labelled.h, labelled.dt);
+                                   scientific(level, 0), labelled.h, labelled.dt);
     }
 
     void add_balance() {

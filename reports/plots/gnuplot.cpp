@@ -92,6 +92,11 @@ bool is_whole_png(std::string_view text) {
     return false;
 }
 
+bool is_whole_pdf(std::string_view text) {
+    text = text.substr(0, text.find_last_not_of(" \r\n") + 1);
+    return text.starts_with("%PDF-") && text.ends_with("%%EOF");
+}
+
 constexpr std::size_t largest_picture = 256 << 20; // bytes
 
 /// What a file holds, where it is whole. Throws InputError.
@@ -182,7 +187,8 @@ void draw(const std::vector<Plot>& plots, const std::filesystem::path& inside, D
                 first_words(file_text((scratch.path() / "said").string(), largest_picture));
         else
             drawn.plots[i] = {picture(scratch.path() / (plot.name + ".svg"), is_whole_svg),
-                              picture(scratch.path() / (plot.name + ".png"), is_whole_png)};
+                              picture(scratch.path() / (plot.name + ".png"), is_whole_png),
+                              picture(scratch.path() / (plot.name + ".pdf"), is_whole_pdf)};
     }
 }
 

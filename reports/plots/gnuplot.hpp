@@ -11,6 +11,7 @@ namespace tvbeam {
 struct DrawnPlot {
     std::string svg; ///< empty where it could not be drawn
     std::string png; ///< the same
+    std::string pdf; ///< the same
 };
 
 /// The figures that gnuplot drew, as many as there are plots, and why some could not be drawn.

@@ -8,7 +8,7 @@
 namespace tvbeam {
 
 /// A figure: a script for gnuplot and the data that it reads. Run where they stand, the script
-/// makes NAME.svg and NAME.png.
+/// makes NAME.svg, NAME.png and NAME.pdf.
 struct Plot {
     std::string name;    ///< of the files, without ending
     std::string caption; ///< what it shows, in words

@@ -3,11 +3,13 @@
 #include "reports/document/visible_text.hpp"
 #include "studies/text/number_text.hpp"
 
+#include <boost/algorithm/string/replace.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string_view>
 
 namespace tvbeam {
 
@@ -22,14 +24,14 @@ std::vector<double> sorted(std::vector<double> values) {
 } // namespace
 
 SeriesStyle series_style(std::size_t series) {
-    static const std::array<SeriesStyle, 7> styles{{{"#0072B2", 7, 1},
-                                                    {"#D55E00", 5, 2},
-                                                    {"#009E73", 9, 4},
-                                                    {"#CC79A7", 11, 5},
-                                                    {"#E69F00", 13, 3},
-                                                    {"#56B4E9", 15, 1},
-                                                    {"#000000", 7, 2}}};
-    return styles.at(series % styles.size());
+    static const std::array<const char*, 7> colours{"#0072B2", "#D55E00", "#009E73", "#CC79A7",
+                                                    "#E69F00", "#56B4E9", "#000000"};
+    // Filled ones, then the same open.
+    static const std::array<int, 13> points{7, 5, 9, 11, 13, 15, 3, 4, 6, 8, 10, 12, 14};
+    static const std::array<int, 5> dashes{1, 2, 4, 5, 3};
+    // 7, 13 and 5 have no common factor: the first 455 differ.
+    return {colours.at(series % colours.size()), points.at(series % points.size()),
+            dashes.at(series % dashes.size())};
 }
 
 std::string gnuplot_text(const std::string& text) {
@@ -41,6 +43,16 @@ std::string gnuplot_text(const std::string& text) {
         quoted += c == '\'' ? std::string("''") : std::string(1, c == '\n' || c == '\t' ? ' ' : c);
     }
     return quoted + "'";
+}
+
+std::string gnuplot_title(const std::string& text) {
+    std::string escaped;
+    for (const char c : text) {
+        if (std::string_view("\\{}^_@&~").find(c) != std::string_view::npos)
+            escaped += '\\';
+        escaped += c;
+    }
+    return gnuplot_text(boost::algorithm::replace_all_copy(escaped, "L∞", "L^{∞}"));
 }
 
 std::string ticks_text(const std::vector<Tick>& ticks, std::size_t most) {
@@ -61,8 +73,10 @@ std::vector<Tick> width_ticks(std::vector<double> widths) {
 
 std::vector<Tick> value_ticks(std::vector<double> values) {
     std::vector<Tick> ticks;
-    for (const double value : sorted(std::move(values)))
-        ticks.push_back({value, shortest(value)});
+    const auto all = sorted(std::move(values));
+    const auto texts = alike(all);
+    for (std::size_t i = 0; i < all.size(); ++i)
+        ticks.push_back({all[i], texts[i]});
     return ticks;
 }
 

@@ -20,6 +20,9 @@ SeriesStyle series_style(std::size_t series);
 /// Text as gnuplot takes it: in single quotes, one line.
 std::string gnuplot_text(const std::string& text);
 
+/// The same where gnuplot obeys marks, so that the ∞ of a space L∞ is raised; all else is as it is.
+std::string gnuplot_title(const std::string& text);
+
 /// Ticks of a logarithmic axis at given values: at most `most` of them, evenly left out.
 struct Tick {
     double value = 0.0;

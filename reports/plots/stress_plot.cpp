@@ -88,7 +88,7 @@ public:
         if (least) {
             const int first = static_cast<int>(std::ceil(std::log10(*least) - 1e-9));
             const int last = static_cast<int>(std::floor(std::log10(*greatest) + 1e-9));
-            const int step = std::max(1, (last - first) / 6);
+            const int step = std::max(1, (last - first + 4) / 5);
             for (int power = first; power <= last; power += step)
                 add(fmt::format("10^{{{}}}", power), power);
         }
@@ -111,13 +111,22 @@ private:
     double infinity = 0.0;
 };
 
-/// What the fifths of two axes together tell of the outcome: their mutual information, in nats.
+/// What became of a case: its outcome, and by quarters how near its checks came to a limit.
+std::pair<Outcome, int> fate_of(const StressCase& one) {
+    constexpr double quarters = 4.0;
+    const double closeness = one.checks ? one.checks->closeness(one.parameters.stops.exist()) : 0.0;
+    return {one.outcome, static_cast<int>(std::clamp(quarters * closeness, 0.0, quarters))};
+}
+
+/// What the fifths of two axes together tell of the cases' fates: their mutual information, in
+/// nats.
 double information(const Axis& x, const Axis& y, const std::vector<StressCase>& cases) {
-    std::map<std::pair<int, int>, std::map<Outcome, double>> cells;
-    std::map<Outcome, double> all;
+    std::map<std::pair<int, int>, std::map<std::pair<Outcome, int>, double>> cells;
+    std::map<std::pair<Outcome, int>, double> all;
     for (std::size_t i = 0; i < cases.size(); ++i) {
-        ++cells[{x.bin(i), y.bin(i)}][cases[i].outcome];
-        ++all[cases[i].outcome];
+        const auto fate = fate_of(cases[i]);
+        ++cells[{x.bin(i), y.bin(i)}][fate];
+        ++all[fate];
     }
     const auto total = static_cast<double>(cases.size());
     double sum = 0.0;
@@ -159,24 +168,72 @@ std::optional<std::pair<Axis, Axis>> most_telling(const std::vector<StressCase>&
     return best;
 }
 
+/// Of cases that are not certified: colour, gnuplot's number of a point, its size.
 struct OutcomeStyle {
     const char* colour;
     int point;
     double size;
-    double shift; ///< of the axes' widths: outcomes at one place stand side by side
 };
 
 OutcomeStyle style_of(Outcome outcome) {
     switch (outcome) {
-    case Outcome::certified:
-        return {"#56B4E9", 6, 0.75, 0.0};
     case Outcome::refused:
-        return {"#E69F00", 9, 1.0, 0.0};
+        return {"#E69F00", 8, 1.1};
     case Outcome::stopped:
-        return {"#000000", 2, 0.9, 0.0};
+        return {"#000000", 2, 1.0};
     default:
-        return {"#D55E00", 5, 1.2, 0.0};
+        return {"#D55E00", 4, 1.5};
     }
+}
+
+/// What the cases of an outcome at one place are together.
+struct Place {
+    int count = 0;
+    double closeness = 0.0; ///< the greatest of those that were checked
+};
+using Places = std::map<std::pair<double, double>, Place>;
+
+Places places_of(const std::vector<StressCase>& cases, Outcome outcome, const Axis& x,
+                 const Axis& y) {
+    Places places;
+    for (std::size_t i = 0; i < cases.size(); ++i) {
+        if (cases[i].outcome != outcome)
+            continue;
+        Place& place = places[{x.places[i], y.places[i]}];
+        ++place.count;
+        if (cases[i].checks)
+            place.closeness = std::max(
+                place.closeness, cases[i].checks->closeness(cases[i].parameters.stops.exist()));
+    }
+    return places;
+}
+
+/// Certified cases, each place in the colour of how near its checks came to a limit, the nearest on
+/// top; the others by marks.
+void add_outcome(Drawing& drawing, const StressResult& stress, Outcome outcome, const Axis& x,
+                 const Axis& y) {
+    const Places places = places_of(stress.cases, outcome, x, y);
+    if (places.empty())
+        return;
+    std::vector<std::pair<std::pair<double, double>, Place>> sorted(places.begin(), places.end());
+    std::stable_sort(sorted.begin(), sorted.end(), [](const auto& a, const auto& b) {
+        return a.second.closeness < b.second.closeness;
+    });
+    std::string rows;
+    for (const auto& [at, place] : sorted)
+        rows += fmt::format("{} {} {} {}\n", at.first, at.second, place.count, place.closeness);
+    const std::string block = drawing.add_block(
+        fmt::format("{}: log10 of {}, of {}, number of cases, greatest check over its limit",
+                    name_of(outcome), x.name, y.name),
+        rows);
+    const OutcomeStyle style = style_of(outcome);
+    const std::string title = fmt::format("{}: {}", name_of(outcome), stress.count(outcome));
+    if (outcome == Outcome::certified)
+        drawing.add_curve(block + " using 1:2:4 with points pt 7 ps 0.8 lc palette", title);
+    else
+        drawing.add_curve(fmt::format("{} using 1:2 with points pt {} ps {} lc rgb '{}' lw 1.6",
+                                      block, style.point, style.size, style.colour),
+                          title);
 }
 
 } // namespace
@@ -191,39 +248,24 @@ std::vector<Plot> stress_plots(const StudyResult& result) {
         return {};
     const auto& [x, y] = *axes;
     Drawing drawing;
-    for (const Outcome outcome : outcomes) {
-        // Cases at one place are one point.
-        std::map<std::pair<double, double>, int> points;
-        for (std::size_t i = 0; i < cases.size(); ++i)
-            if (cases[i].outcome == outcome)
-                ++points[{x.places[i], y.places[i]}];
-        if (points.empty())
-            continue;
-        std::string rows;
-        for (const auto& [place, count] : points)
-            rows += fmt::format("{} {} {}\n", place.first, place.second, count);
-        const std::string block =
-            drawing.add_block(fmt::format("{}: log10 of {}, of {}, number of cases",
-                                          name_of(outcome), x.name, y.name),
-                              rows);
-        const OutcomeStyle style = style_of(outcome);
-        drawing.add_curve(fmt::format("{} using 1:2:(1+0.4*log10($3)) with points pt {} ps "
-                                      "variable lc rgb '{}' lw 1.4",
-                                      block, style.point, style.colour),
-                          fmt::format("{}: {}", name_of(outcome), stress->count(outcome)));
-    }
+    for (const Outcome outcome : outcomes)
+        add_outcome(drawing, *stress, outcome, x, y);
     const double room_x = 0.06 * (x.end - x.begin);
     const double room_y = 0.06 * (y.end - y.begin);
     const std::string settings =
         fmt::format("set xrange [{}:{}]\nset yrange [{}:{}]\nset xtics {}\nset ytics {}\n"
-                    "set xlabel {} noenhanced\nset ylabel {} noenhanced\nset grid\n",
+                    "set xlabel {} noenhanced\nset ylabel {} noenhanced\nset grid\n"
+                    // From yellow, far from every limit, to dark: alike in grey.
+                    "set palette defined (0 '#FDE725', 0.25 '#5EC962', 0.5 '#21918C', 0.75 "
+                    "'#3B528B', 1 '#440154')\nset cbrange [0:1]\n"
+                    "set cblabel 'greatest check over its limit'\n",
                     x.begin - room_x, x.end + room_x, y.begin - room_y, y.end + room_y, x.ticks(),
                     y.ticks(), gnuplot_text(x.name), gnuplot_text(y.name));
     return {drawing.plot(
         "stress_outcomes",
         fmt::format("Outcomes of {} cases over the two parameters that tell most about them, "
-                    "{} and {}, on logarithmic axes; the more cases at a place, the larger "
-                    "its symbol.",
+                    "{} and {}, on logarithmic axes. The colour of certified ones says how near "
+                    "the nearest of their checks comes to its limit, 1.",
                     cases.size(), x.name, y.name),
         settings)};
 }

@@ -430,7 +430,8 @@ DataFile read_data(const std::string& file, const DataChoice& choice) {
         split(lines, head.separator == ' ' ? line : lines.line(), head.separator, fields);
         if (fields.size() != head.names.size())
             throw InputError(lines.place(1), "has " + std::to_string(fields.size()) +
-                                                 " fields; the columns are " +
+                                                 (fields.size() == 1 ? " field" : " fields") +
+                                                 "; the columns are " +
                                                  std::to_string(head.names.size()));
         read_record(lines, fields, head, uses);
     }

@@ -65,6 +65,17 @@ void require_count(const TableReader& table, const std::string& key, std::size_t
                                    std::to_string(count) + " " + rows + "s; give one a " + rows);
 }
 
+/// Of a table for a norm, or a value, that the study does not have.
+InputError not_measured(const TableReader& table, const std::string& name,
+                        const std::vector<Measure>& measures) {
+    std::vector<std::string> names;
+    for (const auto& measure : measures)
+        names.push_back(measure.name);
+    return {table.place_of_key(name),
+            table.full(name) + " expects something of what the study does not measure" +
+                did_you_mean(name, names) + "; it measures " + join(names, ", ")};
+}
+
 } // namespace
 
 CheckedExpectation held(const Metric& metric, double lowest, double highest, const Place& place) {
@@ -266,6 +277,9 @@ void for_each_measure(TableReader& table, const std::vector<Measure>& measures,
             read(*inner, k);
             finish_expecting(*inner, before, expectations);
         }
+    for (const auto& name : table.unread())
+        if (table.is_table(name))
+            throw not_measured(table, name, measures);
 }
 
 } // namespace tvbeam

@@ -7,10 +7,10 @@
 #include "studies/grid/orders_block.hpp"
 #include "studies/ladder/ladder_block.hpp"
 #include "studies/runs/beam_runs.hpp"
+#include "studies/scene/scene_keys.hpp"
 #include "studies/study.hpp"
 #include "studies/work_precision/work_precision_block.hpp"
 
-#include <boost/algorithm/string/join.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -63,58 +63,30 @@ std::vector<std::string> words_of(const std::string& path) {
     return words;
 }
 
-bool is_norm(const std::string& word) {
-    return Norm::named(word).has_value();
-}
-
-/// stress.contraction and stress.roundoff have one reader of scheme and mass.
-bool is_single_case(const std::vector<std::string>& words, std::size_t i) {
-    return words[0] == "stress" && (words[i] == "contraction" || words[i] == "roundoff") &&
-           (words.back() == "time" || words.back() == "thermal_mass");
-}
-
-/// [solver] has tables of names that a scene is free to choose.
-bool is_named_by_solver(const std::vector<std::string>& words, std::size_t i) {
-    return words[0] == "solver" && i == 2;
-}
-
-/// The path of a key with NORM, NAME and FIGURE for what scenes call as they like.
-std::string schema_of(const std::string& path) {
-    // [sensitivity.defect.NAME] is read as [defect] is.
-    const std::string named = "sensitivity.defect.";
-    if (path.starts_with(named)) {
-        const auto key = path.find('.', named.size());
-        return key == std::string::npos ? named + "NAME" : "defect" + path.substr(key);
-    }
-    for (const std::string figures : {"expect.evolution.", "expect.stress.", "expect.sensitivity."})
-        if (path.starts_with(figures) && path != "expect.evolution.events")
-            return figures + "FIGURE";
-    auto words = words_of(path);
-    const bool gated = path.starts_with("expect.ladder.") || path.starts_with("expect.orders.");
-    for (std::size_t i = 1; i < words.size(); ++i) {
-        const bool number = words[i].find_first_not_of("0123456789") == std::string::npos;
-        const bool name = words[i - 1] == "sweep" || path.starts_with("expect.work_precision.") ||
-                          is_named_by_solver(words, i);
-        // Errors and values of an external solver are called as it likes.
-        if (is_norm(words[i]) || (gated && i == 2 && words[i] != "ended_by") ||
-            (path.starts_with("expect.work_precision.") && i == 3))
-            words[i] = "NORM";
-        else if (number || (name && i == 2) || is_single_case(words, i) ||
-                 (i > 2 && words[i - 1] == "parameters"))
-            words[i] = "NAME";
-    }
-    return boost::algorithm::join(words, ".");
+/// The name of a key in the table of keys. [stress.contraction] and [stress.roundoff] have one
+/// reader of scheme and mass.
+std::string feature_of(const std::string& entry) {
+    for (const std::string key : {"time", "thermal_mass"})
+        if (entry == "stress.contraction." + key || entry == "stress.roundoff." + key)
+            return "key stress.NAME." + key;
+    return "key " + entry;
 }
 
 /// What a scene has, by the names of features; the others with false.
 using Uses = std::map<std::string, bool>;
 
 void add_keys(const AskedKeys& asked, Uses& uses) {
+    for (const auto& entry : scene_keys().entries()) {
+        uses[feature_of(entry.path)] |= false;
+        if (entry.type == KeyType::choice)
+            for (const auto& word : entry.words)
+                uses[fmt::format("{} = {}", feature_of(entry.path), word)] |= false;
+    }
     for (const auto& [path, key] : asked) {
-        const std::string name = "key " + schema_of(path);
+        const std::string name = feature_of(key.entry);
         uses[name] |= key.given;
-        for (const auto& choice : key.choices)
-            uses[fmt::format("{} = {}", name, choice)] |= choice == key.chosen;
+        if (!key.chosen.empty())
+            uses[fmt::format("{} = {}", name, key.chosen)] = true;
     }
 }
 

@@ -114,7 +114,8 @@ LadderResult analyse_ladder(const LadderBlock& block, const Method& method,
         std::erase_if(roots, [](const Refinement& record) { return !record.is_resolved(); });
         LadderNorm& shown = result.norms.back();
         if (!norm.is_value)
-            shown.remarks = order_remarks(norm, roots, fit != nullptr ? &fit->model : nullptr);
+            shown.remarks = order_remarks(norm, roots, fit != nullptr ? &fit->model : nullptr,
+                                          solver.has_defect);
         if (result.analysis) {
             const ColumnAnalysis& column = result.analysis->columns[k];
             if (norm.is_value)

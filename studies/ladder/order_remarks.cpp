@@ -1,5 +1,7 @@
 #include "studies/ladder/order_remarks.hpp"
 
+#include "studies/text/number_text.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,6 +12,10 @@ namespace tvbeam {
 
 namespace {
 
+std::string times_text(double value) {
+    return significant(value, 2);
+}
+
 std::string order_text(double value) {
     return fmt::format("{:.2f}", value);
 }
@@ -19,6 +25,12 @@ std::string rung_name(std::span<const Refinement> ladder, const Refinement& rung
     if (std::isnan(ladder.front().h) || ladder.front().h == ladder.back().h)
         return "dt = " + fmt::format("{:.3g}", rung.dt);
     return "s = " + fmt::format("{:.0f}", 1.0 / rung.h);
+}
+
+/// That rung, and the finer ones: "s ≥ 40".
+std::string from_rung_on(std::span<const Refinement> ladder, const Refinement& rung) {
+    std::string name = rung_name(ladder, rung);
+    return name.replace(name.find('='), 1, name.starts_with("dt") ? "≤" : "≥");
 }
 
 struct Observed {
@@ -68,6 +80,8 @@ std::string departure(const Measure& norm, std::span<const Refinement> roots,
         return text + ": the error no longer shrinks.";
     if (explained)
         return text + ".";
+    if (std::abs(last.order) < steady && std::abs((orders.end - 2)->order) < steady)
+        return text + ": the error hardly shrinks any more.";
     const bool settles = orders.end - orders.leaves >= 2 && last.order > 0.0 &&
                          std::abs(last.order - (orders.end - 2)->order) <= steady;
     if (dips(orders, settles ? last.order : before))
@@ -76,8 +90,8 @@ std::string departure(const Measure& norm, std::span<const Refinement> roots,
         return text +
                (rises ? ", where the last two orders agree, as where coarse levels do not show it."
                       : ", as where a term of lower order takes over.");
-    return text + "; why is not known: " +
-           (settles ? "the last two orders agree." : "it has not settled.");
+    return text + (settles ? "; the last two orders agree, but why the others differ is not known."
+                           : "; it has not settled, and why is not known.");
 }
 
 /// What the orders do. Why they do it is guessed where no model says it.
@@ -139,36 +153,38 @@ std::string from_model(const Measure& norm, std::span<const Refinement> roots,
                order(slow_order) + ".";
     if (at_last < 1.0)
         text += fmt::format("the order {}{} is that of the {} error; the {} error, of order {} "
-                            "along this ladder, is {:.2g} times as large at {}{}",
+                            "along this ladder, is {} times as large at {}{}",
                             order(fast_order), of_square(norm, fast_order), faster, slower,
-                            order(slow_order), at_last, last, at_last < 0.5 ? " and hidden." : ".");
+                            order(slow_order), times_text(at_last), last,
+                            at_last < 0.5 ? " and hidden." : ".");
     else if (at_first < 1.0)
         text +=
             fmt::format("the {} error, of order {}{}, dominates the coarse levels; at {} the {} "
-                        "error, of order {}, is {:.2g} times as large.",
+                        "error, of order {}, is {} times as large.",
                         faster, order(fast_order), of_square(norm, fast_order), last, slower,
-                        order(slow_order), at_last);
+                        order(slow_order), times_text(at_last));
     else
-        text += fmt::format("the {} error, of order {}{}, dominates the whole ladder: at {} it is "
-                            "{:.2g} times as large as the {} error, of order {}, and at {} {:.2g} "
-                            "times.",
-                            slower, order(slow_order), of_square(norm, slow_order), first, at_first,
-                            faster, order(fast_order), last, at_last);
+        text +=
+            fmt::format("the {} error, of order {}{}, dominates the whole ladder: at {} it is "
+                        "{} times as large as the {} error, of order {}, and {} times at {}.",
+                        slower, order(slow_order), of_square(norm, slow_order), first,
+                        times_text(at_first), faster, order(fast_order), times_text(at_last), last);
     if (view.cancellation)
         text += " The two have opposite signs and cancel in part about " +
                 rung_name(roots, {.h = view.cancellation->h, .dt = view.cancellation->dt}) + ".";
     if (view.asymptotic_from && at_first < 1.0)
-        text += " The order that remains, " + order(slow_order) + ", shows " +
-                (view.asymptotic_from->row < roots.size() ? "from " : "only from about ") +
-                rung_name(roots, {.h = view.asymptotic_from->h, .dt = view.asymptotic_from->dt}) +
-                " on.";
+        text +=
+            " The order that remains, " + order(slow_order) + ", appears " +
+            (view.asymptotic_from->row < roots.size() ? "for " : "only for ") +
+            from_rung_on(roots, {.h = view.asymptotic_from->h, .dt = view.asymptotic_from->dt}) +
+            ".";
     return text;
 }
 
 } // namespace
 
 std::vector<std::string> order_remarks(const Measure& norm, std::span<const Refinement> roots,
-                                       const TwoTermModel* model) {
+                                       const TwoTermModel* model, bool has_defect) {
     const auto orders = observed_orders(roots);
     std::vector<Observed> known;
     for (std::size_t i = 0; i < orders.size(); ++i)
@@ -177,7 +193,7 @@ std::vector<std::string> order_remarks(const Measure& norm, std::span<const Refi
     if (known.size() < 2)
         return {};
     const std::string why = model != nullptr ? from_model(norm, roots, *model) : "";
-    std::vector<std::string> remarks{from_pairs(norm, roots, known, !why.empty())};
+    std::vector<std::string> remarks{from_pairs(norm, roots, known, has_defect || !why.empty())};
     if (!why.empty())
         remarks.push_back(why);
     return remarks;

@@ -114,7 +114,8 @@ StudiedSolver beam_runs(const Scene& scene, const ProblemData& data, const Probl
                                         std::size_t k) {
         return round_off_remark(scene.beam, data, series, runs, k);
     };
-    return {.run = run, .reference = scene.reference, .remark = remark};
+    return {
+        .run = run, .reference = scene.reference, .remark = remark, .has_defect = !defects.none()};
 }
 
 } // namespace tvbeam

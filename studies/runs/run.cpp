@@ -49,6 +49,11 @@ std::int64_t RungResult::count(std::string_view name) const {
     return found == counters.end() ? 0 : found->value;
 }
 
+std::string RungResult::trouble(const std::function<std::string(double)>& text) const {
+    return rung.name(text) +
+           (status == RungStatus::interrupted ? " was interrupted" : " failed: " + reason);
+}
+
 double longest_time(const std::vector<Series>& all) {
     double longest = 0.0;
     for (const auto& series : all)

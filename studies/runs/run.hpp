@@ -77,6 +77,8 @@ struct RungResult {
 
     /// A counter by its name; 0 where the solver has none of it.
     [[nodiscard]] std::int64_t count(std::string_view name) const;
+    /// Of one that is not ok: "s = 8, dt = 1e-3 failed: why", numbers as `text` writes them.
+    [[nodiscard]] std::string trouble(const std::function<std::string(double)>& text) const;
 };
 
 /// One run that a study wants.

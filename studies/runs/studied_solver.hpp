@@ -21,6 +21,9 @@ struct StudiedSolver {
     /// does. An empty function: nothing ever does.
     std::function<std::string(const Series&, const std::vector<RungResult>&, std::size_t k)>
         remark = {};
+
+    /// Its runs are made with a deliberate defect.
+    bool has_defect = false;
 };
 
 } // namespace tvbeam

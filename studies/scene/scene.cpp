@@ -8,6 +8,7 @@
 #include "studies/reference/reference_solution.hpp"
 #include "studies/runs/beam_runs.hpp"
 #include "studies/scene/model_keys.hpp"
+#include "studies/scene/scene_keys.hpp"
 #include "studies/scene/scheme_keys.hpp"
 #include "studies/scene/shipped.hpp"
 #include "studies/scene/study_keys.hpp"
@@ -91,18 +92,26 @@ std::vector<const StudyKind*> kinds_in(const TableReader& root) {
     return kinds;
 }
 
+/// Who names a solution in place of a scene is told so, before its keys are said to be unknown.
+void require_scene(const TomlDocument& document) {
+    const auto& table = document.table;
+    if (table.contains("beam") || table.contains("solver"))
+        return;
+    if (table.contains("theta") || table.contains("u") || table.contains("phase"))
+        throw InputError({document.file},
+                         "is a solution, not a scene; a scene names it: solution = \"./" +
+                             std::filesystem::path(document.file).filename().string() +
+                             "\" (tvbeam new writes both)");
+}
+
 /// [beam], [mesh], [scheme] and the solution or [data]. wanted: some study runs the problem.
 void read_problem(Scene& scene, TableReader& root, bool wanted, bool own_problem) {
     const std::filesystem::path path(scene.file);
     auto beam = root.table("beam");
     if (!beam && wanted)
-        throw InputError(
-            {scene.file},
-            root.has("theta") || root.has("u") || root.has("phase")
-                ? "is a solution, not a scene; a scene names it: solution = \"./" +
-                      path.filename().string() + "\" (tvbeam new writes both)"
-                : "the block [beam] is missing; it holds alpha, zeta and the stops; or "
-                  "a block [solver], of a program of your own");
+        throw InputError({scene.file},
+                         "the block [beam] is missing; it holds alpha, zeta and the stops; or "
+                         "a block [solver], of a program of your own");
     if (beam)
         scene.beam = read_beam(*std::move(beam));
     if (auto mesh = root.table("mesh"))
@@ -234,12 +243,16 @@ Scene read_scene(const std::string& name_or_file, const std::vector<std::string>
                  const Reading& reading) {
     const std::filesystem::path path = find_file(Shipped::scene, name_or_file);
     TomlDocument document = read_toml(path.string());
-    document.asked = reading.asked;
+    require_scene(document);
+    require_known_keys(document, scene_keys());
     const bool adds_levels = !reading.short_form || adds_levels_in_short(document);
     if (reading.short_form)
         merge_block(document, "short");
-    for (const auto& assignment : overrides)
+    for (const auto& assignment : overrides) {
         override_key(document, assignment);
+        require_known_keys(document, scene_keys(), {"--set " + assignment});
+    }
+    document.asked = reading.asked;
 
     Scene scene;
     scene.file = path.string();
@@ -247,7 +260,7 @@ Scene read_scene(const std::string& name_or_file, const std::vector<std::string>
     scene.text = document.text;
     scene.overrides = overrides;
     scene.json = json_of(document.table);
-    TableReader root(document, document.table, "");
+    TableReader root(document, document.table, "", &scene_keys().root());
     scene.title = root.text("title").value_or(scene.name);
     scene.is_long = root.flag("long").value_or(false);
     const auto kinds = kinds_in(root);

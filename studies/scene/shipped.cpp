@@ -38,6 +38,19 @@ std::filesystem::path directory(Shipped kind) {
     return {};
 }
 
+/// Who names a directory, or a table of records, is told what takes it.
+void require_no_other_file(const std::string& name, const std::string& word, const Place& place) {
+    std::error_code error;
+    if (std::filesystem::is_directory(name, error))
+        throw InputError(place, "'" + name + "' is a directory; name a " + word +
+                                    ": a shipped one, or a file that ends in .toml");
+    if (std::filesystem::is_regular_file(name, error))
+        throw InputError(place, "'" + name + "' is not a " + word +
+                                    ", whose file ends in .toml; a table of errors is analysed by "
+                                    "tvbeam analyse " +
+                                    name);
+}
+
 } // namespace
 
 std::vector<ShippedFile> shipped_files(Shipped kind) {
@@ -62,6 +75,7 @@ std::filesystem::path find_file(Shipped kind, const std::string& name,
             throw InputError(place, "there is no " + word +
                                         (kind == Shipped::equations ? " '" : " file '") +
                                         path.string() + "'");
+        require_no_other_file(path.extension() == ".toml" ? "" : path.string(), word, place);
         return path;
     }
     std::vector<std::string> names;
@@ -74,6 +88,7 @@ std::filesystem::path find_file(Shipped kind, const std::string& name,
         throw InputError(place, "there is no shipped " + word + " '" + name +
                                     "': what tvbeam ships is not found; TVBEAM_DATA names the "
                                     "directory that it was installed to, …/share/tvbeam");
+    require_no_other_file(name, word, place);
     throw InputError(
         place, "there is no shipped " + word + " '" + name + "'" + did_you_mean(name, names) +
                    "; `tvbeam list` shows them, and a file is named with its ending: " + name +

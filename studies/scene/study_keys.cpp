@@ -21,6 +21,9 @@ std::vector<double> read_dt(TableReader& table, const std::vector<std::int64_t>&
                                     "are no elements; give a list");
         for (const std::int64_t s : elements)
             dt.push_back(number_from_expression(formula, {{"s", static_cast<double>(s)}}));
+    } else if (table.is_number("dt")) {
+        throw table.error("dt", " is one number; give a list with one dt a level, or one "
+                                "expression in s, e.g. \"0.01/s\", or \"0.01\" for all levels");
     } else if (const auto list = table.numbers("dt")) {
         if (!elements.empty() && list->size() != elements.size())
             throw table.error(

@@ -381,6 +381,22 @@ std::string name_of(Outcome outcome) {
     }
 }
 
+std::optional<double> StressChecks::path_part() const {
+    return path ? std::optional(*path / path_limit) : std::nullopt;
+}
+
+double StressChecks::closeness(bool has_stops) const {
+    double greatest =
+        std::max({energy / StressLimits::energy, heat_residual / StressLimits::residual,
+                  beam_residual / StressLimits::residual, path_part().value_or(0.0),
+                  std::abs(order_defect.value_or(0.0)) / StressLimits::order});
+    if (has_stops)
+        greatest =
+            std::max({greatest, penetration / StressLimits::contact,
+                      wrong_sign / StressLimits::contact, complementarity / StressLimits::contact});
+    return greatest;
+}
+
 double path_difference(const std::vector<double>& nodal, const std::vector<double>& sine,
                        const std::array<double, 3>& scales) {
     double worst = 0.0;

@@ -38,6 +38,11 @@ struct StressChecks {
     /// The order in Δt by doubling the steps twice, less that which is claimed for the scheme. None
     /// where there is no error, or where the steps are too large to show the order.
     std::optional<double> order_defect;
+
+    /// path over its limit.
+    [[nodiscard]] std::optional<double> path_part() const;
+    /// How near the checks come to their limits: the greatest of each over its own; > 1: one fails.
+    [[nodiscard]] double closeness(bool has_stops) const;
 };
 
 /// What the checks must keep to, in their own units.

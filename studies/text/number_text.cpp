@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <limits>
@@ -22,6 +23,24 @@ std::string without_filling(std::string text) {
     if (exponent.empty())
         return text;
     return text + (negative ? "e-" : "e") + exponent;
+}
+
+/// The shortest text with a power of ten that reads back as the same number.
+std::string scientific_shortest(double value) {
+    constexpr int most = 16;
+    for (int decimals = 0; decimals < most; ++decimals)
+        if (const std::string text = scientific(value, decimals); number_in(text) == value)
+            return text;
+    return scientific(value, most);
+}
+
+/// Behind the point, of the shortest plain text that reads back as the same number.
+int decimals_of(double value) {
+    constexpr int most = 10;
+    for (int decimals = 0; decimals < most; ++decimals)
+        if (number_in(fmt::format("{:.{}f}", value, decimals)) == value)
+            return decimals;
+    return most;
 }
 
 } // namespace
@@ -55,16 +74,25 @@ std::string shortest(double value) {
     return trimmed.size() < plain.size() && number_in(trimmed) == value ? trimmed : plain;
 }
 
-std::string with_prefix(double value) {
-    // Rounded before the prefix is chosen: 999.7e-6 is 1.00m. The parts allow for 1e-3 not being a
-    // thousandth exactly.
-    const double rounded = number_in(fmt::format("{:.2e}", value));
-    for (const auto& [unit, prefix] : {std::pair{1.0, ""}, {1e-3, "m"}, {1e-6, "µ"}, {1e-9, "n"}}) {
-        const double part = rounded / unit;
-        if (part >= 1.0 - 1e-9)
-            return fixed(part, part < 9.999 ? 2 : part < 99.99 ? 1 : 0) + prefix;
+std::vector<std::string> alike(const std::vector<double>& values) {
+    constexpr std::size_t longest = 8;
+    std::vector<std::string> plain;
+    std::vector<std::string> powers;
+    bool fits = true;
+    for (const double value : values) {
+        plain.push_back(fmt::format("{:.{}f}", value, decimals_of(value)));
+        fits = fits && plain.back().size() <= longest && number_in(plain.back()) == value;
+        powers.push_back(scientific_shortest(value));
     }
-    return scientific(value, 2);
+    return fits ? plain : powers;
+}
+
+std::string significant(double value, int digits) {
+    const std::string rounded = fmt::format("{:.{}e}", value, digits - 1);
+    const int power = static_cast<int>(std::floor(std::log10(std::abs(number_in(rounded)))));
+    if (value == 0.0 || power < -4 || power > 4)
+        return value == 0.0 ? "0" : without_filling(rounded);
+    return fmt::format("{:.{}f}", number_in(rounded), std::max(0, digits - 1 - power));
 }
 
 std::string fixed(std::optional<double> value, int decimals) {

@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace tvbeam {
 
@@ -16,9 +17,12 @@ double number_in(const std::string& text);
 /// The shortest of plain and scientific notation that reads back as the same double.
 std::string shortest(double value);
 
-/// Three significant digits and an SI prefix: 11.5µ for 1.15e-5, 278m for 0.278, 2.31; below 1n,
+/// The shortest, all in plain notation or, where that takes more than eight characters, all in
 /// scientific.
-std::string with_prefix(double value);
+std::vector<std::string> alike(const std::vector<double>& values);
+
+/// So many significant digits: 190, 0.031; below 1e-4 and from 1e5 on scientific.
+std::string significant(double value, int digits);
 
 /// Fixed notation; nothing for a missing value.
 std::string fixed(std::optional<double> value, int decimals);

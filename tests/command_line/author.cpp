@@ -160,8 +160,9 @@ BOOST_AUTO_TEST_CASE(list_names_what_is_shipped) {
     const TemporaryDirectory directory;
     const Called called = call(directory, "list");
     BOOST_TEST(called.exit == 0);
-    for (const std::string name : {"table1:", "table1-consistent:", "table1-fixed-point:",
-                                   "table1-extended:", "copetti-fernandez-2011:"})
+    for (const std::string name :
+         {"\n  table1 ", "\n  table1-consistent ", "\n  table1-fixed-point ",
+          "\n  table1-extended ", "\n  copetti-fernandez-2011 "})
         BOOST_TEST(has(called.output, name), name);
 }
 

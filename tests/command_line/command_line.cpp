@@ -141,7 +141,7 @@ BOOST_AUTO_TEST_CASE(wrong_usage_exits_with_two) {
         BOOST_TEST(!called.errors.empty());
     }
     BOOST_TEST(call(directory, "runn table1").errors ==
-               "tvbeam: 'runn': is not a command; did you mean 'run'?; tvbeam --help lists them\n");
+               "tvbeam: 'runn' is not a command; did you mean 'run'?; tvbeam --help lists them\n");
 }
 
 BOOST_AUTO_TEST_CASE(a_number_of_jobs_that_is_not_one_is_refused) {

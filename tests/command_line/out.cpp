@@ -69,7 +69,7 @@ BOOST_AUTO_TEST_CASE(without_a_block_every_kind_of_file_is_written) {
                                    "table.md",    "table.tex",  "report.html"};
     for (const std::string name :
          {"convergence", "error_surface_theta_L2L2", "error_surface_u_LinfH2semi"})
-        for (const std::string ending : {".gp", ".dat", ".svg", ".png"})
+        for (const std::string ending : {".gp", ".dat", ".svg", ".png", ".pdf"})
             expected.insert("plots/" + name + ending);
     BOOST_TEST(written(directory) == expected, boost::test_tools::per_element());
     BOOST_TEST(directory.read("r/plots/convergence.png").starts_with("\x89PNG"));

@@ -1,6 +1,7 @@
 #include "mms/autodiff_problem.hpp"
 #include "studies/gates/check.hpp"
 
+#include <exception>
 #include <iostream>
 
 /// Heat spreads from the clamped end; the tip rises to the stop g2 and from t = 1 on presses on it.
@@ -23,7 +24,7 @@ struct SpreadingHeat {
     }
 };
 
-int main() {
+int main() try {
     const auto scene =
         tvbeam::read_scene("spreading_heat.toml", {}, {.expectations = true, .own_problem = true});
     const SpreadingHeat solution{.g2 = scene.beam.stops.upper};
@@ -34,4 +35,7 @@ int main() {
         holds = holds && one.holds;
     }
     return holds ? 0 : 1;
+} catch (const std::exception& error) { // a mistake in the scene, say
+    std::cerr << error.what() << '\n';
+    return 2;
 }

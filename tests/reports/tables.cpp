@@ -85,7 +85,6 @@ BOOST_AUTO_TEST_CASE(a_written_number_has_its_parts) {
     BOOST_TEST(number->fraction == "25");
     BOOST_TEST(number->exponent == "-3");
     BOOST_TEST(written_number("3.00*")->suffix == "*");
-    BOOST_TEST(written_number("2.31µ")->suffix == "µ");
     BOOST_TEST(written_number("160")->fraction.empty());
     for (const std::string text : {"", "failed", "2.0 ± 0.1", "1e", "e-3", "1.e3", "0x1", "16/16"})
         BOOST_TEST(!written_number(text), text);
@@ -161,7 +160,7 @@ BOOST_AUTO_TEST_CASE(html_has_a_table_with_headings_and_hides_what_aligns_it) {
                                           .scene_text = ""});
     BOOST_TEST(has(html, "<th class=\"group\" scope=\"colgroup\" colspan=\"2\">theta_L2L2</th>"));
     BOOST_TEST(has(html, "<th scope=\"row\">10</th><td>1.25 × 10<sup>−3<span"), html);
-    BOOST_TEST(has(html, "<td>7.5<span class=\"pad\" aria-hidden=\"true\">0</span> × "
+    BOOST_TEST(has(html, "<td>7.5 × "
                          "10<sup>−10</sup></td>"),
                html);
     BOOST_TEST(has(html, "<h1>Title &amp; &lt;more&gt;</h1>"));
@@ -222,7 +221,7 @@ BOOST_AUTO_TEST_CASE(text_is_shown_and_never_taken_for_markup) {
 
 BOOST_AUTO_TEST_CASE(formulas_are_set_with_raised_exponents_and_greek_letters) {
     BOOST_TEST(html_formula("exp(-t)*sin(pi*x)") ==
-               "exp(−<i>t</i>)\u2009sin(<i>π</i>\u2009<i>x</i>)");
+               "<i>e</i><sup>−<i>t</i></sup>\u2009sin(<i>π</i>\u2009<i>x</i>)");
     BOOST_TEST(html_formula("g2*x^2") == "<i>g</i><sub>2</sub>\u2009<i>x</i><sup>2</sup>");
     BOOST_TEST(html_formula("x^(-1/2)") == "<i>x</i><sup>−1/2</sup>");
     BOOST_TEST(html_formula("x^sin(t)*u") == "<i>x</i><sup>sin(<i>t</i>)</sup>\u2009<i>u</i>");
@@ -253,7 +252,7 @@ BOOST_AUTO_TEST_CASE(a_decimal_comma_changes_nothing) {
     const auto all = [&] {
         return text_table(table()) + markdown_report(document()) + latex_report(document()) +
                html_report(contents) + shortest(12345.678) + shortest(1.25e6) +
-               with_prefix(1.25e-3) + scientific(0.25, 3) + fixed(1234.5, 2);
+               significant(1.25e-3, 3) + scientific(0.25, 3) + fixed(1234.5, 2);
     };
     const std::string before = all();
     const CommaLocale locale;

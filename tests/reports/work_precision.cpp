@@ -97,8 +97,8 @@ BOOST_AUTO_TEST_CASE(the_faster_scheme_is_named_with_its_ratio_and_quartiles) {
     two.add("BDF2", {{1e-2, 0.1}, {1e-4, 1.0}});
     two.block.targets["theta_L2L2"] = {1e-4};
     // 62 · 0.99/1.01 = 60.8 and 62 · 1.01/0.99 = 63.3
-    BOOST_TEST(has(two.text(), "theta_L2L2 = 1e-4 is reached\n"
-                               "by BDF2 62 times sooner than by Euler (quartiles 61 … 63)\n"),
+    BOOST_TEST(has(two.text(), "To reach theta_L2L2 = 1e-4:\n"
+                               "BDF2 is 62 times faster than Euler (quartiles 61 … 63)\n"),
                two.text());
 }
 
@@ -106,17 +106,16 @@ BOOST_AUTO_TEST_CASE(without_targets_the_smallest_power_of_ten_that_two_reach_is
     Study two = study({"theta_L2L2"});
     two.add("Euler", {{1e-2, 1.0}, {0.9e-4, 2.0}});
     two.add("BDF2", {{1e-2, 0.1}, {1e-6, 0.2}});
-    BOOST_TEST(has(two.text(), "theta_L2L2 = 1e-4 is reached\nby BDF2 "), two.text());
+    BOOST_TEST(has(two.text(), "To reach theta_L2L2 = 1e-4:\nBDF2 is "), two.text());
 }
 
 BOOST_AUTO_TEST_CASE(times_too_near_each_other_are_not_distinguishable) {
     Study two = study({"theta_L2L2"});
     two.add("one", {{1e-2, 1.0}, {1e-4, 2.0}});
     two.add("other", {{1e-2, 1.1}, {1e-4, 2.2}});
-    BOOST_TEST(
-        has(two.text(), "by one and by other in times that are not distinguishable: ratio 1.1 "),
-        two.text());
-    BOOST_TEST(!has(two.text(), "sooner"));
+    BOOST_TEST(has(two.text(), "one and other are equally fast, as far as can be told: ratio 1.1 "),
+               two.text());
+    BOOST_TEST(!has(two.text(), "faster"));
 }
 
 BOOST_AUTO_TEST_CASE(what_is_not_reached_is_blank_and_said) {
@@ -125,8 +124,8 @@ BOOST_AUTO_TEST_CASE(what_is_not_reached_is_blank_and_said) {
     two.add("fine", {{1e-2, 1.0}, {1e-4, 8.0}});
     two.block.targets["theta_L2L2"] = {1e-4};
     const std::string text = two.text();
-    BOOST_TEST(has(text, "by fine alone\n"), text);
-    BOOST_TEST(has(text, "not, as far as measured, by coarse\n"), text);
+    BOOST_TEST(has(text, "fine alone does\n"), text);
+    BOOST_TEST(has(text, "coarse does not, as far as measured\n"), text);
     BOOST_TEST(has(text, "\n      1e-4        8.00\n"), text);
     BOOST_TEST(!has(text, "1e-5"), text); // reached by none, and no target
 }
@@ -137,9 +136,9 @@ BOOST_AUTO_TEST_CASE(one_run_is_marked_and_has_no_quartiles) {
     one.add("fast", {{1e-2, 0.1}, {1e-4, 0.3}});
     const std::string text = one.text();
     BOOST_TEST(has(text, " 3.00* "), text);
-    BOOST_TEST(!has(text, "2.97"), text);
+    BOOST_TEST(!has(text, " 2.97 "), text);
     BOOST_TEST(has(text, "*: of one run"), text);
-    BOOST_TEST(has(text, "sooner than by slow (of one run)"), text);
+    BOOST_TEST(has(text, "faster than slow (of one run)"), text);
     Study many = study({"theta_L2L2"});
     many.add("fast", {{1e-2, 0.1}, {1e-4, 0.3}});
     BOOST_TEST(!has(many.text(), "*"));
@@ -151,7 +150,7 @@ BOOST_AUTO_TEST_CASE(a_busy_machine_is_said_behind_the_ratios) {
     two.add("BDF2", {{1e-2, 0.1}, {1e-4, 1.0}});
     two.result.busy_remark = busy_remark(1.0, 8.0);
     const std::string text = two.text();
-    BOOST_TEST(text.find("The machine was busy") > text.find("times sooner"), text);
+    BOOST_TEST(text.find("The machine was busy") > text.find("times faster"), text);
     BOOST_TEST(has(text, "The machine was busy"));
 }
 
@@ -163,23 +162,17 @@ BOOST_AUTO_TEST_CASE(a_failed_run_stays_in_the_table_with_its_reason) {
     BOOST_TEST(has(text, "s = 10, dt = 2e-3 failed: the fixed point did not converge"), text);
 }
 
-BOOST_AUTO_TEST_CASE(seconds_have_three_digits_and_a_prefix) {
-    for (const auto& [value, text] : {std::pair{2.305, "2.31"},
-                                      {12.34, "12.3"},
-                                      {123.4, "123"},
-                                      {1234.0, "1230"},
-                                      {0.2781, "278m"},
-                                      {1.0349e-3, "1.03m"},
-                                      {1e-3, "1.00m"},
-                                      {9.997e-4, "1.00m"},
-                                      {9.994e-4, "999µ"},
-                                      {1.15e-5, "11.5µ"},
-                                      {1e-6, "1.00µ"},
-                                      {9.99e-6, "9.99µ"},
-                                      {3.2e-9, "3.20n"},
-                                      {3.2e-10, "3.20e-10"},
+BOOST_AUTO_TEST_CASE(a_ratio_is_written_without_an_exponent_where_it_is_of_usual_size) {
+    for (const auto& [value, text] : {std::pair{192.3, "190"},
+                                      {1.96, "2.0"},
+                                      {0.0314, "0.031"},
+                                      {9.97, "10"},
+                                      {98765.0, "99000"},
+                                      {1.9e5, "1.9e5"},
+                                      {3.14e-5, "3.1e-5"},
+                                      {-0.5, "-0.50"},
                                       {0.0, "0"}})
-        BOOST_TEST(with_prefix(value) == text);
+        BOOST_TEST(significant(value, 2) == text);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -34,7 +34,7 @@ std::ostream& operator<<(std::ostream& stream, const Case& c) {
 const std::string cancel = "two terms of the error cancel";
 const std::string lower = "a term of lower order takes over";
 const std::string settles = "the last two orders agree, as where coarse levels";
-const std::string unknown = "why is not known";
+const std::string unknown = " is not known";
 
 // h = 1/10, 1/20, …: seven rungs.
 const std::vector<Case> cases = {

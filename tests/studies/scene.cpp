@@ -72,7 +72,7 @@ const std::vector<Wrong> wrong_scenes{
      "mesh.nodes has 3 intervals, and a run has 10 elements"},
     {"title ", "titel ", "1:1", "unknown key 'titel'; did you mean 'title'?"},
     {"[ladder.printed]", "[ladder.prnted]",
-     "19:", "unknown key 'ladder.prnted'; did you mean 'printed'?"},
+     "19:", "unknown block [ladder.prnted]; did you mean [ladder.printed]?"},
     {"theta_L2L2_sq = [1.0", "theta_L2L3_sq = [1.0", "21:1",
      "unknown key 'ladder.printed.theta_L2L3_sq'; did you mean 'theta_L2L2_sq'?"},
     // Types

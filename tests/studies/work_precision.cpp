@@ -382,7 +382,7 @@ BOOST_AUTO_TEST_CASE(errors_and_orders_of_a_scheme_are_expected_by_its_name) {
     };
     says("[expect.work_precision.BDF3.theta_L2L2_sq]\norders = [1, 2]\n", "did you mean 'BDF2'?");
     says("[expect.work_precision.BDF2.theta_L2]\norders = [1, 2]\n",
-         "unknown key 'expect.work_precision.BDF2.theta_L2'");
+         "expect.work_precision.BDF2.theta_L2 expects something of what the study does not");
     says("[expect.work_precision.BDF2.theta_L2L2_sq]\nerrors = [1, 2, 3]\n",
          "has 3 values for 2 rungs");
     says("[expect.work_precision.BDF2.theta_L2L2_sq]\nseconds = [1, 2]\n", "unknown key");

@@ -5,8 +5,11 @@
 #include "reports/command_line/commands/shared_options.hpp"
 #include "reports/command_line/commands/shown_run.hpp"
 #include "reports/command_line/end_requests.hpp"
+#include "reports/document/visible_text.hpp"
 #include "reports/files/baseline.hpp"
 #include "reports/formats/report_format.hpp"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <chrono>
@@ -41,6 +44,14 @@ std::vector<BaselineEntry> entries_of(const std::vector<StudyResult>& results) {
     return entries;
 }
 
+std::string recorded_report(const std::vector<BaselineEntry>& entries, const std::string& file) {
+    std::string text;
+    for (const auto& entry : entries)
+        text += fmt::format("recorded {} numbers of {} in {}\n", entry.figures.size(),
+                            visible(entry.name), visible(file));
+    return text;
+}
+
 constexpr const char* interrupted_reason = "it was interrupted";
 
 int check_command(const CheckOptions& options) {
@@ -68,6 +79,9 @@ int check_command(const CheckOptions& options) {
             require_recordable(scene);
     }
     Destination junit = destination(options.junit);
+    const std::string earlier = options.record.empty() || options.record == "-"
+                                    ? std::string()
+                                    : earlier_baseline(options.record);
     Destination record = destination(options.record);
 
     std::vector<StudyResult> results;
@@ -107,7 +121,8 @@ int check_command(const CheckOptions& options) {
             const auto more = baseline->check(baseline_entry(results.back()), options.tolerance);
             one.expectations.insert(one.expectations.end(), more.begin(), more.end());
         }
-        if (!junit.standard_output() && !record.standard_output() &&
+        const bool only_recorded = record.wanted() && one.passed() && one.expectations.empty();
+        if (!junit.standard_output() && !record.standard_output() && !only_recorded &&
             !(options.quiet && one.passed()))
             write_standard_output(check_report(one, coloured()));
         add(one);
@@ -115,8 +130,12 @@ int check_command(const CheckOptions& options) {
     end_requests.settle();
     if (junit.wanted())
         junit.write(junit_report(checked));
-    if (record.wanted() && !results.back().interrupted())
-        record.write(baseline_of(entries_of(results)));
+    if (record.wanted() && !results.back().interrupted()) {
+        const auto entries = entries_of(results);
+        record.write(baseline_of(entries, earlier));
+        if (!record.standard_output() && !junit.standard_output() && !options.quiet)
+            write_standard_output(recorded_report(entries, options.record));
+    }
     add_to_step_summary(check_markdown(checked));
     const bool failed = std::any_of(results.begin(), results.end(),
                                     [](const StudyResult& result) { return result.failed(); });

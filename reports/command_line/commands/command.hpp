@@ -19,9 +19,11 @@ struct Command {
 Command add_run(CLI::App& app);
 Command add_check(CLI::App& app);
 Command add_analyse(CLI::App& app);
+Command add_compare(CLI::App& app);
 Command add_derive(CLI::App& app);
 Command add_new(CLI::App& app);
 Command add_list(CLI::App& app);
+Command add_keys(CLI::App& app);
 Command add_completion(CLI::App& app);
 
 } // namespace tvbeam

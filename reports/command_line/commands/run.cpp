@@ -12,10 +12,13 @@
 #include "reports/formats/csv_report.hpp"
 #include "reports/formats/json_report.hpp"
 #include "reports/formats/report_format.hpp"
+#include "reports/sweep/sweep.hpp"
 
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
+#include <system_error>
 #include <vector>
 
 namespace tvbeam {
@@ -38,7 +41,7 @@ struct RunOptions {
 /// external solver.
 class KeptRuns {
 public:
-    KeptRuns(const RunOptions& options, const Scene& scene) {
+    KeptRuns(const RunOptions& options, const Scene& scene) : out_(options.out) {
         if (scene.solver)
             solver_.emplace(options.out, scene);
         else
@@ -55,6 +58,11 @@ public:
                               : "goes on with " + std::to_string(found) + " finished runs from " +
                                     solver_->path().string() + "; remove it to make them anew";
         }
+        std::error_code error;
+        if (resume && checkpoint_->found() == 0 && !checkpoint_->was_torn() &&
+            std::filesystem::exists(out_ / "result.json", error))
+            return "nothing is left to go on with: " + out_.string() +
+                   " holds the results of a run that ended; it is made again";
         return !resume ? ""
                        : "goes on with " + std::to_string(checkpoint_->found()) + " finished runs" +
                              (checkpoint_->was_torn() ? "; one that was being written when it was "
@@ -82,6 +90,7 @@ public:
     }
 
 private:
+    std::filesystem::path out_;
     std::optional<Checkpoint> checkpoint_;
     std::optional<SolverRuns> solver_;
 };
@@ -152,6 +161,59 @@ int run_command(const RunOptions& options) {
     return done;
 }
 
+/// The scene with each value of a sweep, and one table of all. With --out the summary goes to the
+/// directory, and each result to one in it that is called by its value.
+int sweep_command(const RunOptions& options, const Sweep& sweep) {
+    if (options.resume)
+        throw InputError({"--resume"}, "a sweep is not resumed; name one value with --set");
+    std::vector<Scene> scenes;
+    for (const auto& value : sweep.values) {
+        scenes.push_back(read_scene(options.scene, sweep.overrides(value),
+                                    {.report_files = report_format_names()}));
+        predict(scenes.back(), options.quiet, options.really_long);
+        require_runnable(scenes.back());
+    }
+    std::optional<ReportDirectory> out;
+    if (!options.out.empty())
+        opened([&] { out.emplace(options.out, scenes.front().report); });
+    Destination json = destination(options.json);
+    Destination csv = destination(options.csv);
+    EndRequests end_requests([&] {
+        out.reset();
+        say_interrupted("interrupted in what could not be left in time; no report is written");
+    });
+    std::vector<StudyResult> results;
+    for (const auto& scene : scenes) {
+        results.push_back(run_shown(scene, options.quiet, options.jobs, nullptr));
+        if (results.back().interrupted())
+            break;
+    }
+    end_requests.settle();
+    const Reported all = reported(sweep, results);
+    const auto write = [&](ReportDirectory& directory, const Reported& what) {
+        if (const std::string left_out = directory.write(what); !left_out.empty())
+            say(left_out);
+    };
+    if (out) {
+        write(*out, all);
+        for (std::size_t i = 0; i < results.size(); ++i) {
+            ReportDirectory one(std::filesystem::path(options.out) / sweep.values[i],
+                                scenes[i].report);
+            write(one, reported(results[i]));
+        }
+    }
+    if (json.wanted())
+        json.write(all.json());
+    if (csv.wanted())
+        csv.write(sweep_csv(sweep, results));
+    if (!json.standard_output() && !csv.standard_output() && !options.quiet)
+        write_standard_output(text_document(all.document));
+    if (all.interrupted || all.failed)
+        say(all.interrupted ? "interrupted; the table holds what was finished"
+                            : "a run failed; its row says so");
+    return all.interrupted || all.failed ? run_failed : done;
+}
+
 } // namespace
 
 Command add_run(CLI::App& app) {
@@ -161,7 +223,8 @@ Command add_run(CLI::App& app) {
     const auto options = std::make_shared<RunOptions>();
     run->add_option("scene", options->scene, "a shipped scene, or a file")->required();
     add_overrides(*run, options->overrides,
-                  "override a key: --set beam.alpha=1e3 (again and again)");
+                  "override a key: --set beam.alpha=1e3 (again and again); several values, "
+                  "--set beam.alpha=0.1,1,10, give one table with a row each");
     add_file(*run, "--json", options->json,
              "write the result as JSON; -: to standard output, in place of the table");
     add_file(*run, "--csv", options->csv,
@@ -180,6 +243,8 @@ Command add_run(CLI::App& app) {
     add_jobs(*run, options->jobs);
     return {run, [options] {
                 require_apart("--json", options->json, "--csv", options->csv);
+                if (const auto sweep = sweep_in(options->overrides))
+                    return sweep_command(*options, *sweep);
                 return run_command(*options);
             }};
 }

@@ -4,6 +4,7 @@
 #include "mms/text/nearest_name.hpp"
 #include "reports/command_line/commands/command.hpp"
 #include "reports/command_line/commands/said.hpp"
+#include "reports/files/output_file.hpp"
 
 #include <algorithm>
 #include <csignal>
@@ -27,6 +28,37 @@ std::vector<std::string> names_of_commands(const CLI::App& app) {
     return commands;
 }
 
+std::vector<std::string> options_of(const CLI::App& command) {
+    std::vector<std::string> names;
+    for (const auto* option : command.get_options())
+        for (const auto& name : option->get_lnames())
+            names.push_back("--" + name);
+    return names;
+}
+
+/// What is wrong with the words that the program was called with, and what to do.
+std::string mistake_in(const CLI::App& app, const CLI::ParseError& error) {
+    const auto called = app.get_subcommands();
+    const CLI::App& command = called.empty() ? app : *called.front();
+    const std::string name = called.empty() ? "tvbeam" : "tvbeam " + command.get_name();
+    const std::string help = "; " + name + " --help lists them";
+    auto words = command.remaining();
+    const auto option = std::find_if(words.begin(), words.end(), [](const std::string& word) {
+        return word.size() > 1 && word.starts_with('-');
+    });
+    if (option != words.end())
+        return "'" + *option + "' is not an option of " + name +
+               did_you_mean(option->substr(0, option->find('=')), options_of(command)) + help;
+    if (!words.empty() && called.empty())
+        return "'" + words[0] + "' is not a command" +
+               did_you_mean(words[0], names_of_commands(app)) + help;
+    if (!words.empty())
+        return "'" + words[0] + "' is one word too many for " + name + "; see " + name + " --help";
+    if (called.empty())
+        return "a command is missing" + help;
+    return std::string(error.what()) + "; see " + name + " --help";
+}
+
 int command_line(int argc, char** argv) {
     CLI::App app(
         "Verification and convergence studies for a thermoviscoelastic beam between two stops.\n"
@@ -34,18 +66,15 @@ int command_line(int argc, char** argv) {
     app.name("tvbeam");
     app.set_version_flag("--version", "tvbeam " TVBEAM_VERSION);
     app.require_subcommand(1);
-    const std::vector<Command> commands{add_run(app),       add_check(app), add_analyse(app),
-                                        add_derive(app),    add_new(app),   add_list(app),
-                                        add_completion(app)};
+    const std::vector<Command> commands{add_run(app),     add_check(app),  add_analyse(app),
+                                        add_compare(app), add_derive(app), add_new(app),
+                                        add_list(app),    add_keys(app),   add_completion(app)};
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
-        const auto words = app.remaining();
-        if (app.get_subcommands().empty() && !words.empty() && !words[0].starts_with('-'))
-            throw InputError({"'" + words[0] + "'"},
-                             "is not a command" + did_you_mean(words[0], names_of_commands(app)) +
-                                 "; tvbeam --help lists them");
-        return app.exit(error) == 0 ? done : bad_input;
+        if (error.get_exit_code() == 0) // --help, --version
+            return app.exit(error);
+        throw InputError({}, mistake_in(app, error));
     }
     const auto called = std::find_if(commands.begin(), commands.end(),
                                      [](const Command& one) { return one.app->parsed(); });
@@ -81,6 +110,8 @@ int reported_command_line(int argc, char** argv) {
     } catch (const InputError& error) {
         say(error.what());
         return bad_input;
+    } catch (const ClosedPipe&) {
+        return run_failed; // who closes a pipe knows it
     } catch (const std::exception& error) {
         say(error.what());
         return run_failed;

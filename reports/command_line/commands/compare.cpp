@@ -1,0 +1,68 @@
+#include "reports/command_line/commands/command.hpp"
+#include "reports/document/text_table.hpp"
+#include "reports/document/visible_text.hpp"
+#include "reports/files/compared_results.hpp"
+#include "reports/files/output_file.hpp"
+#include "studies/text/number_text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace tvbeam {
+
+namespace {
+
+/// Of what differs; the rest is counted.
+constexpr std::size_t shown = 20;
+
+std::string part_text(const std::string& heading, const std::vector<ResultDifference>& found) {
+    if (found.empty())
+        return {};
+    std::string text = heading + "\n";
+    for (std::size_t i = 0; i < std::min(shown, found.size()); ++i) {
+        const ResultDifference& one = found[i];
+        text += "  " +
+                wrapped(fmt::format("{}: {} against {}{}", one.what, one.first.value_or("nothing"),
+                                    one.second.value_or("nothing"),
+                                    one.relative ? ", by a part of " + significant(*one.relative, 2)
+                                                 : ""),
+                        6);
+    }
+    if (found.size() > shown)
+        text += fmt::format("  and {} more\n", found.size() - shown);
+    return text;
+}
+
+int compare_command(const std::string& first, const std::string& second) {
+    const ComparedResults compared = compare_results(first, second);
+    std::string text = part_text("What was asked for differs:", compared.scene) +
+                       part_text("What was found differs, the most first:", compared.results);
+    text += fmt::format("{} values are the same in both, {} differ\n", compared.equal,
+                        compared.results.size());
+    write_standard_output(visible(text));
+    return compared.results.empty() ? done : violated;
+}
+
+} // namespace
+
+Command add_compare(CLI::App& app) {
+    auto* compare = app.add_subcommand(
+        "compare", "Say what differs between two results, and by how much; exit 1 where something "
+                   "does. Run times are not compared.\n"
+                   "Example: tvbeam compare before/result.json after/result.json");
+    struct Files {
+        std::string first;
+        std::string second;
+    };
+    const auto files = std::make_shared<Files>();
+    compare->add_option("first", files->first, "a result.json, or the directory that holds it")
+        ->required();
+    compare->add_option("second", files->second, "the other")->required();
+    return {compare, [files] { return compare_command(files->first, files->second); }};
+}
+
+} // namespace tvbeam

@@ -1,0 +1,143 @@
+#include "reports/files/compared_results.hpp"
+
+#include "mms/text/file_text.hpp"
+#include "mms/text/input_error.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <set>
+#include <string_view>
+
+namespace tvbeam {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::size_t largest_result = std::size_t{1} << 30U; // bytes
+constexpr int deepest_result = 40;                            // values within each other
+
+/// Different from run to run of the same.
+const std::set<std::string> not_compared{"provenance", "seconds", "schema"};
+
+Json result_in(const std::string& name) {
+    std::error_code error;
+    const auto file = std::filesystem::is_directory(name, error)
+                          ? (std::filesystem::path(name) / "result.json").string()
+                          : name;
+    bool shallow = true;
+    const auto depth = [&](int level, nlohmann::json::parse_event_t /*event*/, Json& /*value*/) {
+        shallow = shallow && level <= deepest_result;
+        return shallow;
+    };
+    Json json = Json::parse(file_text(file, largest_result), depth, false);
+    const bool is_result = shallow && json.is_object() && json.contains("schema") &&
+                           json["schema"].is_string() &&
+                           json["schema"].get<std::string>().starts_with("tvbeam-");
+    if (!is_result)
+        throw InputError({file}, "is not a result of tvbeam; name a result.json, or the directory "
+                                 "of --out that holds one");
+    return json;
+}
+
+/// What tells an element of a list from the others: its level, its name; else its place.
+std::string element_name(const Json& element, std::size_t place) {
+    std::string name;
+    if (element.is_object())
+        for (const auto& [key, word] : std::array<std::pair<const char*, const char*>, 3>{
+                 {{"name", ""}, {"elements", "s = "}, {"dt", "dt = "}}})
+            if (element.contains(key) && (element[key].is_number() || element[key].is_string()))
+                name += (name.empty() ? " " : ", ") + std::string(word) + element[key].dump();
+    return name.empty() ? fmt::format(" {}", place + 1) : name + ":";
+}
+
+/// Every number, text and truth value by where it stands.
+using Values = std::map<std::string, Json>;
+
+std::string inside(const std::string& path, const std::string& key) {
+    std::string name = path;
+    if (!path.empty())
+        name += path.ends_with(':') ? ' ' : '.';
+    return name += key;
+}
+
+void collect(const Json& json, const std::string& path, Values& values) {
+    if (json.is_object()) {
+        for (const auto& [key, value] : json.items())
+            if (!not_compared.contains(key))
+                collect(value, inside(path, key), values);
+    } else if (json.is_array()) {
+        for (std::size_t i = 0; i < json.size(); ++i) {
+            std::string name = path + element_name(json[i], i);
+            if (values.contains(name))
+                name += fmt::format(" ({})", i + 1);
+            collect(json[i], name, values);
+        }
+    } else {
+        values[path] = json;
+    }
+}
+
+std::optional<double> relative_difference(const Json& a, const Json& b) {
+    if (!a.is_number() || !b.is_number())
+        return std::nullopt;
+    const double first = a;
+    const double second = b;
+    const double size = std::max(std::abs(first), std::abs(second));
+    return size == 0.0 ? 0.0 : std::abs(second - first) / size;
+}
+
+std::vector<ResultDifference> differences(const Values& first, const Values& second,
+                                          std::size_t& equal) {
+    std::vector<ResultDifference> found;
+    const auto text = [](const Json& value) {
+        return value.dump(-1, ' ', false, Json::error_handler_t::replace);
+    };
+    for (const auto& [what, value] : first) {
+        const auto other = second.find(what);
+        if (other == second.end())
+            found.push_back({what, text(value), std::nullopt, std::nullopt});
+        else if (other->second == value)
+            ++equal;
+        else
+            found.push_back({what, text(value), text(other->second),
+                             relative_difference(value, other->second)});
+    }
+    for (const auto& [what, value] : second)
+        if (!first.contains(what))
+            found.push_back({what, std::nullopt, text(value), std::nullopt});
+    return found;
+}
+
+} // namespace
+
+ComparedResults compare_results(const std::string& first, const std::string& second) {
+    std::array<Values, 2> scenes;
+    std::array<Values, 2> results;
+    const std::array<const std::string*, 2> names{&first, &second};
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        Json json = result_in(*names.at(i));
+        if (json.contains("scene"))
+            collect(json["scene"], "", scenes.at(i));
+        json.erase("scene");
+        collect(json, "", results.at(i));
+    }
+    ComparedResults compared;
+    std::size_t in_scene = 0;
+    compared.scene = differences(scenes[0], scenes[1], in_scene);
+    compared.results = differences(results[0], results[1], compared.equal);
+    // What only one has stands last.
+    std::stable_sort(compared.results.begin(), compared.results.end(),
+                     [](const auto& a, const auto& b) {
+                         return a.relative.value_or(-1.0) > b.relative.value_or(-1.0);
+                     });
+    return compared;
+}
+
+} // namespace tvbeam

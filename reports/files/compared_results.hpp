@@ -1,0 +1,31 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace tvbeam {
+
+/// Something that two results say differently: a number, or a text; none where one does not have
+/// it.
+struct ResultDifference {
+    std::string what; ///< e.g. "ladder.rungs s = 10, dt = 0.001: errors.theta_L2L2_sq"
+    std::optional<std::string> first;
+    std::optional<std::string> second;
+    /// |second − first| over the greater of both; none where they are not two numbers.
+    std::optional<double> relative;
+};
+
+struct ComparedResults {
+    std::size_t equal = 0; ///< what is the same in both
+    /// What was asked for, in the order of the scene; then what was found, the largest first.
+    std::vector<ResultDifference> scene;
+    std::vector<ResultDifference> results;
+};
+
+/// Compares two files that `tvbeam run --json` or `--out` has written, or the directories that hold
+/// a result.json. Not compared: run times, and where the results come from. Throws InputError where
+/// one is not such a file.
+ComparedResults compare_results(const std::string& first, const std::string& second);
+
+} // namespace tvbeam

@@ -1,0 +1,274 @@
+#include "reports/sweep/sweep.hpp"
+
+#include "mms/text/input_error.hpp"
+#include "reports/document/json_text.hpp"
+#include "reports/plots/drawing.hpp"
+#include "reports/plots/plot_style.hpp"
+#include "reports/studies/run_fields.hpp"
+#include "studies/grid/grid.hpp"
+#include "studies/ladder/ladder.hpp"
+#include "studies/text/number_text.hpp"
+
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <limits>
+
+namespace tvbeam {
+
+namespace {
+
+bool is_word(const std::string& text) {
+    return !text.empty() && std::all_of(text.begin(), text.end(), [](char c) {
+        return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
+               c == '.' || c == '-' || c == '+' || c == '_';
+    });
+}
+
+/// Parts between commas; empty where it is not a list of words.
+std::vector<std::string> words_in(const std::string& text) {
+    std::vector<std::string> words;
+    for (std::size_t begin = 0; begin <= text.size();) {
+        const std::size_t end = std::min(text.find(',', begin), text.size());
+        words.push_back(text.substr(begin, end - begin));
+        if (!is_word(words.back()))
+            return {};
+        begin = end + 1;
+    }
+    return words;
+}
+
+std::optional<double> number(const std::string& text) {
+    double value = 0.0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    return error == std::errc() && end == text.data() + text.size() ? std::optional(value)
+                                                                    : std::nullopt;
+}
+
+/// A figure of a result: what it is of, and what.
+struct Cell {
+    std::string group;
+    std::string heading;
+    std::optional<double> value;
+    bool is_error = false;
+};
+
+void add_ladder(const LadderResult& ladder, std::vector<Cell>& cells) {
+    for (std::size_t k = 0; k < ladder.norms.size(); ++k) {
+        const Measure& norm = ladder.norms[k].norm;
+        const RungResult& finest = ladder.rungs.back();
+        cells.push_back(
+            {norm.name, norm.is_value ? "value" : "error", error_of(finest, k), !norm.is_value});
+        if (norm.is_value)
+            continue;
+        const auto orders = observed_orders(records_of(ladder.rungs, k));
+        cells.push_back({norm.name, "ord.", orders.back(), false});
+    }
+}
+
+void add_orders(const OrdersResult& orders, std::vector<Cell>& cells) {
+    for (const auto& [norm, fit] : orders.norms)
+        for (const auto& [heading, order] :
+             {std::pair{"p", &TwoTermModel::p}, {"q", &TwoTermModel::q}})
+            cells.push_back({norm + " (fit)", heading,
+                             fit.holds() ? std::optional(fit.model.*order) : std::nullopt, false});
+}
+
+std::vector<Cell> cells_of(const StudyResult& result) {
+    std::vector<Cell> cells;
+    if (const auto* ladder = result.get<LadderResult>())
+        add_ladder(*ladder, cells);
+    if (const auto* orders = result.get<OrdersResult>())
+        add_orders(*orders, cells);
+    for (const auto& [kind, record] : result.records.entries())
+        for (const auto& [name, figure] : kind->figures(record))
+            cells.push_back({"", name, figure, false});
+    return cells;
+}
+
+/// The cells of all results; those of a result that lacks some are matched by what they are.
+std::vector<std::vector<Cell>> rows_of(const std::vector<StudyResult>& results) {
+    std::vector<std::vector<Cell>> rows;
+    std::vector<Cell> all;
+    const auto same = [](const Cell& a, const Cell& b) {
+        return a.group == b.group && a.heading == b.heading;
+    };
+    for (const auto& result : results) {
+        rows.push_back(cells_of(result));
+        for (const auto& cell : rows.back())
+            if (std::none_of(all.begin(), all.end(),
+                             [&](const Cell& known) { return same(known, cell); }))
+                all.push_back({cell.group, cell.heading, std::nullopt, cell.is_error});
+    }
+    for (auto& row : rows) {
+        auto filled = all;
+        for (auto& cell : filled)
+            for (const auto& given : row)
+                if (same(cell, given))
+                    cell.value = given.value;
+        row = std::move(filled);
+    }
+    return rows;
+}
+
+Table table_of(const Sweep& sweep, const std::vector<StudyResult>& results) {
+    const auto rows = rows_of(results);
+    Table::Group key{"", {{sweep.key, {}}}};
+    std::vector<Table::Group> groups;
+    for (std::size_t i = 0; i < rows.size(); ++i)
+        key.columns[0].cells.push_back(sweep.values[i]);
+    for (std::size_t c = 0; !rows.empty() && c < rows.front().size(); ++c) {
+        const Cell& head = rows.front()[c];
+        if (groups.empty() || groups.back().heading != head.group || head.group.empty())
+            groups.push_back({head.group, {}});
+        Table::Column column{head.heading, {}};
+        for (const auto& row : rows) {
+            const auto& value = row[c].value;
+            column.cells.push_back(!value          ? (head.is_error ? "failed" : "")
+                                   : head.is_error ? scientific(value, 4)
+                                                   : significant(*value, 4));
+        }
+        groups.back().columns.push_back(std::move(column));
+    }
+    return {"Of the finest level of each run: error and observed order; p and q of fits; figures "
+            "of other studies.",
+            key, groups};
+}
+
+/// Curves over the values, where those are numbers: of the errors, or else of the other figures.
+std::vector<Plot> sweep_plots(const Sweep& sweep, const std::vector<StudyResult>& results) {
+    const auto rows = rows_of(results);
+    std::vector<double> abscissa;
+    for (std::size_t i = 0; i < rows.size(); ++i)
+        if (const auto value = number(sweep.values[i]))
+            abscissa.push_back(*value);
+    if (rows.size() < 2 || abscissa.size() != rows.size())
+        return {};
+    const bool has_errors = std::any_of(rows.front().begin(), rows.front().end(),
+                                        [](const Cell& cell) { return cell.is_error; });
+    Drawing drawing;
+    std::size_t series = 0;
+    for (std::size_t c = 0; c < rows.front().size(); ++c) {
+        const Cell& head = rows.front()[c];
+        if (head.is_error != has_errors || head.heading == "ord.")
+            continue;
+        std::string points;
+        for (std::size_t i = 0; i < rows.size(); ++i)
+            if (const auto value = rows[i][c].value;
+                value && std::isfinite(*value) && (!has_errors || *value > 0.0))
+                points += fmt::format("{} {}\n", abscissa[i], *value);
+        if (points.empty())
+            continue;
+        const std::string name = head.group.empty() ? head.heading
+                                 : has_errors       ? head.group
+                                                    : head.group + ": " + head.heading;
+        const SeriesStyle style = series_style(series++);
+        drawing.add_curve(drawing.add_block(name, points) +
+                              fmt::format(" using 1:2 with linespoints lc rgb '{}' pt {} ps 0.9 "
+                                          "dt {} lw 1.6",
+                                          style.colour, style.point, style.dash),
+                          name);
+    }
+    if (drawing.is_empty())
+        return {};
+    const auto [least, greatest] = std::minmax_element(abscissa.begin(), abscissa.end());
+    constexpr double far = 20.0;
+    const bool spreads = *least > 0.0 && *greatest / *least > far;
+    const std::string settings = fmt::format(
+        "{}{}{}set xlabel {} noenhanced\nset ylabel '{}'\n", spreads ? "set logscale x\n" : "",
+        has_errors ? "set logscale y\nset format y '10^{%L}'\n" : "",
+        spreads ? range_text("x", abscissa, 1.5) : "", gnuplot_text(sweep.key),
+        has_errors ? "error of the finest level" : "figure");
+    return {drawing.plot("sweep",
+                         fmt::format("{} over {}.", has_errors ? "Errors" : "Figures", sweep.key),
+                         settings)};
+}
+
+std::string sweep_json(const Sweep& sweep, const std::vector<StudyResult>& results) {
+    nlohmann::ordered_json json{{"schema", "tvbeam-sweep/1"}, {"key", sweep.key}};
+    json["rows"] = nlohmann::ordered_json::array();
+    const auto rows = rows_of(results);
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        nlohmann::ordered_json row{{"value", sweep.values[i]}};
+        for (const auto& cell : rows[i]) {
+            auto& place = cell.group.empty() ? row[cell.heading] : row[cell.group][cell.heading];
+            place = cell.value && std::isfinite(*cell.value) ? nlohmann::ordered_json(*cell.value)
+                                                             : nlohmann::ordered_json();
+        }
+        json["rows"].push_back(std::move(row));
+    }
+    return json_text(json);
+}
+
+} // namespace
+
+std::vector<std::string> Sweep::overrides(const std::string& value) const {
+    auto all = others;
+    all.push_back(key + "=" + value);
+    return all;
+}
+
+std::optional<Sweep> sweep_in(const std::vector<std::string>& overrides) {
+    std::optional<Sweep> sweep;
+    std::vector<std::string> others;
+    for (const auto& assignment : overrides) {
+        const auto equals = std::min(assignment.find('='), assignment.size());
+        const auto words = equals < assignment.size() ? words_in(assignment.substr(equals + 1))
+                                                      : std::vector<std::string>();
+        const std::string key = assignment.substr(0, equals);
+        if (words.size() < 2 || key == "title") {
+            others.push_back(assignment);
+            continue;
+        }
+        if (sweep)
+            throw InputError({"--set " + assignment},
+                             "one key is swept at a time, and " + sweep->key + " is already");
+        sweep = Sweep{key, words, {}};
+    }
+    if (sweep)
+        sweep->others = std::move(others);
+    return sweep;
+}
+
+std::string sweep_csv(const Sweep& sweep, const std::vector<StudyResult>& results) {
+    const auto rows = rows_of(results);
+    std::string text = sweep.key;
+    const std::string comma = ",";
+    for (std::size_t c = 0; !rows.empty() && c < rows.front().size(); ++c) {
+        std::string name = rows.front()[c].group + (rows.front()[c].group.empty() ? "" : " ") +
+                           rows.front()[c].heading;
+        std::replace(name.begin(), name.end(), ',', ';');
+        text += comma + name;
+    }
+    text += "\n";
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        text += sweep.values[i];
+        for (const auto& cell : rows[i])
+            text += cell.value ? fmt::format(",{}", *cell.value) : comma;
+        text += "\n";
+    }
+    return text;
+}
+
+Reported reported(const Sweep& sweep, const std::vector<StudyResult>& results) {
+    Reported all;
+    all.document.title = results.empty() ? sweep.key : results.front().scene.title;
+    all.document.head = {fmt::format("{} = {}", sweep.key, fmt::join(sweep.values, ", "))};
+    if (!results.empty())
+        all.document.sections.push_back({"Sweep", {table_of(sweep, results)}});
+    all.json = [&sweep, &results] { return sweep_json(sweep, results); };
+    all.csvs = [&sweep, &results] {
+        return std::vector<NamedText>{{"sweep.csv", sweep_csv(sweep, results)}};
+    };
+    all.plots = [&sweep, &results] { return sweep_plots(sweep, results); };
+    for (const auto& result : results) {
+        all.failed = all.failed || result.failed();
+        all.interrupted = all.interrupted || result.interrupted();
+    }
+    return all;
+}
+
+} // namespace tvbeam

@@ -1,0 +1,35 @@
+#pragma once
+
+#include "reports/formats/report_format.hpp"
+#include "studies/study.hpp"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace tvbeam {
+
+/// A key that a scene is run with several values of: --set beam.alpha=0.1,1,10.
+struct Sweep {
+    std::string key;
+    std::vector<std::string> values;
+
+    /// The overrides of the scene for a value: others, as they were given, and this one.
+    std::vector<std::string> others;
+    [[nodiscard]] std::vector<std::string> overrides(const std::string& value) const;
+};
+
+/// The sweep among overrides: the value is two or more numbers or words without blanks, separated
+/// by commas. None: there is none. Throws InputError where there are two.
+std::optional<Sweep> sweep_in(const std::vector<std::string>& overrides);
+
+/// One table of all: a row a value, with the error of the finest level and its observed order for
+/// each norm of a ladder, p and q of each of [orders], and every figure of other studies; and a
+/// picture of the errors, or of the figures, over the values. results: one a value, in their order;
+/// fewer where it was interrupted.
+Reported reported(const Sweep& sweep, const std::vector<StudyResult>& results);
+
+/// The table as CSV.
+std::string sweep_csv(const Sweep& sweep, const std::vector<StudyResult>& results);
+
+} // namespace tvbeam

@@ -1,0 +1,227 @@
+// What a newcomer does: mistakes, each with its message; keys and completion; sweeps and
+// comparisons.
+
+#include "tests/command_line/called_program.hpp"
+#include "tests/temporary_directory.hpp"
+
+#include <boost/test/data/monomorphic.hpp>
+#include <boost/test/data/test_case.hpp>
+#include <boost/test/unit_test.hpp>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <fstream>
+#include <regex>
+#include <sstream>
+
+using namespace tvbeam;
+namespace data = boost::unit_test::data;
+
+BOOST_AUTO_TEST_SUITE(newcomer)
+
+namespace {
+
+/// A change of the files that `tvbeam new mine` writes, the call that follows, and what it says.
+struct Mistake {
+    std::string from; ///< a regular expression
+    std::string to;
+    std::string arguments;
+    std::string said;
+};
+
+std::ostream& operator<<(std::ostream& stream, const Mistake& mistake) {
+    return stream << mistake.to << " " << mistake.arguments;
+}
+
+const std::string run = "run mine-scene.toml";
+const std::string theta = "\ntheta = \"cos\\(t\\)\\*sin\\(pi\\*x\\)\"";
+
+/// A call from within the directory.
+Called call_in(const TemporaryDirectory& directory, const std::string& arguments) {
+    return call(directory, arguments, "cd '" + directory.path().string() + "'; ");
+}
+
+std::vector<Mistake> mistakes() {
+    std::vector<Mistake> all = {
+        {"\\[ladder\\]", "[laddder]", run, "unknown block [laddder]; did you mean [ladder]?"},
+        {"elements   =", "element =", run,
+         "unknown key 'ladder.element'; did you mean 'elements'?"},
+        {"", "", run + " --set alpha=1", "did you mean 'beam.alpha'?"},
+        {"dt         = \"0.64/s\\^2\"", "dt = 0.01", run, "ladder.dt is one number"},
+        {"\\[expect.ladder.theta_L2L2\\]", "[expect.ladder.theta_LinfL2]", "check mine-scene.toml",
+         "what the study does not measure"},
+        {"\\[expect.ladder.theta_L2L2\\]\norders", "[expect.orders.theta_L2L2]\np",
+         "check mine-scene.toml", "it has no block [orders]"},
+        {"", "", "run table1 --jsn",
+         "'--jsn' is not an option of tvbeam run; did you mean '--json'?"},
+        {"", "", "rnu table1", "'rnu' is not a command; did you mean 'run'?"},
+        {"", "", "run tabel1", "did you mean 'table1'?"},
+        {"", "", "", "a command is missing"},
+        {"", "", "run table1 table2", "'table2' is one word too many for tvbeam run"},
+        {"", "", "check .", "'.' is a directory; name a scene"},
+        {"", "", "check mine.toml", "is a solution, not a scene"},
+        {"", "", "check x.csv", "a table of errors is analysed by tvbeam analyse x.csv"},
+        {"", "", "check mine-scene.toml --baseline b.json --tolerance -1", "--tolerance: -1 is no"},
+        {"", "", "list --features nonsense", "no feature is called 'nonsense'"},
+        {"", "", "keys nonsense", "no key of a scene has to do with 'nonsense'"},
+        {"stops = \\[-0.1, 0.1\\]", "stops = [0.1, -0.1]", run, "are they swapped?"},
+        // Beyond the stop by less than six digits show.
+        {"stops = \\[-0.1, 0.1\\]", "stops = [-0.1, 0.01682941]", run,
+         "u(1,t) is 0.01682942 at t = 1; it must be at most g2"},
+    };
+    for (const auto& [formula, said] :
+         {std::pair{"\"ln(1 + t)*sin(pi*x)\"", "the natural logarithm is log"},
+          {"\"e^(-t)*sin(pi*x)\"", "e^y is written exp(y)"},
+          {"\"t²*sin(pi*x)\"", "a square is written ^2"},
+          {"\"t*sin(π*x)\"", "it is written pi"},
+          {"\"t*sin^2(pi*x)\"", "its power behind them: sin(…)^2"},
+          {"\"3,14*t*sin(pi*x)\"", "a decimal number is written with a point"},
+          {"\"abs(t - 1)*sin(pi*x)\"", "is given in phases"},
+          {"\"max(t, 1)*sin(pi*x)\"", "is given in phases"},
+          {"\"heaviside(t - 1)*sin(pi*x)\"", "is given in phases"},
+          {"\"2t*sin(pi*x)\"", "a product needs '*'"},
+          {"\"t**2*sin(pi*x)\"", "a power is written with '^'"},
+          {"cos(t)*sin(pi*x)", "a text or an expression stands in quotes"}})
+        all.push_back({theta, std::string("\ntheta = ") + formula, run, said});
+    return all;
+}
+
+} // namespace
+
+BOOST_DATA_TEST_CASE(a_mistake_has_a_message_that_says_what_to_do, data::make(mistakes())) {
+    const TemporaryDirectory directory;
+    BOOST_REQUIRE(call_in(directory, "new mine").exit == 0);
+    std::ofstream(directory.path() / "x.csv") << "h,error\n0.1,1\n";
+    bool changed = sample.from.empty();
+    for (const std::string file : {"mine.toml", "mine-scene.toml"}) {
+        if (sample.from.empty())
+            break;
+        const std::string before = directory.read(file);
+        const std::string after = std::regex_replace(before, std::regex(sample.from), sample.to);
+        changed = changed || after != before;
+        std::ofstream(directory.path() / file) << after;
+    }
+    BOOST_REQUIRE(changed);
+    const Called called = call_in(directory, sample.arguments);
+    BOOST_TEST(called.exit == 2);
+    BOOST_TEST(called.errors.starts_with("tvbeam: "), called.errors);
+    BOOST_TEST(std::count(called.errors.begin(), called.errors.end(), '\n') == 1, called.errors);
+    BOOST_TEST(called.errors.find(sample.said) != std::string::npos, called.errors);
+}
+
+BOOST_AUTO_TEST_CASE(what_says_nothing_is_said) {
+    const TemporaryDirectory directory;
+    const std::string beam = "solution = './s.toml'\n[beam]\nalpha = 1\nzeta = 1\n[ladder]\n"
+                             "final_time = 1\ndt = '1/s'\nnorms = ['theta_L2L2']\n";
+    std::ofstream(directory.path() / "s.toml") << "theta = '0'\nu = '0'\n";
+    std::ofstream(directory.path() / "zero.toml") << beam << "elements = [4, 8]\n";
+    BOOST_TEST(has(call_in(directory, "run zero.toml").output, "Every error is zero"));
+    std::ofstream(directory.path() / "twice.toml") << beam << "elements = [4, 4, 8]\n";
+    BOOST_TEST(
+        has(call_in(directory, "run twice.toml").output, "s = 4, dt = 0.25 stands there twice"));
+}
+
+// One that holds another scene keeps it.
+BOOST_AUTO_TEST_CASE(a_baseline_is_recorded_into_what_is_there) {
+    const TemporaryDirectory directory;
+    const std::string file = (directory.path() / "b.json").string();
+    const Called first = call(directory, "check sheared --short --record " + file);
+    BOOST_TEST(has(first.output, " numbers of sheared in "), first.output);
+    BOOST_TEST(call(directory, "check free-decay --short --record " + file).exit == 0);
+    const auto scenes = nlohmann::json::parse(directory.read("b.json")).at("scenes");
+    BOOST_TEST(scenes.contains("sheared"));
+    BOOST_TEST(scenes.contains("free-decay"));
+    std::ofstream(directory.path() / "b.json") << "mine\n";
+    BOOST_TEST(call(directory, "check sheared --short --record " + file).exit == 2);
+    BOOST_TEST(directory.read("b.json") == "mine\n");
+}
+
+BOOST_AUTO_TEST_CASE(a_sweep_gives_a_row_a_value) {
+    const TemporaryDirectory directory;
+    const std::string out = (directory.path() / "out").string();
+    const Called called = call(directory, "run sheared --set "
+                                          "beam.zeta=0.1,1,10 --out " +
+                                              out);
+    BOOST_TEST(called.exit == 0, called.errors);
+    std::istringstream rows(directory.read("out/sweep.csv"));
+    std::vector<std::string> first;
+    for (std::string row; std::getline(rows, row);)
+        first.push_back(row.substr(0, row.find(',')));
+    BOOST_TEST((first == std::vector<std::string>{"beam.zeta", "0.1", "1", "10"}));
+    // Each row is what the scene gives with that value.
+    const auto one = nlohmann::json::parse(directory.read("out/1/result.json"));
+    BOOST_TEST(one.at("scene").at("beam").at("zeta") == 1);
+    BOOST_TEST(std::filesystem::exists(directory.path() / "out" / "plots" / "sweep.svg"));
+    BOOST_TEST(call(directory, "run sheared --set beam.zeta=1,2 --set beam.alpha=1,2").exit == 2);
+}
+
+BOOST_AUTO_TEST_CASE(a_comparison_says_what_differs_and_by_how_much) {
+    const TemporaryDirectory directory;
+    for (const std::string alpha : {"1", "2"})
+        call(directory, "run sheared --quiet --set beam.alpha=" + alpha + " --json " +
+                            (directory.path() / (alpha + ".json")).string());
+    const std::string files = (directory.path() / "1.json").string() + " ";
+    const Called same = call(directory, "compare " + files + files);
+    BOOST_TEST(same.exit == 0);
+    BOOST_TEST(has(same.output, " 0 differ"), same.output);
+    const Called other =
+        call(directory, "compare " + files + (directory.path() / "2.json").string());
+    BOOST_TEST(other.exit == 1);
+    BOOST_TEST(has(other.output, "beam.alpha: 1 against 2, by a part of 0.50"), other.output);
+    BOOST_TEST(call(directory, "compare " + files + "/dev/null").exit == 2);
+}
+
+// Every shipped scene is one of the schema, and a misspelt key is none.
+BOOST_AUTO_TEST_CASE(the_schema_of_scenes_holds_for_those_that_are_shipped) {
+    const TemporaryDirectory directory;
+    std::ofstream(directory.path() / "schema.json") << call(directory, "keys --as schema").output;
+    std::ofstream(directory.path() / "check.py") << R"(import json, sys, tomllib, jsonschema
+scheme = json.load(open(sys.argv[1]))
+jsonschema.Draft202012Validator.check_schema(scheme)
+validator = jsonschema.Draft202012Validator(scheme)
+for name in sys.argv[2:]:
+    scene = tomllib.load(open(name, 'rb'))
+    assert validator.is_valid(scene), (name, [e.message for e in validator.iter_errors(scene)][:1])
+    scene['ladder'] = {'elemnts': [4]}
+    assert not validator.is_valid(scene), name
+)";
+    const std::string command = "python3 -W ignore " + (directory.path() / "check.py").string() +
+                                " " + (directory.path() / "schema.json").string() +
+                                " studies/scenes/*.toml";
+    BOOST_TEST(std::system(command.c_str()) == 0);
+}
+
+// bash itself is asked, with names that hold blanks.
+BOOST_AUTO_TEST_CASE(bash_completes_names_keys_and_files) {
+    const TemporaryDirectory directory;
+    std::ofstream(directory.path() / "completion") << call(directory, "completion bash").output;
+    std::ofstream(directory.path() / "my scene.toml") << "";
+    const auto completed = [&](const std::string& words) {
+        std::ofstream(directory.path() / "ask.sh")
+            << "tvbeam() { " TVBEAM_BINARY " \"$@\"; }\ncompopt() { :; }\ncd '"
+            << directory.path().string() << "'\nsource ./completion\nCOMP_WORDS=(" << words
+            << ")\nCOMP_CWORD=$((${#COMP_WORDS[@]} - 1))\n_tvbeam\nprintf '%s\\n' "
+               "\"${COMPREPLY[@]}\" > answers\n";
+        BOOST_TEST(std::system(("bash " + (directory.path() / "ask.sh").string()).c_str()) == 0);
+        return directory.read("answers");
+    };
+    BOOST_TEST(completed("tvbeam ru") == "run\n");
+    BOOST_TEST(has(completed("tvbeam run table1-b"), "table1-bdf2\n"));
+    // A solution, which run refuses.
+    BOOST_TEST(!has(completed("tvbeam run copetti"), "copetti-fernandez-2011"));
+    BOOST_TEST(has(completed("tvbeam derive copetti"), "copetti-fernandez-2011"));
+    BOOST_TEST(completed("tvbeam run table1 --set beam.al") == "beam.alpha=\n");
+    BOOST_TEST(has(completed("tvbeam check my"), "my scene.toml\n"));
+    BOOST_TEST(has(completed("tvbeam check --jun"), "--junit\n"));
+}
+
+BOOST_AUTO_TEST_CASE(what_is_listed_can_be_printed) {
+    const TemporaryDirectory directory;
+    const Called list = call(directory, "list");
+    BOOST_TEST(has(list.output, "\nStiff and extreme\n"), list.output);
+    BOOST_TEST(call(directory, "list table1").output.starts_with("#"));
+    BOOST_TEST(call(directory, "list tabel1").exit == 2);
+    BOOST_TEST(has(call(directory, "keys stops").output, "beam.stops: a list of numbers"));
+}
+
+BOOST_AUTO_TEST_SUITE_END()

@@ -1,0 +1,180 @@
+// Nothing in a picture stands on something else, and nothing beyond its edge: read from the SVG
+// that gnuplot draws.
+
+#include "reports/plots/gnuplot.hpp"
+#include "reports/plots/plot.hpp"
+#include "studies/study.hpp"
+
+#include <boost/test/data/monomorphic.hpp>
+#include <boost/test/data/test_case.hpp>
+#include <boost/test/unit_test.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <regex>
+#include <string>
+#include <vector>
+
+using namespace tvbeam;
+namespace data = boost::unit_test::data;
+
+BOOST_AUTO_TEST_SUITE(plot_geometry)
+
+namespace {
+
+struct Point {
+    double x;
+    double y;
+};
+
+struct Text {
+    std::string words;
+    double left, top, right, bottom;
+};
+
+struct Picture {
+    double width = 0.0;
+    double height = 0.0;
+    std::vector<Text> texts;
+    std::vector<Point> markers;
+    std::vector<std::vector<Point>> triangles; ///< of reference slopes, drawn in #444444
+};
+
+std::size_t letters(const std::string& text) {
+    return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) {
+        return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U;
+    }));
+}
+
+/// Letters are half of their font as wide, on an average, and three quarters as high.
+Text text_at(const std::string& words, Point at, double font, const std::string& anchor,
+             bool upright) {
+    const double length = 0.5 * font * static_cast<double>(letters(words));
+    const double before = anchor == "end" ? length : anchor == "middle" ? length / 2.0 : 0.0;
+    const double rise = 0.75 * font;
+    if (upright)
+        return {words, at.x - rise, at.y - length + before, at.x, at.y + before};
+    return {words, at.x - before, at.y - rise, at.x - before + length, at.y};
+}
+
+Picture picture_of(const std::string& svg) {
+    Picture picture;
+    std::smatch size;
+    BOOST_REQUIRE(std::regex_search(svg, size, std::regex("viewBox=\"0 0 ([0-9.]+) ([0-9.]+)\"")));
+    picture.width = std::stod(size[1]);
+    picture.height = std::stod(size[2]);
+    const auto each = [&svg](const std::string& pattern, const auto& visit) {
+        const std::regex regex(pattern);
+        for (std::sregex_iterator found(svg.begin(), svg.end(), regex), end; found != end; ++found)
+            visit(*found);
+    };
+    each("translate\\(([-0-9.]+),([-0-9.]+)\\)( rotate\\(270\\))?\"[^>]*font-size=\"([0-9.]+)\" +"
+         "text-anchor=\"([a-z]+)\">\\s*<text>(.*?)</text>",
+         [&](const std::smatch& found) {
+             static const std::regex mark("<[^>]*>");
+             const std::string words = std::regex_replace(found[6].str(), mark, "");
+             picture.texts.push_back(text_at(words, {std::stod(found[1]), std::stod(found[2])},
+                                             std::stod(found[4]), found[5], found[3].matched));
+         });
+    each("<use xlink:href='#gpPt[0-9]+' transform='translate\\(([0-9.]+),([0-9.]+)\\)",
+         [&](const std::smatch& found) {
+             picture.markers.push_back({std::stod(found[1]), std::stod(found[2])});
+         });
+    each("stroke='rgb\\( 68,  68,  68\\)'  d='M([0-9.]+),([0-9.]+) L([0-9.]+),([0-9.]+) "
+         "L([0-9.]+),([0-9.]+) L",
+         [&](const std::smatch& found) {
+             auto& triangle = picture.triangles.emplace_back();
+             for (std::size_t i = 1; i < 7; i += 2)
+                 triangle.push_back({std::stod(found[i]), std::stod(found[i + 1])});
+         });
+    return picture;
+}
+
+bool overlap(const Text& a, const Text& b) {
+    return a.left < b.right && b.left < a.right && a.top < b.bottom && b.top < a.bottom;
+}
+
+/// From a point to a line between two others.
+double distance(const Point& point, const Point& from, const Point& to) {
+    const double along =
+        ((point.x - from.x) * (to.x - from.x) + (point.y - from.y) * (to.y - from.y)) /
+        (std::pow(to.x - from.x, 2) + std::pow(to.y - from.y, 2));
+    const double part = std::clamp(along, 0.0, 1.0);
+    return std::hypot(point.x - from.x - part * (to.x - from.x),
+                      point.y - from.y - part * (to.y - from.y));
+}
+
+void require_clear(const Picture& picture, const std::string& name) {
+    for (std::size_t i = 0; i < picture.texts.size(); ++i) {
+        const Text& text = picture.texts[i];
+        BOOST_TEST((text.left >= 0.0 && text.right <= picture.width && text.top >= 0.0 &&
+                    text.bottom <= picture.height),
+                   name << ": '" << text.words << "' is cut at the edge");
+        for (std::size_t k = 0; k < i; ++k)
+            BOOST_TEST(!overlap(text, picture.texts[k]),
+                       name << ": '" << text.words << "' on '" << picture.texts[k].words << "'");
+    }
+    for (const auto& triangle : picture.triangles)
+        for (std::size_t side = 0; side < triangle.size(); ++side)
+            for (const auto& marker : picture.markers)
+                BOOST_TEST(
+                    distance(marker, triangle[side], triangle[(side + 1) % triangle.size()]) > 5.0,
+                    name << ": a triangle touches a marker");
+}
+
+struct Drawn {
+    std::string what;
+    std::string scene;
+    std::vector<std::string> overrides;
+    std::size_t triangles; ///< of convergence.svg
+};
+
+std::ostream& operator<<(std::ostream& stream, const Drawn& drawn) {
+    return stream << drawn.what;
+}
+
+const std::vector<Drawn> figures = {
+    {"the paper's table", "table1", {}, 1},
+    {"nine norms",
+     "table1",
+     {"ladder.printed={}",
+      "ladder.norms=['theta_L2L2', 'theta_LinfL2', 'theta_L2H1', 'u_LinfL2', 'u_LinfH1', "
+      "'u_LinfH2', 'u_LinfH2semi', 'u_L2H2', 'sigma_L2']"},
+     2},
+    {"one level", "table1", {"ladder.printed={}", "ladder.elements=[10]", "ladder.dt=[1e-3]"}, 0},
+    {"a long source",
+     "table1",
+     {"ladder.printed.source='a table in an appendix of a thesis with a title that is too long'"},
+     1},
+    {"a beam over time", "figure1", {"evolution.dt=0.01"}, 0},
+    {"cases",
+     "stress-contact",
+     {"stress.sweep.product.sampling=each", "stress.sweep.loads.sampling=each"},
+     0},
+};
+
+} // namespace
+
+BOOST_DATA_TEST_CASE(nothing_stands_on_something_else, data::make(figures)) {
+    const auto plots = plots_of(run_study(read_scene(sample.scene, sample.overrides)));
+    BOOST_REQUIRE(!plots.empty());
+    const DrawnPlots drawn = draw(plots);
+    BOOST_REQUIRE_MESSAGE(drawn.failure.empty(), drawn.failure);
+    for (std::size_t i = 0; i < plots.size(); ++i) {
+        const Picture picture = picture_of(drawn.plots[i].svg);
+        BOOST_TEST(!picture.texts.empty());
+        require_clear(picture, plots[i].name);
+        if (plots[i].name == "convergence")
+            BOOST_TEST(picture.triangles.size() == sample.triangles);
+    }
+}
+
+// The test sees what it looks for.
+BOOST_AUTO_TEST_CASE(what_overlaps_is_seen) {
+    const Text tick = text_at("1/40", {100.0, 50.0}, 18.0, "middle", false);
+    BOOST_TEST(overlap(tick, text_at("1/80", {125.0, 50.0}, 18.0, "middle", false)));
+    BOOST_TEST(!overlap(tick, text_at("1/80", {160.0, 50.0}, 18.0, "middle", false)));
+    BOOST_TEST(distance({1.0, 1.0}, {0.0, 0.0}, {2.0, 0.0}) == 1.0);
+}
+
+BOOST_AUTO_TEST_SUITE_END()
