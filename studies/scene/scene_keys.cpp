@@ -2,6 +2,7 @@
 
 #include "core/certify/stated_scheme.hpp"
 #include "core/time/time_scheme.hpp"
+#include "mms/equations/code.hpp"
 
 #include <iterator>
 
@@ -104,6 +105,11 @@ Entries of_the_solver() {
         {"solver.environment.NAME", KeyType::word, "", "its value"},
         {"solver.parameters", KeyType::table, "none", "more placeholders, with their usual values"},
         {"solver.parameters.NAME", KeyType::word, "", "its usual value"},
+        {"solver.solution", KeyType::text, "none",
+         "a file of equations, or a shipped one, whose formulas templates take: {source.NAME}, "
+         "{exact.NAME}, {boundary.NAME}, {initial.NAME}, {parameter.NAME}, {functions}"},
+        {"solver.language", KeyType::choice, "required with solution", "in which those are written",
+         code_language_names()},
     };
 }
 
