@@ -22,12 +22,12 @@ constexpr Index degree_of_t = 20;
 constexpr std::size_t most_pieces = 64;
 // The last coefficients of a function that is resolved are its round-off. That of a moment load,
 // a difference of greater terms, was found up to eight times this.
-constexpr double round_off = 64.0 * std::numeric_limits<double>::epsilon();
+constexpr double last_coefficients = 64.0 * std::numeric_limits<double>::epsilon();
 
 /// Whether the last eighth of the rows is round-off.
 bool has_ended(const MatrixXd& coefficients, double greatest) {
     const Index last = std::max<Index>(3, coefficients.rows() / 8);
-    return coefficients.bottomRows(last).cwiseAbs().maxCoeff() <= round_off * greatest;
+    return coefficients.bottomRows(last).cwiseAbs().maxCoeff() <= last_coefficients * greatest;
 }
 
 class Expander {

@@ -23,12 +23,12 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
+constexpr double ulp = std::numeric_limits<double>::epsilon();
 // Where more profiles are needed, a step in the sine basis costs a fifth of one that evaluates the
 // functions at every point: measured with Table 1's mesh of 160 elements.
 constexpr Index most_profiles = 40;
 // What the comparison allows, over max |g|.
-constexpr double most_residual = 1000.0 * epsilon;
+constexpr double most_residual = 1000.0 * ulp;
 
 /// The fields of a problem that runs read and that do not separate. The initial curvature is read
 /// at t = 0 alone, and comes last.
@@ -100,7 +100,7 @@ MatrixXd basis_of(const Expansion& expansion) {
     Eigen::ColPivHouseholderQR<MatrixXd> qr(columns);
     const auto diagonal = qr.matrixQR().diagonal().cwiseAbs();
     Index rank = 0;
-    while (rank < diagonal.size() && diagonal(rank) > 16.0 * epsilon)
+    while (rank < diagonal.size() && diagonal(rank) > 16.0 * ulp)
         ++rank;
     return qr.householderQ() * MatrixXd::Identity(columns.rows(), rank);
 }
