@@ -187,7 +187,7 @@ for name in sys.argv[2:]:
 )";
     const std::string command = "python3 -W ignore " + (directory.path() / "check.py").string() +
                                 " " + (directory.path() / "schema.json").string() +
-                                " studies/scenes/*.toml";
+                                " " TVBEAM_SCENES "/*.toml";
     BOOST_TEST(std::system(command.c_str()) == 0);
 }
 
