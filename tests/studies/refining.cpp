@@ -248,7 +248,8 @@ std::ostream& operator<<(std::ostream& stream, const Score& score) {
 
 } // namespace
 
-// 0 to 49, and a thousand of a similar make, are those that `until` was chosen by; these were kept for the test.
+// 0 to 49, and a thousand of a similar make, are those that `until` was chosen by; these were kept
+// for the test.
 BOOST_AUTO_TEST_CASE(of_fifty_solvers_what_is_known_holds_and_costs_little_more_than_it_must) {
     const Score found = score(50, 100);
     BOOST_TEST_MESSAGE(found);
