@@ -179,39 +179,59 @@ void add_profiles(ProblemData& data, const MatrixXd& basis) {
     }
 }
 
-/// The greatest difference between the fields of both over the greatest value of each, at points in
-/// every piece.
+/// Places in [0,1]² that no polynomial was built from, and that leave no gap.
+class Places {
+public:
+    Places() : sequence_(gsl_qrng_alloc(gsl_qrng_halton, 2), &gsl_qrng_free) {
+        if (!sequence_)
+            throw std::bad_alloc();
+    }
+    /// The next ones; shape: 2 × count.
+    Eigen::Array2Xd next(Index count) {
+        Eigen::Array2Xd places(2, count);
+        for (Index i = 0; i < count; ++i)
+            gsl_qrng_get(sequence_.get(), places.col(i).data());
+        return places;
+    }
+
+private:
+    std::unique_ptr<gsl_qrng, decltype(&gsl_qrng_free)> sequence_;
+};
+
+/// The greatest difference between the functions and their products, over the greatest value of
+/// each. Every place has a time of its own: what is there for a thousandth of all time shows.
 double residual_of(const Expansion& expansion, const std::vector<SpaceTimeFunction>& functions,
                    const MatrixXd& basis, const PiecewiseAmplitudes& amplitudes) {
-    constexpr Index points = 24;
-    constexpr int times = 6;
-    const std::unique_ptr<gsl_qrng, decltype(&gsl_qrng_free)> sequence(
-        gsl_qrng_alloc(gsl_qrng_halton, 2), &gsl_qrng_free);
-    if (!sequence)
-        throw std::bad_alloc();
-    double residual = 0.0;
-    for (const auto& piece : expansion.pieces)
-        for (int i = 0; i < times; ++i) {
-            ArrayXd x(points);
-            double place[2] = {0.0, 0.0};
-            for (double& one : x) {
-                gsl_qrng_get(sequence.get(), place);
-                one = place[0];
-            }
-            const double t = piece.begin + place[1] * (piece.end - piece.begin);
-            const MatrixXd profiles =
-                chebyshev_values(basis.rows(), 2.0 * x - 1.0).transpose() * basis;
-            const MatrixXd at = amplitudes.at(ArrayXd::Constant(1, t));
-            for (std::size_t f = 0; f < functions.size(); ++f) {
-                const ArrayXd difference =
-                    functions[f](x, t) -
-                    (profiles * at.middleRows(static_cast<Index>(f) * basis.cols(), basis.cols()))
-                        .array();
-                const double one = difference.abs().maxCoeff() / expansion.greatest[f];
-                if (!(one <= residual)) // also NaN
-                    residual = expansion.greatest[f] > 0.0 ? one : residual;
+    constexpr double all_times = 1024.0;
+    constexpr Index at_least = 16;
+    Places places;
+    const double final_time = expansion.pieces.back().end;
+    std::vector<double> greatest = expansion.greatest;
+    std::vector<double> differences(functions.size(), 0.0);
+    for (const auto& piece : expansion.pieces) {
+        const double length = piece.end - piece.begin;
+        const auto count = at_least + static_cast<Index>(all_times * length / final_time);
+        const Eigen::Array2Xd at = places.next(count);
+        const ArrayXd t = piece.begin + length * at.row(1).transpose();
+        const MatrixXd profiles =
+            basis.transpose() * chebyshev_values(basis.rows(), 2.0 * at.row(0).transpose() - 1.0);
+        const MatrixXd of_all = amplitudes.at(t);
+        for (std::size_t f = 0; f < functions.size(); ++f) {
+            const auto own = of_all.middleRows(static_cast<Index>(f) * basis.cols(), basis.cols());
+            const Eigen::RowVectorXd sums = profiles.cwiseProduct(own).colwise().sum();
+            for (Index i = 0; i < count; ++i) {
+                const double exact = functions[f](at.row(0).segment(i, 1).transpose(), t(i))(0);
+                if (!std::isfinite(exact))
+                    return std::numeric_limits<double>::infinity();
+                greatest[f] = std::max(greatest[f], std::abs(exact));
+                differences[f] = std::max(differences[f], std::abs(exact - sums(i)));
             }
         }
+    }
+    double residual = 0.0;
+    for (std::size_t f = 0; f < functions.size(); ++f)
+        if (greatest[f] > 0.0)
+            residual = std::max(residual, differences[f] / greatest[f]);
     return residual;
 }
 

@@ -28,7 +28,8 @@ struct SeparatedProblem {
 /// polynomials of x and, piece by piece, of t, until the coefficients have fallen to round-off
 /// (Townsend and Trefethen, SIAM J. Sci. Comput. 35 (2013) C495, expand likewise); the φ_k are an
 /// orthonormal basis of all the columns of coefficients, by a QR factorisation with pivoting. The
-/// result is compared with g at quasi-random points. Where a layer or a kink would take too high a
+/// result is compared with g at quasi-random points, a thousand of them, each at a time of its own:
+/// what is there for a shorter time can be missed. Where a layer or a kink would take too high a
 /// degree, the rank would not pay, or the comparison fails, the problem stays as it is, with a
 /// reason. The paper's algorithm reads other fields, which stay as they are: it checks this.
 ///

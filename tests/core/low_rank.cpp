@@ -208,6 +208,10 @@ BOOST_AUTO_TEST_CASE(layers_kinks_and_what_is_not_finite_stay_as_they_are_with_a
     BOOST_TEST(reason_of([](const ArrayXd& x, double t) -> ArrayXd {
                    return 1.0 / (x - x + (t > 0.9 ? 0.0 : 1.0));
                }).find("not finite") != std::string::npos);
+    // A flash that no Chebyshev point sees, beside something that is always there.
+    BOOST_TEST(reason_of([](const ArrayXd& x, double t) -> ArrayXd {
+                   return (x * t).cos() + x * std::exp(-1e6 * (t - 0.3333) * (t - 0.3333));
+               }).find("differ") != std::string::npos);
     // Smooth, but cos cy has about c/2π products for y in [0, 1], and some 20 more to round-off.
     BOOST_TEST(reason_of([](const ArrayXd& x, double t) -> ArrayXd {
                    return (200.0 * t * x).cos();
