@@ -2,6 +2,7 @@
 
 #include "core/low_rank/separated.hpp"
 #include "core/run.hpp"
+#include "studies/evolution/evolution_block.hpp"
 #include "studies/external/external_runs.hpp"
 #include "studies/phase_remarks.hpp"
 #include "studies/runs/beam_runs.hpp"
@@ -10,6 +11,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <memory>
 #include <utility>
 
@@ -89,6 +91,18 @@ std::vector<Algorithm> algorithms_of(const Scene& scene) {
     return algorithms;
 }
 
+/// The most that a run of the scene makes of the final time, were it as long as the longest.
+std::int64_t finest_steps(const Scene& scene) {
+    double least = scene.reference ? scene.reference->dt : std::numeric_limits<double>::infinity();
+    for (const auto& series : scene.series())
+        for (const auto& rung : series.rungs)
+            least = std::min(least, rung.dt);
+    if (const auto* evolution = scene.get<EvolutionBlock>())
+        least = std::min(least, evolution->rung.dt);
+    constexpr double most = 1e9;
+    return static_cast<std::int64_t>(std::min(scene.longest_time() / least, most));
+}
+
 /// The problem with what all runs share: how finely it is to be cut, and products in place of what
 /// does not separate.
 ProblemData prepared(const Scene& scene, const ProblemData& data, StudyResult& result) {
@@ -98,7 +112,11 @@ ProblemData prepared(const Scene& scene, const ProblemData& data, StudyResult& r
     const auto norms = norms_of(scene.measures());
     problem.resolution = std::make_shared<const Resolution>(
         resolution_of(data, algorithms_of(scene), norms, scene.longest_time()));
-    SeparatedProblem products = separated(problem, norms, scene.longest_time());
+    // The paper's algorithm checks the other, and so reads the functions themselves.
+    const auto algorithms = algorithms_of(scene);
+    if (std::find(algorithms.begin(), algorithms.end(), Algorithm::fixed_point) != algorithms.end())
+        return problem;
+    SeparatedProblem products = separated(problem, norms, scene.longest_time(), finest_steps(scene));
     result.separation = {products.rank, products.residual, products.reason};
     return std::move(products.data);
 }

@@ -179,52 +179,72 @@ void add_profiles(ProblemData& data, const MatrixXd& basis) {
     }
 }
 
-/// Places in [0,1]² that no polynomial was built from, and that leave no gap.
-class Places {
+/// Where products are compared with what they stand for: at times without pattern, each time in
+/// places that are 1/32 apart.
+class Comparison {
 public:
-    Places() : sequence_(gsl_qrng_alloc(gsl_qrng_halton, 2), &gsl_qrng_free) {
+    explicit Comparison(const MatrixXd& basis)
+        : sequence_(gsl_qrng_alloc(gsl_qrng_halton, 1), &gsl_qrng_free) {
         if (!sequence_)
             throw std::bad_alloc();
+        for (int shift = 0; shift < shifts; ++shift) {
+            const double first = (0.5 + shift) / (shifts * places);
+            x_.emplace_back(ArrayXd::LinSpaced(places, first, first + (places - 1.0) / places));
+            profiles_.emplace_back(basis.transpose() *
+                                   chebyshev_values(basis.rows(), 2.0 * x_.back() - 1.0));
+        }
     }
-    /// The next ones; shape: 2 × count.
-    Eigen::Array2Xd next(Index count) {
-        Eigen::Array2Xd places(2, count);
-        for (Index i = 0; i < count; ++i)
-            gsl_qrng_get(sequence_.get(), places.col(i).data());
-        return places;
+
+    /// Times in (0, 1).
+    ArrayXd times(Index count) {
+        ArrayXd times(count);
+        for (double& time : times)
+            gsl_qrng_get(sequence_.get(), &time);
+        return times;
+    }
+
+    /// The places of the i-th time, and the profiles there; shape: rank × places.
+    [[nodiscard]] const ArrayXd& x(Index i) const {
+        return x_[static_cast<std::size_t>(i % shifts)];
+    }
+    [[nodiscard]] const MatrixXd& profiles(Index i) const {
+        return profiles_[static_cast<std::size_t>(i % shifts)];
     }
 
 private:
+    static constexpr Index places = 32;
+    static constexpr int shifts = 7; // no power of two, which the sequence of times goes by
     std::unique_ptr<gsl_qrng, decltype(&gsl_qrng_free)> sequence_;
+    std::vector<ArrayXd> x_;
+    std::vector<MatrixXd> profiles_;
 };
 
 /// The greatest difference between the functions and their products, over the greatest value of
-/// each. Every place has a time of its own: what is there for a thousandth of all time shows.
+/// each. A bump exp(−(t/d)²) shows over ten times d, so that a time in every four steps finds all
+/// that the steps resolve.
 double residual_of(const Expansion& expansion, const std::vector<SpaceTimeFunction>& functions,
-                   const MatrixXd& basis, const PiecewiseAmplitudes& amplitudes) {
-    constexpr double all_times = 1024.0;
+                   const MatrixXd& basis, const PiecewiseAmplitudes& amplitudes,
+                   std::int64_t steps) {
+    const auto all_times = static_cast<double>(std::clamp<std::int64_t>(steps / 4, 1024, 16384));
     constexpr Index at_least = 16;
-    Places places;
+    Comparison comparison(basis);
     const double final_time = expansion.pieces.back().end;
     std::vector<double> greatest = expansion.greatest;
     std::vector<double> differences(functions.size(), 0.0);
     for (const auto& piece : expansion.pieces) {
         const double length = piece.end - piece.begin;
         const auto count = at_least + static_cast<Index>(all_times * length / final_time);
-        const Eigen::Array2Xd at = places.next(count);
-        const ArrayXd t = piece.begin + length * at.row(1).transpose();
-        const MatrixXd profiles =
-            basis.transpose() * chebyshev_values(basis.rows(), 2.0 * at.row(0).transpose() - 1.0);
+        const ArrayXd t = piece.begin + length * comparison.times(count);
         const MatrixXd of_all = amplitudes.at(t);
         for (std::size_t f = 0; f < functions.size(); ++f) {
             const auto own = of_all.middleRows(static_cast<Index>(f) * basis.cols(), basis.cols());
-            const Eigen::RowVectorXd sums = profiles.cwiseProduct(own).colwise().sum();
             for (Index i = 0; i < count; ++i) {
-                const double exact = functions[f](at.row(0).segment(i, 1).transpose(), t(i))(0);
-                if (!std::isfinite(exact))
+                const ArrayXd exact = functions[f](comparison.x(i), t(i));
+                if (!exact.isFinite().all())
                     return std::numeric_limits<double>::infinity();
-                greatest[f] = std::max(greatest[f], std::abs(exact));
-                differences[f] = std::max(differences[f], std::abs(exact - sums(i)));
+                const ArrayXd sums = (comparison.profiles(i).transpose() * own.col(i)).array();
+                greatest[f] = std::max(greatest[f], exact.abs().maxCoeff());
+                differences[f] = std::max(differences[f], (exact - sums).abs().maxCoeff());
             }
         }
     }
@@ -242,7 +262,7 @@ SeparatedProblem unchanged(const ProblemData& data, const std::string& reason) {
 } // namespace
 
 SeparatedProblem separated(const ProblemData& data, const std::vector<Norm>& norms,
-                           double final_time) {
+                           double final_time, std::int64_t steps) {
     SeparatedProblem result{.data = data};
     const Fields fields(result.data, norms);
     if (fields.none())
@@ -257,7 +277,7 @@ SeparatedProblem separated(const ProblemData& data, const std::vector<Norm>& nor
                                            basis.cols(), most_profiles));
     const auto amplitudes = std::make_shared<const PiecewiseAmplitudes>(expansion, basis);
     result.rank = basis.cols();
-    result.residual = residual_of(expansion, functions, basis, *amplitudes);
+    result.residual = residual_of(expansion, functions, basis, *amplitudes, steps);
     if (!(result.residual <= most_residual))
         return unchanged(data,
                          fmt::format("{} products differ from it by {:.1e} of its greatest value",

@@ -3,6 +3,7 @@
 #include "core/norms/norms.hpp"
 #include "core/problem.hpp"
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -28,13 +29,16 @@ struct SeparatedProblem {
 /// polynomials of x and, piece by piece, of t, until the coefficients have fallen to round-off
 /// (Townsend and Trefethen, SIAM J. Sci. Comput. 35 (2013) C495, expand likewise); the φ_k are an
 /// orthonormal basis of all the columns of coefficients, by a QR factorisation with pivoting. The
-/// result is compared with g at quasi-random points, a thousand of them, each at a time of its own:
-/// what is there for a shorter time can be missed. Where a layer or a kink would take too high a
-/// degree, the rank would not pay, or the comparison fails, the problem stays as it is, with a
-/// reason. The paper's algorithm reads other fields, which stay as they are: it checks this.
+/// result is compared with g in 32 places at a time in every four steps, at least 1024 and at most
+/// 16384 times. What is smaller than all of these in time and in space can be missed. Where a layer
+/// or a kink would take too high a degree, the rank would not pay, or the comparison fails, the
+/// problem stays as it is, with a reason. The paper's algorithm reads other fields, which stay as
+/// they are: it checks this.
+///
+/// steps: the most that a run makes of the final time.
 ///
 /// data.resolution, where it is there, is kept: that of the functions themselves.
 SeparatedProblem separated(const ProblemData& data, const std::vector<Norm>& norms,
-                           double final_time);
+                           double final_time, std::int64_t steps = 0);
 
 } // namespace tvbeam

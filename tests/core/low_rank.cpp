@@ -212,6 +212,12 @@ BOOST_AUTO_TEST_CASE(layers_kinks_and_what_is_not_finite_stay_as_they_are_with_a
     BOOST_TEST(reason_of([](const ArrayXd& x, double t) -> ArrayXd {
                    return (x * t).cos() + x * std::exp(-1e6 * (t - 0.3333) * (t - 0.3333));
                }).find("differ") != std::string::npos);
+    // A spot of the width 0.006, for as short a time: with it also where it may stand.
+    for (const double at : {0.31, 0.5, 0.69})
+        BOOST_TEST(reason_of([=](const ArrayXd& x, double t) -> ArrayXd {
+                       return (3.0 * x * t).cos() +
+                              100.0 * (-3e4 * ((x - at).square() + (t - 0.58) * (t - 0.58))).exp();
+                   }) != "");
     // Smooth, but cos cy has about c/2π products for y in [0, 1], and some 20 more to round-off.
     BOOST_TEST(reason_of([](const ArrayXd& x, double t) -> ArrayXd {
                    return (200.0 * t * x).cos();
