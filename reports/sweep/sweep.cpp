@@ -2,6 +2,7 @@
 
 #include "mms/text/input_error.hpp"
 #include "reports/document/json_text.hpp"
+#include "reports/document/result_document.hpp"
 #include "reports/plots/drawing.hpp"
 #include "reports/plots/plot_style.hpp"
 #include "reports/studies/run_fields.hpp"
@@ -16,6 +17,7 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
+#include <set>
 
 namespace tvbeam {
 
@@ -187,8 +189,15 @@ std::vector<Plot> sweep_plots(const Sweep& sweep, const std::vector<StudyResult>
                          settings)};
 }
 
+bool has_defect(const std::vector<StudyResult>& results) {
+    return std::any_of(results.begin(), results.end(),
+                       [](const auto& result) { return result.scene.defect.has_value(); });
+}
+
 std::string sweep_json(const Sweep& sweep, const std::vector<StudyResult>& results) {
     nlohmann::ordered_json json{{"schema", "tvbeam-sweep/1"}, {"key", sweep.key}};
+    if (has_defect(results))
+        json["defect"] = defect_words;
     json["rows"] = nlohmann::ordered_json::array();
     const auto rows = rows_of(results);
     for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -226,8 +235,19 @@ std::optional<Sweep> sweep_in(const std::vector<std::string>& overrides) {
         if (sweep)
             throw InputError({"--set " + assignment},
                              "one key is swept at a time, and " + sweep->key + " is already");
+        std::set<std::string> values;
+        for (const auto& word : words) {
+            const auto value = number(word);
+            if (!values.insert(value ? fmt::format("{}", *value) : word).second)
+                throw InputError({"--set " + assignment},
+                                 word + " is there twice; name each value once");
+        }
         sweep = Sweep{key, words, {}};
     }
+    for (const auto& other : others)
+        if (sweep && other.substr(0, other.find('=')) == sweep->key)
+            throw InputError({"--set " + other},
+                             sweep->key + " is swept, and cannot have one value as well");
     if (sweep)
         sweep->others = std::move(others);
     return sweep;
@@ -256,7 +276,14 @@ std::string sweep_csv(const Sweep& sweep, const std::vector<StudyResult>& result
 Reported reported(const Sweep& sweep, const std::vector<StudyResult>& results) {
     Reported all;
     all.document.title = results.empty() ? sweep.key : results.front().scene.title;
+    if (has_defect(results))
+        all.document.title = std::string(defect_words) + ": " + all.document.title;
     all.document.head = {fmt::format("{} = {}", sweep.key, fmt::join(sweep.values, ", "))};
+    for (const auto& result : results)
+        for (const auto& remark : result.remarks)
+            if (std::find(all.document.head.begin(), all.document.head.end(), remark) ==
+                all.document.head.end())
+                all.document.head.push_back(remark);
     if (!results.empty())
         all.document.sections.push_back({"Sweep", {table_of(sweep, results)}});
     all.json = [&sweep, &results] { return sweep_json(sweep, results); };
