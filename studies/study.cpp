@@ -116,7 +116,8 @@ ProblemData prepared(const Scene& scene, const ProblemData& data, StudyResult& r
     const auto algorithms = algorithms_of(scene);
     if (std::find(algorithms.begin(), algorithms.end(), Algorithm::fixed_point) != algorithms.end())
         return problem;
-    SeparatedProblem products = separated(problem, norms, scene.longest_time(), finest_steps(scene));
+    SeparatedProblem products =
+        separated(problem, norms, scene.longest_time(), finest_steps(scene));
     result.separation = {products.rank, products.residual, products.reason};
     return std::move(products.data);
 }
