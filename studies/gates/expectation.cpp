@@ -69,6 +69,7 @@ void require_count(const TableReader& table, const std::string& key, std::size_t
 InputError not_measured(const TableReader& table, const std::string& name,
                         const std::vector<Measure>& measures) {
     std::vector<std::string> names;
+    names.reserve(measures.size());
     for (const auto& measure : measures)
         names.push_back(measure.name);
     return {table.place_of_key(name),
