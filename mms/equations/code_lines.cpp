@@ -40,14 +40,19 @@ std::string wrapped_code(const std::string& text, std::size_t indent, const std:
 }
 
 std::string wrapped_comment(const std::string& text, const std::string& sign) {
+    constexpr std::size_t indent =
+        2; // of all lines but the first, whose blanks are no place to break
+    const std::size_t room = longest_line - sign.size() - 1;
     std::string result;
     std::string rest = text;
-    while (sign.size() + 1 + rest.size() > longest_line) {
-        std::size_t end = rest.rfind(' ', longest_line - sign.size() - 1);
-        if (end == std::string::npos || end == 0)
-            end = longest_line - sign.size() - 1;
-        result += sign + " " + rest.substr(0, end) + "\n";
-        rest = "  " + rest.substr(rest[end] == ' ' ? end + 1 : end);
+    while (rest.size() > room) {
+        std::size_t end = room;
+        while (end > indent && rest[end - 1] != ' ')
+            --end;
+        if (end <= indent) // a formula without blanks
+            end = room;
+        result += sign + " " + rest.substr(0, rest[end - 1] == ' ' ? end - 1 : end) + "\n";
+        rest = std::string(indent, ' ') + rest.substr(end);
     }
     return result + sign + " " + rest + "\n";
 }

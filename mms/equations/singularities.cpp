@@ -253,7 +253,7 @@ private:
             const Critical* broken = first_broken(open, box);
             if (broken == nullptr)
                 continue;
-            if (++looked_at > most_parts || box.empty())
+            if (++looked_at > most_parts || !can_be_halved(box))
                 return Singularity{Singularity::Kind::not_excluded,
                                    "it could not be excluded that " + said(*broken) + "near " +
                                        text_of(middle_of(box)).substr(3)};
@@ -281,6 +281,14 @@ private:
         for (const auto& [name, range] : box)
             point[name] = 0.5 * (range.begin + range.end);
         return point;
+    }
+
+    /// Whether there is a double within some side.
+    static bool can_be_halved(const Box& box) {
+        return std::any_of(box.begin(), box.end(), [](const auto& side) {
+            const double middle = 0.5 * (side.second.begin + side.second.end);
+            return side.second.begin < middle && middle < side.second.end;
+        });
     }
 
     /// Across the coordinate in which the part is longest, measured by the whole.
