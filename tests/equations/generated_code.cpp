@@ -3,6 +3,7 @@
 // FreeFEM. Of Julia and MOOSE, which Debian does not have, the text is translated to Python.
 
 #include "mms/equations/code.hpp"
+#include "mms/equations/code_lines.hpp"
 #include "mms/equations/program.hpp"
 #include "mms/equations/system_checks.hpp"
 
@@ -329,6 +330,23 @@ BOOST_AUTO_TEST_CASE(no_line_is_longer_than_a_hundred_characters) {
         std::istringstream lines(system_code(one.derived, *code_language(name)));
         for (std::string line; std::getline(lines, line);)
             BOOST_TEST(line.size() <= 100U, name << ": " << line);
+    }
+}
+
+BOOST_AUTO_TEST_CASE(comments_without_blanks_end_and_lose_nothing) {
+    for (const std::size_t length : {97U, 98U, 99U, 196U, 400U}) {
+        const std::string formula(length, 'x');
+        std::istringstream lines(wrapped_comment("f = " + formula + " + 1", "//"));
+        std::string together;
+        for (std::string line; std::getline(lines, line);) {
+            BOOST_TEST(line.size() <= 100U, line);
+            BOOST_TEST(line.starts_with("// "));
+            line.erase(std::remove_if(line.begin(), line.end(),
+                                      [](char c) { return c == ' ' || c == '/'; }),
+                       line.end());
+            together += line;
+        }
+        BOOST_TEST(together == "f=" + formula + "+1");
     }
 }
 
