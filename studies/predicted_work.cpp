@@ -4,7 +4,7 @@
 #include "studies/ladder/ladder_block.hpp"
 #include "studies/runs/beam_runs.hpp"
 #include "studies/sensitivity/sensitivity.hpp"
-#include "studies/stress/stress_block.hpp"
+#include "studies/stress/stress.hpp"
 #include "studies/study.hpp"
 
 #include <fmt/format.h>
@@ -17,27 +17,19 @@ namespace tvbeam {
 
 namespace {
 
-constexpr double steps_a_second = 1e8;
-constexpr double seconds_a_run = 2e-4;
 constexpr double bytes_a_run = 1e3;
 constexpr double bytes_a_node = 400.0;
+constexpr double bytes_a_case = 100.0;
 
-/// Of a contraction and of a floor of round-off: what is iterated, in steps.
-constexpr double steps_a_point = 100.0;
-
+/// Cases go to the disk; what is dealt and kept of each are a few words.
 void add_stress(const StressBlock& stress, PredictedWork& predicted) {
-    for (const auto& sweep : stress.sweeps)
-        predicted.runs += static_cast<double>(sweep.cases.size());
-    if (const auto& map = stress.contraction) {
-        const double points =
-            static_cast<double>(map->alpha.size()) * static_cast<double>(map->dt.size());
-        predicted.runs += points;
-        predicted.steps += points * steps_a_point * static_cast<double>(map->elements);
-    }
-    if (const auto& floors = stress.roundoff)
-        for (const std::int64_t elements : floors->elements)
-            predicted.steps +=
-                steps_a_point * static_cast<double>(floors->steps) * static_cast<double>(elements);
+    for (const auto& parts : parts_of(stress))
+        predicted.runs += static_cast<double>(parts.count);
+    std::int64_t largest = 0;
+    for (std::size_t i = 0; i < stress.cases(); ++i)
+        largest = std::max(largest, stress.case_at(i).elements);
+    predicted.bytes += bytes_a_case * static_cast<double>(stress.cases()) +
+                       bytes_a_node * static_cast<double>(largest);
 }
 
 /// How often a sensitivity study runs all others: for each defect a scan of decades, and the
@@ -55,19 +47,6 @@ std::string time_text(double seconds) {
         return fmt::format("{:.0f} min", seconds / 60.0);
     return seconds < 1e9 ? fmt::format("{:.0f} h", seconds / 3600.0)
                          : fmt::format("{:.2g} years", seconds / (365.25 * 24.0 * 3600.0));
-}
-
-/// The levels that `until` may add to a ladder.
-std::vector<Rung> added_levels(const LadderBlock& ladder) {
-    std::vector<Rung> rungs = ladder.rungs;
-    const auto most = static_cast<std::size_t>(ladder.until->levels.value_or(most_levels));
-    while (ladder.until->adds_levels && rungs.size() < most)
-        if (const auto next = ladder.next(rungs))
-            rungs.push_back(*next);
-        else
-            break;
-    rungs.erase(rungs.begin(), rungs.begin() + static_cast<std::ptrdiff_t>(ladder.rungs.size()));
-    return rungs;
 }
 
 /// What the whole may take that is not predicted: levels that are added, programs.
@@ -92,6 +71,18 @@ void bound(const Scene& scene, PredictedWork& predicted) {
 
 } // namespace
 
+std::vector<Rung> added_levels(const LadderBlock& ladder) {
+    std::vector<Rung> rungs = ladder.rungs;
+    const auto most = static_cast<std::size_t>(ladder.until->levels.value_or(most_levels));
+    while (ladder.until->adds_levels && rungs.size() < most)
+        if (const auto next = ladder.next(rungs))
+            rungs.push_back(*next);
+        else
+            break;
+    rungs.erase(rungs.begin(), rungs.begin() + static_cast<std::ptrdiff_t>(ladder.rungs.size()));
+    return rungs;
+}
+
 std::string PredictedWork::text() const {
     return fmt::format(
                "{:.2g} steps of elements in {:.6g} runs, about {} on one core and {:.0f} MB", steps,
@@ -112,9 +103,9 @@ PredictedWork predicted_work(const Scene& scene) {
         predicted.steps = 0.0;
         largest = 0.0;
     }
+    predicted.bytes = bytes_a_run * predicted.runs + bytes_a_node * largest;
     if (const auto* stress = scene.get<StressBlock>())
         add_stress(*stress, predicted);
-    predicted.bytes = bytes_a_run * predicted.runs + bytes_a_node * largest;
     if (const auto* evolution = scene.get<EvolutionBlock>())
         predicted.bytes += static_cast<double>(sizeof(double)) *
                            static_cast<double>(evolution->probes.size()) *

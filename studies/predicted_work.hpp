@@ -3,8 +3,15 @@
 #include "studies/scene/scene.hpp"
 
 #include <string>
+#include <vector>
 
 namespace tvbeam {
+
+struct LadderBlock;
+
+/// A processor makes about so many steps of elements in a second, and so long takes a run besides.
+inline constexpr double steps_a_second = 1e8;
+inline constexpr double seconds_a_run = 2e-4;
 
 /// What the runs of a scene take, before any of them is made. Within a factor of ten: processors
 /// differ, contact and norms cost more than steps without them. Of a [solver] only the runs count,
@@ -13,7 +20,8 @@ struct PredictedWork {
     double runs = 0.0;    ///< single ones, of all studies
     double steps = 0.0;   ///< elements times time steps (work_of)
     double seconds = 0.0; ///< on one core: 1e8 of those a second, and 0.2 ms a run
-    double bytes = 0.0; ///< 1 kB a run, 400 a node of the largest mesh, and what an evolution keeps
+    double bytes = 0.0;   ///< 1 kB a run, 100 B a case of [stress], 400 a node of the largest mesh,
+                          ///< and what an evolution keeps
 
     /// At most, with the levels that `until` may add within its budget, or with as many seconds a
     /// run as [solver] allows. 0: there is neither.
@@ -24,6 +32,9 @@ struct PredictedWork {
     /// the levels that ladder.until may add".
     [[nodiscard]] std::string text() const;
 };
+
+/// The levels that `until` may add to a ladder.
+std::vector<Rung> added_levels(const LadderBlock& ladder);
 
 PredictedWork predicted_work(const Scene& scene);
 

@@ -143,31 +143,24 @@ void run_studies(const StudyContext& context, StudyResult& result) {
         kind->conclude(*scene.blocks.find(*kind), record, result, context);
 }
 
+/// What is done once all is at hand that runs need.
+using Conduct = std::function<void(const StudyContext&, StudyResult&)>;
+
 /// A scene of a program that nobody here wrote.
-StudyResult run_on_solver(const Scene& scene, const Execution& execution) {
+StudyResult on_solver(const Scene& scene, const Execution& execution, const Conduct& conduct) {
     require_runnable(scene);
-    execution.expect(work_of(scene));
     StudyResult result{.scene = scene};
     const Keeper keeper;
     const StudiedSolver solver = external_runs(*scene.solver, keeper);
     const Method own = scene.method();
     const ProblemData no_data;
     const Defects no_defects;
-    run_studies({scene, no_data, solver, own, execution, no_defects}, result);
+    conduct({scene, no_data, solver, own, execution, no_defects}, result);
     return result;
 }
 
-} // namespace
-
-StudyResult run_study(const Scene& scene, const ProblemData& data, const Execution& execution) {
-    require_runnable(scene, data);
-    return run_study(scene, data, scene.defect ? Defects(*scene.defect, scene) : Defects(),
-                     execution);
-}
-
-StudyResult run_study(const Scene& scene, const ProblemData& data, const Defects& defects,
-                      const Execution& execution) {
-    execution.expect(work_of(scene));
+StudyResult on_beam(const Scene& scene, const ProblemData& data, const Defects& defects,
+                    const Execution& execution, const Conduct& conduct) {
     StudyResult result{.scene = scene, .law_distance = data.exact ? data.exact->law_distance : 0.0};
     const Method own = scene.method();
     const ProblemData resolved = prepared(scene, data, result);
@@ -188,8 +181,29 @@ StudyResult run_study(const Scene& scene, const ProblemData& data, const Defects
                 "and is not proven: a peak that is narrower than the time between them may pass a "
                 "stop unseen.");
     }
-    run_studies({scene, resolved, solver, own, execution, defects}, result);
+    conduct({scene, resolved, solver, own, execution, defects}, result);
     return result;
+}
+
+Defects defects_of(const Scene& scene) {
+    return scene.defect ? Defects(*scene.defect, scene) : Defects();
+}
+
+ProblemData own_problem_of(const Scene& scene) {
+    return scene.poses_problem() ? problem_of(scene, scene.longest_time()) : ProblemData{};
+}
+
+} // namespace
+
+StudyResult run_study(const Scene& scene, const ProblemData& data, const Execution& execution) {
+    require_runnable(scene, data);
+    return run_study(scene, data, defects_of(scene), execution);
+}
+
+StudyResult run_study(const Scene& scene, const ProblemData& data, const Defects& defects,
+                      const Execution& execution) {
+    execution.expect(work_of(scene));
+    return on_beam(scene, data, defects, execution, run_studies);
 }
 
 void require_runnable(const Scene& scene) {
@@ -198,11 +212,24 @@ void require_runnable(const Scene& scene) {
 }
 
 StudyResult run_study(const Scene& scene, const Execution& execution) {
-    if (scene.solver)
-        return run_on_solver(scene, execution);
-    return run_study(
-        scene, scene.poses_problem() ? problem_of(scene, scene.longest_time()) : ProblemData{},
-        execution);
+    if (!scene.solver)
+        return run_study(scene, own_problem_of(scene), execution);
+    execution.expect(work_of(scene));
+    return on_solver(scene, execution, run_studies);
+}
+
+void on_prepared(const Scene& scene, const Execution& execution,
+                 const std::function<void(const StudyContext&)>& conduct) {
+    const Conduct conducted = [&](const StudyContext& context, const StudyResult&) {
+        conduct(context);
+    };
+    if (scene.solver) {
+        on_solver(scene, execution, conducted);
+        return;
+    }
+    const ProblemData data = own_problem_of(scene);
+    require_runnable(scene, data);
+    on_beam(scene, data, defects_of(scene), execution, conducted);
 }
 
 } // namespace tvbeam

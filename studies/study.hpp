@@ -3,6 +3,7 @@
 #include "studies/reference/reference_solution.hpp"
 #include "studies/scene/scene.hpp"
 
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -76,5 +77,10 @@ StudyResult run_study(const Scene& scene, const ProblemData& data, const Executi
 /// The same with these defects in place of the scene's own.
 StudyResult run_study(const Scene& scene, const ProblemData& data, const Defects& defects,
                       const Execution& execution);
+
+/// Prepares what the studies of a scene run on, and gives it to the caller in their place. Throws
+/// InputError as run_study does.
+void on_prepared(const Scene& scene, const Execution& execution,
+                 const std::function<void(const StudyContext&)>& conduct);
 
 } // namespace tvbeam

@@ -12,6 +12,10 @@ std::vector<Series> StudyKind::series(const std::any& /*block*/, const Method& /
     return {};
 }
 
+std::vector<Parts> StudyKind::parts(const std::any& /*block*/) const {
+    return {};
+}
+
 double StudyKind::work(const std::any& block, const Method& own) const {
     double work = 0.0;
     for (const auto& one : series(block, own))

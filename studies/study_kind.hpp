@@ -71,6 +71,9 @@ public:
     [[nodiscard]] virtual std::vector<Series> series(const std::any& block,
                                                      const Method& own) const;
 
+    /// Its work besides, where that can be done in parts. The block must outlive them.
+    [[nodiscard]] virtual std::vector<Parts> parts(const std::any& block) const;
+
     /// What it costs, in the unit of work_of.
     [[nodiscard]] virtual double work(const std::any& block, const Method& own) const;
 

@@ -149,8 +149,10 @@ Document result_document(const StudyResult& result) {
         }
         of_problem = kind->poses_problem() ? document.sections.size() : of_problem;
     }
+    if (!result.remarks.empty() && document.sections.empty())
+        document.sections.push_back({"Remarks", {}});
     for (const auto& remark : result.remarks) {
-        auto& blocks = document.sections.at(of_problem - 1).blocks;
+        auto& blocks = document.sections[std::max<std::size_t>(of_problem, 1) - 1].blocks;
         blocks.emplace_back(BlankLine{});
         blocks.emplace_back(Finding{remark});
     }

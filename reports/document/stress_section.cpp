@@ -70,11 +70,19 @@ void raise(std::optional<double>& worst, double value) {
         worst = value;
 }
 
-std::map<std::pair<std::size_t, std::string>, Tally>
-tallies_of(const std::vector<StressCase>& cases) {
-    std::map<std::pair<std::size_t, std::string>, Tally> tallies;
-    const auto add = [&](std::size_t order, const std::string& regime, const StressCase& one) {
-        Tally& tally = tallies[{order, regime}];
+/// The cases by regime, in the order of the table's lines.
+class Tallies {
+public:
+    void add(const StressCase& one) {
+        const auto regimes = regimes_of(one.parameters);
+        for (std::size_t k = 0; k < regimes.size(); ++k)
+            add(one, tallies_[{k, regimes[k]}]);
+        add(one, tallies_[{regimes.size(), "all"}]);
+    }
+    [[nodiscard]] const auto& all() const { return tallies_; }
+
+private:
+    static void add(const StressCase& one, Tally& tally) {
         ++tally.outcomes[one.outcome];
         if (!one.checks)
             return;
@@ -85,22 +93,17 @@ tallies_of(const std::vector<StressCase>& cases) {
                                            one.checks->complementarity}));
         if (const auto part = one.checks->path_part())
             raise(tally.path, *part);
-    };
-    for (const auto& one : cases) {
-        const auto regimes = regimes_of(one.parameters);
-        for (std::size_t k = 0; k < regimes.size(); ++k)
-            add(k, regimes[k], one);
-        add(regimes.size(), "all", one);
     }
-    return tallies;
-}
 
-Table regime_table(const std::vector<StressCase>& cases) {
+    std::map<std::pair<std::size_t, std::string>, Tally> tallies_;
+};
+
+Table regime_table(const Tallies& tallies) {
     Table::Group key{"", {{"regime", {}}}};
     Table::Group outcomes{"cases",
                           {{"certified", {}}, {"refused", {}}, {"stopped", {}}, {"failed", {}}}};
     Table::Group worst{"worst", {{"energy", {}}, {"resid.", {}}, {"contact", {}}, {"path", {}}}};
-    for (auto& [regime, tally] : tallies_of(cases)) {
+    for (const auto& [regime, tally] : tallies.all()) {
         key.columns[0].cells.push_back(regime.second);
         const auto count = [&outcomes = tally.outcomes](Outcome outcome) {
             const auto found = outcomes.find(outcome);
@@ -139,20 +142,51 @@ std::string cases_text(std::size_t count) {
 }
 
 /// The worst case of each check, by name.
-std::vector<Block> worst_cases(const std::vector<StressCase>& cases) {
-    using Value = std::function<std::optional<double>(const StressCase&)>;
-    const auto of = [](double StressChecks::*check) -> Value {
+class WorstCases {
+public:
+    void add(const StressCase& one) {
+        for (auto& check : checks_)
+            if (const auto figure = check.figure(one)) {
+                ++check.count;
+                if (!check.worst || is_worse(*figure, check.greatest)) {
+                    check.worst = one.parameters;
+                    check.greatest = *figure;
+                }
+            }
+    }
+    [[nodiscard]] std::vector<Block> blocks() const {
+        std::vector<Block> items{BlankLine{}, Paragraph{"Worst cases:"}};
+        for (const auto& check : checks_)
+            if (check.worst)
+                items.emplace_back(
+                    Item{fmt::format("{}: {} ({}): {}", check.name, scientific(check.greatest, 1),
+                                     cases_text(check.count), text_of(*check.worst)),
+                         6});
+        return items;
+    }
+
+private:
+    using Figure = std::function<std::optional<double>(const StressCase&)>;
+    struct Check {
+        std::string name;
+        Figure figure;
+        std::size_t count = 0; ///< of the cases that have it
+        std::optional<StressParameters> worst = {};
+        double greatest = 0.0;
+    };
+    static Figure of(double StressChecks::*check) {
         return [check](const StressCase& one) {
             return one.checks ? std::optional((*one.checks).*check) : std::nullopt;
         };
-    };
-    const auto of_contact = [](double StressChecks::*check) -> Value {
+    }
+    static Figure of_contact(double StressChecks::*check) {
         return [check](const StressCase& one) {
             return one.checks && one.parameters.stops.exist() ? std::optional((*one.checks).*check)
                                                               : std::nullopt;
         };
-    };
-    const std::vector<std::pair<std::string, Value>> checks{
+    }
+
+    std::vector<Check> checks_{
         {"energy law", of(&StressChecks::energy)},
         {"heat residual", of(&StressChecks::heat_residual)},
         {"beam residual", of(&StressChecks::beam_residual)},
@@ -163,24 +197,7 @@ std::vector<Block> worst_cases(const std::vector<StressCase>& cases) {
          [](const StressCase& one) { return one.checks ? one.checks->path_part() : std::nullopt; }},
         {"error/predicted",
          [](const StressCase& one) { return one.checks ? one.checks->error : std::nullopt; }}};
-    std::vector<Block> items{BlankLine{}, Paragraph{"Worst cases:"}};
-    for (const auto& [name, value] : checks) {
-        const StressCase* worst = nullptr;
-        std::size_t count = 0;
-        for (const auto& one : cases)
-            if (const auto figure = value(one)) {
-                ++count;
-                if (worst == nullptr || is_worse(*figure, *value(*worst)))
-                    worst = &one;
-            }
-        if (worst != nullptr)
-            items.emplace_back(
-                Item{fmt::format("{}: {} ({}): {}", name, scientific(value(*worst), 1),
-                                 cases_text(count), text_of(worst->parameters)),
-                     6});
-    }
-    return items;
-}
+};
 
 /// The text of a reason without its numbers, to count those alike.
 std::string kind_of(const std::string& reason) {
@@ -195,22 +212,59 @@ std::string kind_of(const std::string& reason) {
     return kind;
 }
 
-std::vector<Block> reasons(const std::vector<StressCase>& cases, Outcome outcome) {
-    std::map<std::string, std::pair<std::size_t, const StressCase*>> kinds;
-    for (const auto& one : cases)
-        if (one.outcome == outcome) {
-            auto& [count, example] = kinds[kind_of(one.reason)];
-            if (count++ == 0)
-                example = &one;
-        }
-    std::vector<Block> items;
-    if (!kinds.empty())
-        items = {BlankLine{}, Paragraph{tvbeam::name_of(outcome) + ":"}};
-    for (const auto& [kind, found] : kinds)
-        items.emplace_back(
-            Item{fmt::format("{}, e.g. {}: {}", cases_text(found.first),
-                             text_of(found.second->parameters), found.second->reason)});
-    return items;
+/// The reasons of cases that are not certified, those alike together.
+class Reasons {
+public:
+    void add(const StressCase& one) {
+        if (one.outcome == Outcome::certified)
+            return;
+        auto& [count, example] = kinds_[one.outcome][kind_of(one.reason)];
+        if (count++ == 0)
+            example = text_of(one.parameters) + ": " + one.reason;
+    }
+    [[nodiscard]] std::vector<Block> blocks(Outcome outcome) const {
+        const auto kinds = kinds_.find(outcome);
+        if (kinds == kinds_.end())
+            return {};
+        std::vector<Block> items{BlankLine{}, Paragraph{tvbeam::name_of(outcome) + ":"}};
+        for (const auto& [kind, found] : kinds->second)
+            items.emplace_back(Item{cases_text(found.first) + ", e.g. " + found.second});
+        return items;
+    }
+
+private:
+    /// How many, and the first of them.
+    std::map<Outcome, std::map<std::string, std::pair<std::size_t, std::string>>> kinds_;
+};
+
+Section case_section(const StressCases& cases) {
+    Tallies tallies;
+    WorstCases worst;
+    Reasons reasons;
+    cases.visit([&](const StressCase& one) {
+        tallies.add(one);
+        worst.add(one);
+        reasons.add(one);
+    });
+    Section section{
+        "Stress",
+        {regime_table(tallies),
+         Paragraph{"energy: energy law, of its terms (limit 1e-12); resid.: of both equations, "
+                   "in units of round-off (64); contact: penetration, wrong sign or "
+                   "min-residual, of the tip's scale (1e-13); path: sine basis against nodal "
+                   "values, of their limit (1); blank: no case has it"},
+         Finding{fmt::format("Of {} {} certified, {} refused, {} stopped, {} failed.",
+                             cases_text(cases.size()), cases.count(Outcome::certified),
+                             cases.count(Outcome::refused), cases.count(Outcome::stopped),
+                             cases.count(Outcome::failed)),
+                 2, false}}};
+    const auto add = [&section](const std::vector<Block>& more) {
+        section.blocks.insert(section.blocks.end(), more.begin(), more.end());
+    };
+    add(worst.blocks());
+    for (const Outcome outcome : {Outcome::refused, Outcome::stopped, Outcome::failed})
+        add(reasons.blocks(outcome));
+    return section;
 }
 
 /// A ratio measured/predicted as per mille of deviation would be hidden by its round figures; the
@@ -300,27 +354,8 @@ std::string name_of(InitialData initial) {
 
 std::vector<Section> stress_sections(const StressResult& result) {
     std::vector<Section> sections;
-    if (!result.cases.empty()) {
-        Section section{
-            "Stress",
-            {regime_table(result.cases),
-             Paragraph{"energy: energy law, of its terms (limit 1e-12); resid.: of both equations, "
-                       "in units of round-off (64); contact: penetration, wrong sign or "
-                       "min-residual, of the tip's scale (1e-13); path: sine basis against nodal "
-                       "values, of their limit (1); blank: no case has it"},
-             Finding{fmt::format("Of {} {} certified, {} refused, {} stopped, {} failed.",
-                                 cases_text(result.cases.size()), result.count(Outcome::certified),
-                                 result.count(Outcome::refused), result.count(Outcome::stopped),
-                                 result.count(Outcome::failed)),
-                     2, false}}};
-        const auto add = [&section](const std::vector<Block>& more) {
-            section.blocks.insert(section.blocks.end(), more.begin(), more.end());
-        };
-        add(worst_cases(result.cases));
-        for (const Outcome outcome : {Outcome::refused, Outcome::stopped, Outcome::failed})
-            add(reasons(result.cases, outcome));
-        sections.push_back(std::move(section));
-    }
+    if (!result.cases.empty())
+        sections.push_back(case_section(result.cases));
     if (result.contraction)
         sections.push_back(contraction_section(*result.contraction, result.contraction->block));
     if (result.roundoff)

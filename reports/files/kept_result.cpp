@@ -186,4 +186,66 @@ StressCase kept_case(const nlohmann::ordered_json& json) {
     return result;
 }
 
+namespace {
+
+Json numbers(const std::vector<double>& values) {
+    Json json = Json::array();
+    for (const double value : values)
+        json.push_back(number(value));
+    return json;
+}
+
+std::vector<double> numbers(const Json& json, const char* name) {
+    require(member(json, name).is_array(), std::string(name) + " is no list");
+    std::vector<double> values;
+    for (const auto& value : json[name])
+        values.push_back(number(value, name));
+    return values;
+}
+
+Json floor_json(const Floor& floor) {
+    return {{"value", optional_number(floor.value)}, {"reason", floor.reason}};
+}
+
+Floor floor_of(const Json& json, const char* name) {
+    const Json& floor = member(json, name);
+    return {optional_number(floor, "value"), text(floor, "reason")};
+}
+
+} // namespace
+
+nlohmann::ordered_json kept(const ContractionRow& row) {
+    return {{"predicted", numbers(row.predicted)}, {"measured", numbers(row.measured)}};
+}
+
+ContractionRow kept_contraction(const nlohmann::ordered_json& json, std::size_t width) {
+    ContractionRow row{numbers(json, "predicted"), numbers(json, "measured")};
+    require(row.predicted.size() == width && row.measured.size() == width,
+            "contractions are not one an alpha");
+    return row;
+}
+
+nlohmann::ordered_json kept(const RoundOffRow& row) {
+    return {{"elements", row.elements},
+            {"moment", floor_json(row.moment)},
+            {"sine", optional_number(row.sine)},
+            {"hermite", floor_json(row.hermite)},
+            {"hermite_predicted", number(row.hermite_predicted)},
+            {"discretisation_error", number(row.discretisation_error)},
+            {"remark", row.remark}};
+}
+
+RoundOffRow kept_round_off(const nlohmann::ordered_json& json, std::int64_t elements) {
+    RoundOffRow row{.elements = count(member(json, "elements"), "elements"),
+                    .moment = floor_of(json, "moment"),
+                    .sine = optional_number(json, "sine"),
+                    .hermite = floor_of(json, "hermite"),
+                    .hermite_predicted = number(member(json, "hermite_predicted"), "a prediction"),
+                    .discretisation_error =
+                        number(member(json, "discretisation_error"), "an error"),
+                    .remark = text(json, "remark")};
+    require(row.elements == elements, "elements are not those of the scene");
+    return row;
+}
+
 } // namespace tvbeam

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "studies/runs/run.hpp"
-#include "studies/stress/stress_case.hpp"
+#include "studies/stress/stress.hpp"
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -19,5 +19,12 @@ RungResult kept_run(const nlohmann::ordered_json& json, const Rung& rung, std::s
 
 /// The same, without its parameters.
 StressCase kept_case(const nlohmann::ordered_json& json);
+
+/// The same of rows of [stress.contraction], as wide as its list of alpha, and of
+/// [stress.roundoff].
+nlohmann::ordered_json kept(const ContractionRow& row);
+ContractionRow kept_contraction(const nlohmann::ordered_json& json, std::size_t width);
+nlohmann::ordered_json kept(const RoundOffRow& row);
+RoundOffRow kept_round_off(const nlohmann::ordered_json& json, std::int64_t elements);
 
 } // namespace tvbeam

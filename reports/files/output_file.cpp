@@ -76,12 +76,16 @@ void OutputFile::fail() const {
     throw OutputError("cannot write '" + path_.string() + "': " + reason());
 }
 
-void OutputFile::prepare(const std::string& text) {
+void OutputFile::prepare(const LongText& text) {
     const bool replaced = descriptor_ < 0;
     if (replaced)
         descriptor_ = make_temporary(directory(), temporary_);
-    if (descriptor_ < 0 || !write_whole(descriptor_, text))
+    if (descriptor_ < 0)
         fail();
+    text.tell([this](std::string_view piece) {
+        if (!write_whole(descriptor_, piece))
+            fail();
+    });
     if (!replaced)
         return;
     if (uncut([&] { return fsync(descriptor_); }) != 0)
@@ -127,19 +131,22 @@ void OutputFile::sync() const {
         fail();
 }
 
-void OutputFile::commit(const std::string& text) {
+void OutputFile::commit(const LongText& text) {
     prepare(text);
     publish();
     sync();
 }
 
-void write_standard_output(const std::string& text) {
-    // What the library of the command line has printed comes first.
-    if (std::fflush(stdout) != 0 || !write_whole(STDOUT_FILENO, text)) {
-        if (errno == EPIPE)
+void write_standard_output(const LongText& text) {
+    const auto require = [](bool written) {
+        if (!written && errno == EPIPE)
             throw ClosedPipe("cannot write to standard output: nobody reads it");
-        throw OutputError("cannot write to standard output: " + reason());
-    }
+        if (!written)
+            throw OutputError("cannot write to standard output: " + reason());
+    };
+    // What the library of the command line has printed comes first.
+    require(std::fflush(stdout) == 0);
+    text.tell([&](std::string_view piece) { require(write_whole(STDOUT_FILENO, piece)); });
 }
 
 } // namespace tvbeam

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "reports/files/long_text.hpp"
+
 #include <filesystem>
 #include <stdexcept>
 #include <string>
@@ -34,7 +36,7 @@ public:
 
     /// Brings the text to the disk, not yet under the file's name. Throws OutputError when it
     /// cannot be written.
-    void prepare(const std::string& text);
+    void prepare(const LongText& text);
 
     /// Gives what was prepared the file's name. The machine may forget that until sync(). Throws
     /// OutputError, and leaves an older file of the name as it was.
@@ -48,7 +50,7 @@ public:
 
     /// All of it. Throws OutputError, and leaves an older file of the name as it was, when the text
     /// cannot be written.
-    void commit(const std::string& text);
+    void commit(const LongText& text);
 
 private:
     /// What stands under the file's name, and under the temporary one.
@@ -69,6 +71,6 @@ private:
 
 /// Writes to standard output; throws ClosedPipe, or OutputError when it fails otherwise (a full
 /// disk).
-void write_standard_output(const std::string& text);
+void write_standard_output(const LongText& text);
 
 } // namespace tvbeam

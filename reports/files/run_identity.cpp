@@ -4,6 +4,7 @@
 #include "mms/text/characters.hpp"
 #include "reports/files/build_ids.hpp"
 #include "reports/files/provenance.hpp"
+#include "studies/external/external_runs.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -54,18 +55,21 @@ nlohmann::ordered_json run_identity(const Scene& scene) {
             lines.push_back({phase.until ? phase.until->text() : "", phase.theta.text(),
                              phase.u.text(), phase.sigma ? phase.sigma->text() : ""});
     }
+    if (scene.solver) // the levels are in the scene
+        identity["solver"] = RunIdentities(*scene.solver).of(scene.series().front(), 0);
     return identity;
 }
 
 std::string difference_of(const nlohmann::ordered_json& there, const nlohmann::ordered_json& here) {
     for (const auto& [part, words] : {std::pair<std::string, std::string>{"scene", "another scene"},
                                       {"build", "another build of tvbeam"},
+                                      {"solver", "another state of the program under study"},
                                       {"processor", "another kind of processor"}}) {
-        if (there.contains(part) && there[part] == here[part])
+        if (there.value(part, Identity()) == here.value(part, Identity()))
             continue;
         std::set<std::string> keys;
-        const Identity before = there.contains(part) ? there[part] : Identity();
-        for (const auto& change : Identity::diff(before, here[part]))
+        for (const auto& change :
+             Identity::diff(there.value(part, Identity()), here.value(part, Identity())))
             keys.insert(key_of(change["path"]));
         std::string listed;
         for (const auto& key : keys)

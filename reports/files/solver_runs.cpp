@@ -2,7 +2,6 @@
 
 #include "mms/text/input_error.hpp"
 #include "reports/files/output_file.hpp"
-#include "studies/stress/stress_case.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -24,13 +23,12 @@ SolverRuns::SolverRuns(const std::filesystem::path& directory, const Scene& scen
     : scene_(scene), identities_(*scene.solver), file_(directory / "solver-runs.jsonl") {
     const OutputFile writable(file_.path());
     if (std::filesystem::exists(file_.path()))
-        file_.read(
-            [this](std::size_t number, const std::string& line) { read_line(number, line); });
+        torn_ = file_.read([this](const KeptLine& line) { read_line(line); });
 }
 
-void SolverRuns::read_line(std::size_t number, const std::string& line) {
+void SolverRuns::read_line(const KeptLine& line) {
     try {
-        const Json json = Json::parse(line);
+        const Json json = Json::parse(line.text);
         if (json.at("schema") != runs_schema)
             throw std::invalid_argument(std::string("its schema is not ") + runs_schema);
         Run& run = runs_[json.at("of").get<std::string>()];
@@ -38,7 +36,7 @@ void SolverRuns::read_line(std::size_t number, const std::string& line) {
         for (const auto& [name, figure] : json.at("figures").items())
             run.figures[name] = figure.get<double>();
     } catch (const std::exception& error) {
-        throw InputError({file_.path().string(), static_cast<int>(number), 1},
+        throw InputError({file_.path().string(), static_cast<int>(line.number), 1},
                          fmt::format("is not what tvbeam wrote: {}; remove the file to make its "
                                      "runs anew",
                                      error.what()));
@@ -95,11 +93,12 @@ void SolverRuns::add(const Series& series, std::size_t index, const RungResult& 
     }
 }
 
-std::optional<StressCase> SolverRuns::find_case(std::size_t /*index*/) {
-    return std::nullopt;
+std::any SolverRuns::find_part(const std::string& /*study*/, std::size_t /*index*/) {
+    return {};
 }
 
-void SolverRuns::add_case(std::size_t /*index*/, const StressCase& /*result*/) {}
+void SolverRuns::add_part(const std::string& /*study*/, std::size_t /*index*/,
+                          const std::any& /*result*/) {}
 
 std::size_t SolverRuns::found() {
     std::size_t count = 0;

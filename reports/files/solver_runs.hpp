@@ -25,8 +25,8 @@ public:
 
     std::optional<RungResult> find(const Series& series, std::size_t index) override;
     void add(const Series& series, std::size_t index, const RungResult& result) override;
-    std::optional<StressCase> find_case(std::size_t index) override;
-    void add_case(std::size_t index, const StressCase& result) override;
+    std::any find_part(const std::string& study, std::size_t index) override;
+    void add_part(const std::string& study, std::size_t index, const std::any& result) override;
 
     /// How many of the scene's runs are there.
     [[nodiscard]] std::size_t found();
@@ -38,6 +38,8 @@ public:
         return !runs_.empty();
     }
     [[nodiscard]] const std::filesystem::path& path() const { return file_.path(); }
+    /// What of the file is not whole.
+    [[nodiscard]] const TornLines& torn() const { return torn_; }
 
     void write(); ///< what is not yet on the disk
 
@@ -49,13 +51,14 @@ private:
         double seconds = 0.0;
         std::map<std::string, double> figures; ///< errors and values by name
     };
-    void read_line(std::size_t number, const std::string& line);
+    void read_line(const KeptLine& line);
     std::optional<RungResult> kept(const Series& series, std::size_t index) const;
 
     const Scene& scene_;
     RunIdentities identities_;
     LineFile file_;
     mutable std::mutex mutex_;
+    TornLines torn_;
     std::string failure_;
     std::map<std::string, Run> runs_; ///< by identity
     std::size_t used_ = 0;            ///< runs that were found

@@ -20,9 +20,9 @@ bool is_study_csv(const std::string& name, const std::string& first_line) {
     return false;
 }
 
-std::string csv_report(const StudyResult& result) {
+LongText csv_report(const StudyResult& result) {
     const auto all = study_csvs(result);
-    return all.empty() ? "" : all.front().text; // none of an interrupted study
+    return all.empty() ? LongText("") : all.front().text; // none of an interrupted study
 }
 
 struct CsvFormat final : ReportFormat {

@@ -19,6 +19,6 @@ bool is_study_csv(const std::string& name, const std::string& first_line);
 /// reason. Of a scene that has neither, the rows of [work_precision]: scheme, then the same
 /// columns, and in place of seconds their minimum, quartiles and number, and counters; beside a
 /// ladder or a grid they stand in the JSON report only.
-std::string csv_report(const StudyResult& result);
+LongText csv_report(const StudyResult& result);
 
 } // namespace tvbeam

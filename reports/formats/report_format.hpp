@@ -1,6 +1,7 @@
 #pragma once
 
 #include "reports/document/document.hpp"
+#include "reports/files/long_text.hpp"
 #include "reports/formats/html_report.hpp"
 #include "reports/plots/gnuplot.hpp"
 #include "reports/plots/plot.hpp"
@@ -16,7 +17,7 @@ namespace tvbeam {
 
 struct NamedText {
     std::string name; ///< of a file within the directory
-    std::string text;
+    LongText text;
 };
 
 /// What is reported: the result of a scene, or the analysis of a table. Formats call for what they

@@ -7,18 +7,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <functional>
 #include <map>
 #include <optional>
+#include <set>
 
 namespace tvbeam {
 
 namespace {
-
-constexpr std::array<Outcome, 4> outcomes{Outcome::certified, Outcome::refused, Outcome::stopped,
-                                          Outcome::failed};
 
 /// A number that a case has, ≥ 0; infinite for the gap of a beam without stops.
 struct Parameter {
@@ -43,39 +40,43 @@ const std::vector<Parameter>& parameters() {
 /// below the smallest positive value, infinity two above the largest.
 class Axis {
 public:
-    Axis(const Parameter& parameter, const std::vector<StressCase>& cases) : name(parameter.name) {
-        std::vector<double> values;
-        values.reserve(cases.size());
-        for (const auto& one : cases)
-            values.push_back(parameter.value(one.parameters));
-        for (const double value : values)
+    explicit Axis(const Parameter& parameter) : name(parameter.name), value_(parameter.value) {}
+
+    /// Every case, before anything is asked.
+    void add(const StressParameters& one) { values_.insert(value_(one)); }
+
+    /// After the last.
+    void close() {
+        for (const double value : values_)
             if (value > 0.0 && std::isfinite(value)) {
-                least = std::min(least.value_or(value), value);
-                greatest = std::max(greatest.value_or(value), value);
+                least = least.value_or(value);
+                greatest = value;
             }
         const double low = least ? std::log10(*least) : 0.0;
         const double high = greatest ? std::log10(*greatest) : 0.0;
         const double apart = std::max(1.0, 0.12 * (high - low));
-        for (const double value : values) {
-            has_zero = has_zero || value <= 0.0;
-            has_infinity = has_infinity || std::isinf(value);
-            places.push_back(value <= 0.0        ? low - apart
-                             : std::isinf(value) ? high + apart
-                                                 : std::log10(value));
-        }
         zero = low - apart;
         infinity = high + apart;
-        const auto [first, last] = std::minmax_element(places.begin(), places.end());
-        begin = *first;
-        end = *last;
+        if (values_.empty())
+            return;
+        has_zero = *values_.begin() <= 0.0;
+        has_infinity = std::isinf(*values_.rbegin());
+        begin = place_of_value(*values_.begin());
+        end = place_of_value(*values_.rbegin());
     }
 
     [[nodiscard]] bool varies() const { return end > begin; }
+    [[nodiscard]] std::size_t distinct() const { return values_.size(); }
 
-    /// The fifth of the axis that a case lies in.
-    [[nodiscard]] int bin(std::size_t i) const {
+    /// Decimal logarithm of the value of a case.
+    [[nodiscard]] double place(const StressParameters& one) const {
+        return place_of_value(value_(one));
+    }
+
+    /// The fifth of the axis that a place lies in.
+    [[nodiscard]] int bin(double place) const {
         constexpr int bins = 5;
-        return std::min(bins - 1, static_cast<int>(bins * (places[i] - begin) / (end - begin)));
+        return std::min(bins - 1, static_cast<int>(bins * (place - begin) / (end - begin)));
     }
 
     [[nodiscard]] std::string ticks() const {
@@ -98,11 +99,16 @@ public:
     }
 
     std::string name;
-    std::vector<double> places; ///< decimal logarithms, one a case
     double begin = 0.0;
     double end = 0.0;
 
 private:
+    [[nodiscard]] double place_of_value(double value) const {
+        return value <= 0.0 ? zero : std::isinf(value) ? infinity : std::log10(value);
+    }
+
+    std::function<double(const StressParameters&)> value_;
+    std::set<double> values_;
     std::optional<double> least;
     std::optional<double> greatest;
     bool has_zero = false;
@@ -118,53 +124,74 @@ std::pair<Outcome, int> fate_of(const StressCase& one) {
     return {one.outcome, static_cast<int>(std::clamp(quarters * closeness, 0.0, quarters))};
 }
 
+using Fate = std::pair<Outcome, int>;
+
+/// How many cases of each fate lie in each fifth of two axes.
+using Cells = std::map<std::pair<int, int>, std::map<Fate, double>>;
+
 /// What the fifths of two axes together tell of the cases' fates: their mutual information, in
 /// nats.
-double information(const Axis& x, const Axis& y, const std::vector<StressCase>& cases) {
-    std::map<std::pair<int, int>, std::map<std::pair<Outcome, int>, double>> cells;
-    std::map<std::pair<Outcome, int>, double> all;
-    for (std::size_t i = 0; i < cases.size(); ++i) {
-        const auto fate = fate_of(cases[i]);
-        ++cells[{x.bin(i), y.bin(i)}][fate];
-        ++all[fate];
-    }
-    const auto total = static_cast<double>(cases.size());
+double information(const Cells& cells) {
+    std::map<Fate, double> all;
+    double total = 0.0;
+    for (const auto& [place, counts] : cells)
+        for (const auto& [fate, count] : counts) {
+            all[fate] += count;
+            total += count;
+        }
     double sum = 0.0;
     for (const auto& [place, counts] : cells) {
         double inside = 0.0;
-        for (const auto& [outcome, count] : counts)
+        for (const auto& [fate, count] : counts)
             inside += count;
-        for (const auto& [outcome, count] : counts)
-            sum += count / total * std::log(count * total / (inside * all[outcome]));
+        for (const auto& [fate, count] : counts)
+            sum += count / total * std::log(count * total / (inside * all[fate]));
     }
     return sum;
 }
 
-/// The two axes that tell most; none where fewer than two parameters vary. Where outcomes tell
-/// nothing, all being alike, the two with the most different values.
-std::optional<std::pair<Axis, Axis>> most_telling(const std::vector<StressCase>& cases) {
+/// Of the parameters that vary.
+std::vector<Axis> axes_of(const StressCases& cases) {
     std::vector<Axis> axes;
     for (const auto& parameter : parameters())
-        if (Axis axis(parameter, cases); axis.varies())
-            axes.push_back(std::move(axis));
-    const auto distinct = [](const Axis& axis) {
-        std::vector<double> values = axis.places;
-        std::sort(values.begin(), values.end());
-        return std::unique(values.begin(), values.end()) - values.begin();
-    };
+        axes.emplace_back(parameter);
+    cases.visit([&](const StressCase& one) {
+        for (auto& axis : axes)
+            axis.add(one.parameters);
+    });
+    for (auto& axis : axes)
+        axis.close();
+    std::erase_if(axes, [](const Axis& axis) { return !axis.varies(); });
+    return axes;
+}
+
+/// The two axes that tell most; none where fewer than two parameters vary. Where outcomes tell
+/// nothing, all being alike, the two with the most different values.
+std::optional<std::pair<Axis, Axis>> most_telling(const StressCases& cases) {
+    const std::vector<Axis> axes = axes_of(cases);
+    std::map<std::pair<std::size_t, std::size_t>, Cells> cells;
+    std::vector<int> bins(axes.size());
+    cases.visit([&](const StressCase& one) {
+        const Fate fate = fate_of(one);
+        for (std::size_t k = 0; k < axes.size(); ++k)
+            bins[k] = axes[k].bin(axes[k].place(one.parameters));
+        for (std::size_t i = 0; i < axes.size(); ++i)
+            for (std::size_t j = i + 1; j < axes.size(); ++j)
+                ++cells[{i, j}][{bins[i], bins[j]}][fate];
+    });
     std::optional<std::pair<Axis, Axis>> best;
     std::pair<double, double> most{-1.0, -1.0};
-    for (std::size_t i = 0; i < axes.size(); ++i)
-        for (std::size_t j = i + 1; j < axes.size(); ++j) {
-            // Differences of round-off size are none.
-            const std::pair<double, double> told{
-                std::round(1e9 * information(axes[i], axes[j], cases)),
-                static_cast<double>(distinct(axes[i]) * distinct(axes[j]))};
-            if (told > most) {
-                most = told;
-                best.emplace(axes[i], axes[j]);
-            }
+    for (const auto& [pair, counts] : cells) {
+        const auto& [i, j] = pair;
+        // Differences of round-off size are none.
+        const std::pair<double, double> told{
+            std::round(1e9 * information(counts)),
+            static_cast<double>(axes[i].distinct() * axes[j].distinct())};
+        if (told > most) {
+            most = told;
+            best.emplace(axes[i], axes[j]);
         }
+    }
     return best;
 }
 
@@ -193,28 +220,22 @@ struct Place {
 };
 using Places = std::map<std::pair<double, double>, Place>;
 
-Places places_of(const std::vector<StressCase>& cases, Outcome outcome, const Axis& x,
-                 const Axis& y) {
-    Places places;
-    for (std::size_t i = 0; i < cases.size(); ++i) {
-        if (cases[i].outcome != outcome)
-            continue;
-        Place& place = places[{x.places[i], y.places[i]}];
+std::map<Outcome, Places> places_of(const StressCases& cases, const Axis& x, const Axis& y) {
+    std::map<Outcome, Places> places;
+    cases.visit([&](const StressCase& one) {
+        Place& place = places[one.outcome][{x.place(one.parameters), y.place(one.parameters)}];
         ++place.count;
-        if (cases[i].checks)
-            place.closeness = std::max(
-                place.closeness, cases[i].checks->closeness(cases[i].parameters.stops.exist()));
-    }
+        if (one.checks)
+            place.closeness =
+                std::max(place.closeness, one.checks->closeness(one.parameters.stops.exist()));
+    });
     return places;
 }
 
 /// Certified cases, each place in the colour of how near its checks came to a limit, the nearest on
 /// top; the others by marks.
-void add_outcome(Drawing& drawing, const StressResult& stress, Outcome outcome, const Axis& x,
-                 const Axis& y) {
-    const Places places = places_of(stress.cases, outcome, x, y);
-    if (places.empty())
-        return;
+void add_outcome(Drawing& drawing, Outcome outcome, std::size_t count, const Places& places,
+                 const Axis& x, const Axis& y) {
     std::vector<std::pair<std::pair<double, double>, Place>> sorted(places.begin(), places.end());
     std::stable_sort(sorted.begin(), sorted.end(), [](const auto& a, const auto& b) {
         return a.second.closeness < b.second.closeness;
@@ -227,7 +248,7 @@ void add_outcome(Drawing& drawing, const StressResult& stress, Outcome outcome, 
                     name_of(outcome), x.name, y.name),
         rows);
     const OutcomeStyle style = style_of(outcome);
-    const std::string title = fmt::format("{}: {}", name_of(outcome), stress.count(outcome));
+    const std::string title = fmt::format("{}: {}", name_of(outcome), count);
     if (outcome == Outcome::certified)
         drawing.add_curve(block + " using 1:2:4 with points pt 7 ps 0.8 lc palette", title);
     else
@@ -248,8 +269,8 @@ std::vector<Plot> stress_plots(const StudyResult& result) {
         return {};
     const auto& [x, y] = *axes;
     Drawing drawing;
-    for (const Outcome outcome : outcomes)
-        add_outcome(drawing, *stress, outcome, x, y);
+    for (const auto& [outcome, places] : places_of(cases, x, y))
+        add_outcome(drawing, outcome, cases.count(outcome), places, x, y);
     const double room_x = 0.06 * (x.end - x.begin);
     const double room_y = 0.06 * (y.end - y.begin);
     const std::string settings =

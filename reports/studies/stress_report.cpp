@@ -15,6 +15,9 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
+/// Each is about 4 kB of memory while it is written.
+constexpr std::size_t most_in_json = 20'000;
+
 Json stop(double value) {
     return std::isfinite(value) ? Json(value) : Json(value < 0.0 ? "-inf" : "inf");
 }
@@ -95,14 +98,18 @@ Json json_of(const RoundOffTable& table) {
 }
 
 Json json_of(const StressResult& result) {
-    Json cases = Json::array();
-    for (const auto& one : result.cases)
-        cases.push_back(json_of(one));
-    Json json{{"certified", result.count(Outcome::certified)},
-              {"refused", result.count(Outcome::refused)},
-              {"stopped", result.count(Outcome::stopped)},
-              {"failed", result.count(Outcome::failed)},
-              {"cases", std::move(cases)}};
+    const StressCases& all = result.cases;
+    Json json{{"certified", all.count(Outcome::certified)},
+              {"refused", all.count(Outcome::refused)},
+              {"stopped", all.count(Outcome::stopped)},
+              {"failed", all.count(Outcome::failed)}};
+    if (all.size() <= most_in_json) {
+        json["cases"] = Json::array();
+        all.visit([&json](const StressCase& one) { json["cases"].push_back(json_of(one)); });
+    } else {
+        json["cases_left_out"] = fmt::format(
+            "{} cases are more than {}: their rows stand in the CSV", all.size(), most_in_json);
+    }
     if (result.contraction)
         json["contraction"] = json_of(*result.contraction);
     if (result.roundoff)
@@ -110,29 +117,40 @@ Json json_of(const StressResult& result) {
     return json;
 }
 
-std::string stress_csv(const StressResult& result) {
-    std::string text =
-        "alpha,zeta,dt,elements,steps,g1,g2,theta_A,load,initial,seed,time,thermal_mass,"
-        "algorithm,outcome,energy,heat_residual,beam_residual,penetration,"
-        "wrong_sign,complementarity,path,error,order_defect,seconds,reason\n";
-    for (const auto& one : result.cases) {
-        const StressParameters& p = one.parameters;
-        text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}", p.alpha, p.zeta, p.dt,
-                            p.elements, p.steps, p.stops.lower, p.stops.upper, p.theta_A, p.load,
-                            name_of(p.initial), p.seed, p.time, name_of(p.thermal_mass),
-                            name_of(p.algorithm), name_of(one.outcome));
-        const auto check = [&](double StressChecks::*member) {
-            return finite_field(one.checks ? std::optional((*one.checks).*member) : std::nullopt);
-        };
-        text += check(&StressChecks::energy) + check(&StressChecks::heat_residual) +
-                check(&StressChecks::beam_residual) + check(&StressChecks::penetration) +
-                check(&StressChecks::wrong_sign) + check(&StressChecks::complementarity) +
-                finite_field(one.checks ? one.checks->path : std::nullopt) +
-                finite_field(one.checks ? one.checks->error : std::nullopt) +
-                finite_field(one.checks ? one.checks->order_defect : std::nullopt);
-        text += fmt::format(",{},{}\n", one.seconds, quoted(one.reason));
-    }
-    return text;
+std::string csv_row(const StressCase& one) {
+    const StressParameters& p = one.parameters;
+    std::string text = fmt::format(
+        "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}", p.alpha, p.zeta, p.dt, p.elements, p.steps,
+        p.stops.lower, p.stops.upper, p.theta_A, p.load, name_of(p.initial), p.seed, p.time,
+        name_of(p.thermal_mass), name_of(p.algorithm), name_of(one.outcome));
+    const auto check = [&](double StressChecks::*member) {
+        return finite_field(one.checks ? std::optional((*one.checks).*member) : std::nullopt);
+    };
+    text += check(&StressChecks::energy) + check(&StressChecks::heat_residual) +
+            check(&StressChecks::beam_residual) + check(&StressChecks::penetration) +
+            check(&StressChecks::wrong_sign) + check(&StressChecks::complementarity) +
+            finite_field(one.checks ? one.checks->path : std::nullopt) +
+            finite_field(one.checks ? one.checks->error : std::nullopt) +
+            finite_field(one.checks ? one.checks->order_defect : std::nullopt);
+    return text + fmt::format(",{},{}\n", one.seconds, quoted(one.reason));
+}
+
+LongText stress_csv(const StressCases& cases) {
+    return LongText([cases](const LongText::Sink& sink) {
+        std::string rows =
+            "alpha,zeta,dt,elements,steps,g1,g2,theta_A,load,initial,seed,time,thermal_mass,"
+            "algorithm,outcome,energy,heat_residual,beam_residual,penetration,"
+            "wrong_sign,complementarity,path,error,order_defect,seconds,reason\n";
+        constexpr std::size_t at_a_time = 65'536; // bytes
+        cases.visit([&](const StressCase& one) {
+            rows += csv_row(one);
+            if (rows.size() > at_a_time) {
+                sink(rows);
+                rows.clear();
+            }
+        });
+        sink(rows);
+    });
 }
 
 std::string contraction_csv(const ContractionMap& map) {
@@ -171,7 +189,7 @@ struct StressReport final : StudyReport {
         const StressResult& stress = *result.get<StressResult>();
         std::vector<StudyCsv> all;
         if (!stress.cases.empty())
-            all.push_back({study(), stress_csv(stress)});
+            all.push_back({study(), stress_csv(stress.cases)});
         if (stress.contraction)
             all.push_back({"contraction", contraction_csv(*stress.contraction)});
         if (stress.roundoff)

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "reports/document/document.hpp"
+#include "reports/files/long_text.hpp"
 #include "reports/plots/plot.hpp"
 #include "studies/study.hpp"
 #include "studies/table_rows.hpp"
@@ -17,7 +18,7 @@ namespace tvbeam {
 /// undefined number is an empty field.
 struct StudyCsv {
     std::string name; ///< of its file without .csv: that of the study, or of a part of it
-    std::string text;
+    LongText text;
 };
 
 /// What reports say of one kind of study, from the record that a result has of it.

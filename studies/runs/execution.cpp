@@ -3,6 +3,8 @@
 #include "studies/runs/parallel.hpp"
 
 #include <algorithm>
+#include <mutex>
+#include <utility>
 
 namespace tvbeam {
 
@@ -28,6 +30,8 @@ RungResult run_or_find(const Series& series, std::size_t index, const RunCall& r
         execution.expect(-work_of(series.method, rung));
         return *std::move(kept);
     }
+    if (execution.only_finished)
+        return {.rung = rung, .status = RungStatus::interrupted, .reason = "it was not made yet"};
     RungResult result = made();
     if (result.status != RungStatus::interrupted)
         execution.finished->add(series, index, result);
@@ -45,6 +49,37 @@ std::vector<RungResult> run_series(const Series& series, const RunCall& run,
         results[i] = run_or_find(series, i, run, execution);
     });
     return results;
+}
+
+std::any make_or_find(const Parts& parts, std::size_t index, const Execution& execution) {
+    const double work = parts.work(index);
+    if (execution.finished != nullptr)
+        if (std::any kept = execution.finished->find_part(parts.study, index); kept.has_value()) {
+            execution.expect(-work);
+            return kept;
+        }
+    if (execution.only_finished || !execution.advance(0.0))
+        return {};
+    std::any result = parts.make(index);
+    if (execution.finished != nullptr)
+        execution.finished->add_part(parts.study, index, result);
+    execution.advance(work);
+    return result;
+}
+
+void run_parts(const Parts& parts, const Execution& execution,
+               const std::function<void(std::size_t, std::any)>& take) {
+    std::vector<double> costs;
+    costs.reserve(parts.count);
+    for (std::size_t i = 0; i < parts.count; ++i)
+        costs.push_back(parts.work(i));
+    std::mutex one_at_a_time;
+    for_each_longest_first(costs, execution.jobs, [&](std::size_t i) {
+        std::any result = make_or_find(parts, i, execution);
+        const std::scoped_lock lock(one_at_a_time);
+        if (result.has_value())
+            take(i, std::move(result));
+    });
 }
 
 } // namespace tvbeam

@@ -2,6 +2,7 @@
 
 #include "studies/runs/run.hpp"
 
+#include <any>
 #include <cstddef>
 #include <functional>
 #include <optional>
@@ -9,8 +10,6 @@
 #include <vector>
 
 namespace tvbeam {
-
-struct StressCase;
 
 /// Told of work as it is done, by several threads at a time.
 class Progress {
@@ -24,6 +23,14 @@ public:
     virtual bool advance(double work) = 0;
 };
 
+/// Work of a study besides its series, in parts that are done apart from each other, in any order.
+struct Parts {
+    std::string study; ///< by which results are kept, e.g. "stress"
+    std::size_t count = 0;
+    std::function<double(std::size_t)> work;   ///< of a part; unit: work_of
+    std::function<std::any(std::size_t)> make; ///< its result; several threads call at a time
+};
+
 /// Results of single runs, kept from an earlier attempt at the same scene and for a later one.
 /// Asked and told by several threads at a time.
 class FinishedRuns {
@@ -34,9 +41,9 @@ public:
     virtual std::optional<RungResult> find(const Series& series, std::size_t index) = 0;
     virtual void add(const Series& series, std::size_t index, const RungResult& result) = 0;
 
-    /// The same for the cases of [stress], all sweeps in turn; found without its parameters.
-    virtual std::optional<StressCase> find_case(std::size_t index) = 0;
-    virtual void add_case(std::size_t index, const StressCase& result) = 0;
+    /// The same for a part of Parts::study; empty where it is not there.
+    virtual std::any find_part(const std::string& study, std::size_t index) = 0;
+    virtual void add_part(const std::string& study, std::size_t index, const std::any& result) = 0;
 };
 
 /// How the runs of a study are carried out. Nothing of it changes a result, but a study that is
@@ -45,6 +52,7 @@ struct Execution {
     int jobs = 1;                     ///< runs at a time, ≥ 1
     Progress* progress = nullptr;     ///< null: nobody is told
     FinishedRuns* finished = nullptr; ///< null: nothing is kept
+    bool only_finished = false;       ///< what is not there is left undone, as interrupted
 
     void expect(double work) const {
         if (progress != nullptr)
@@ -66,5 +74,13 @@ RungResult run_or_find(const Series& series, std::size_t index, const RunCall& r
 /// of the rungs and do not depend on the number of jobs, but for their seconds.
 std::vector<RungResult> run_series(const Series& series, const RunCall& run,
                                    const Execution& execution);
+
+/// The result of a part, in the same manner; empty where the work was interrupted before it.
+std::any make_or_find(const Parts& parts, std::size_t index, const Execution& execution);
+
+/// Makes every part, in up to `execution.jobs` threads. Those that are there, kept or new, are
+/// given to `take`, one at a time and in any order.
+void run_parts(const Parts& parts, const Execution& execution,
+               const std::function<void(std::size_t index, std::any result)>& take);
 
 } // namespace tvbeam

@@ -48,25 +48,35 @@ double ContractionMap::greatest_ratio() const {
     return ratios_of(*this).maxCoeff<Eigen::PropagateNumbers>();
 }
 
-ContractionMap measure_contraction(const ContractionBlock& block) {
-    const auto rows = static_cast<Eigen::Index>(block.dt.size());
-    const auto columns = static_cast<Eigen::Index>(block.alpha.size());
-    ContractionMap map{block, Eigen::ArrayXXd(rows, columns), Eigen::ArrayXXd(rows, columns)};
+ContractionRow measure_contraction(const ContractionBlock& block, std::size_t row) {
     const Mesh mesh = Mesh::uniform(block.elements);
-    for (Eigen::Index i = 0; i < rows; ++i)
-        for (Eigen::Index j = 0; j < columns; ++j) {
-            const Beam beam{.alpha = block.alpha[static_cast<std::size_t>(j)], .zeta = block.zeta};
-            Scheme scheme;
-            scheme.algorithm = Algorithm::fixed_point;
-            scheme.thermal_mass = block.thermal_mass;
-            scheme.time = without_history(TimeScheme::named(block.time));
-            // Two changes are compared; they are not to be lost in round-off.
-            scheme.tolerance = std::numeric_limits<double>::min();
-            const double dt = block.dt[static_cast<std::size_t>(i)];
-            const double c = scheme.time.stages.back().leading / dt;
-            map.predicted(i, j) = contraction(beam, mesh, block.thermal_mass, c);
-            map.measured(i, j) = measured_contraction(beam, mesh, scheme, dt);
-        }
+    const double dt = block.dt[row];
+    ContractionRow ratios;
+    for (const double alpha : block.alpha) {
+        const Beam beam{.alpha = alpha, .zeta = block.zeta};
+        Scheme scheme;
+        scheme.algorithm = Algorithm::fixed_point;
+        scheme.thermal_mass = block.thermal_mass;
+        scheme.time = without_history(TimeScheme::named(block.time));
+        // Two changes are compared; they are not to be lost in round-off.
+        scheme.tolerance = std::numeric_limits<double>::min();
+        const double c = scheme.time.stages.back().leading / dt;
+        ratios.predicted.push_back(contraction(beam, mesh, block.thermal_mass, c));
+        ratios.measured.push_back(measured_contraction(beam, mesh, scheme, dt));
+    }
+    return ratios;
+}
+
+ContractionMap contraction_map(const ContractionBlock& block,
+                               const std::vector<ContractionRow>& rows) {
+    const auto height = static_cast<Eigen::Index>(rows.size());
+    const auto width = static_cast<Eigen::Index>(block.alpha.size());
+    ContractionMap map{block, Eigen::ArrayXXd(height, width), Eigen::ArrayXXd(height, width)};
+    for (Eigen::Index i = 0; i < height; ++i) {
+        const ContractionRow& row = rows[static_cast<std::size_t>(i)];
+        map.predicted.row(i) = Eigen::Map<const Eigen::RowVectorXd>(row.predicted.data(), width);
+        map.measured.row(i) = Eigen::Map<const Eigen::RowVectorXd>(row.measured.data(), width);
+    }
     return map;
 }
 

@@ -4,6 +4,9 @@
 
 #include <Eigen/Core>
 
+#include <cstddef>
+#include <vector>
+
 namespace tvbeam {
 
 /// The contraction of the fixed point over a map of (α, Δt), predicted (core/contraction.hpp) and
@@ -23,6 +26,16 @@ struct ContractionMap {
     [[nodiscard]] Eigen::Index refused() const { return (predicted >= 1.0).count(); }
 };
 
-ContractionMap measure_contraction(const ContractionBlock& block);
+/// One row of the map: the same Δt, every α.
+struct ContractionRow {
+    std::vector<double> predicted;
+    std::vector<double> measured;
+};
+
+ContractionRow measure_contraction(const ContractionBlock& block, std::size_t row);
+
+/// Of all its rows.
+ContractionMap contraction_map(const ContractionBlock& block,
+                               const std::vector<ContractionRow>& rows);
 
 } // namespace tvbeam

@@ -97,7 +97,10 @@ std::optional<double> sine_floor(const RoundOffBlock& block, const Beam& beam, c
     return std::max(std::abs(result.errors[0] - sum) / sum, std::abs(result.errors[1] - w) / w);
 }
 
-RoundOffRow row_of(const RoundOffBlock& block, std::int64_t elements) {
+} // namespace
+
+RoundOffRow measure_round_off(const RoundOffBlock& block, std::size_t index) {
+    const std::int64_t elements = block.elements[index];
     const Beam beam{.alpha = block.alpha, .zeta = block.zeta};
     const Mesh mesh = Mesh::uniform(elements);
     const auto modes = discrete_mode(beam, block.thermal_mass, block.time, elements, {1.0L, 0.0L},
@@ -120,6 +123,8 @@ RoundOffRow row_of(const RoundOffBlock& block, std::int64_t elements) {
         row.remark = "the Hermite form's predicted round-off exceeds the discretisation error";
     return row;
 }
+
+namespace {
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
@@ -153,13 +158,6 @@ double RoundOffTable::least_hermite_ratio() const {
 double RoundOffTable::greatest_hermite_ratio() const {
     const Eigen::ArrayXd ratios = hermite_ratios(rows);
     return ratios.size() == 0 ? unknown : ratios.maxCoeff<Eigen::PropagateNaN>();
-}
-
-RoundOffTable measure_round_off(const RoundOffBlock& block) {
-    RoundOffTable table;
-    for (const std::int64_t elements : block.elements)
-        table.rows.push_back(row_of(block, elements));
-    return table;
 }
 
 } // namespace tvbeam

@@ -2,6 +2,7 @@
 
 #include "studies/stress/stress_block.hpp"
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -37,6 +38,7 @@ struct RoundOffTable {
     [[nodiscard]] double greatest_hermite_ratio() const; ///< measured/predicted
 };
 
-RoundOffTable measure_round_off(const RoundOffBlock& block);
+/// The row of block.elements[row].
+RoundOffRow measure_round_off(const RoundOffBlock& block, std::size_t row);
 
 } // namespace tvbeam

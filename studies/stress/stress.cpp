@@ -1,22 +1,23 @@
 #include "studies/stress/stress.hpp"
 
-#include "studies/runs/parallel.hpp"
-
-#include <algorithm>
+#include <any>
+#include <utility>
 
 namespace tvbeam {
 
-std::int64_t StressResult::count(Outcome outcome) const {
-    return std::count_if(cases.begin(), cases.end(),
-                         [&](const StressCase& one) { return one.outcome == outcome; });
-}
+namespace {
+
+/// What is iterated in a point of a map or of a floor, in steps.
+constexpr double steps_a_point = 100.0;
+
+} // namespace
 
 std::map<std::string, double> StressResult::figures() const {
     std::map<std::string, double> figures;
     if (!cases.empty()) {
         for (const Outcome outcome :
              {Outcome::certified, Outcome::refused, Outcome::stopped, Outcome::failed})
-            figures[name_of(outcome)] = static_cast<double>(count(outcome));
+            figures[name_of(outcome)] = static_cast<double>(cases.count(outcome));
         figures["cases"] = static_cast<double>(cases.size());
     }
     if (contraction) {
@@ -32,42 +33,78 @@ std::map<std::string, double> StressResult::figures() const {
     return figures;
 }
 
+namespace {
+
 double work_of(const StressParameters& parameters) {
     return static_cast<double>(parameters.elements) * static_cast<double>(parameters.steps);
 }
 
-StressResult run_stress(const StressBlock& block, const Execution& execution) {
-    std::vector<const StressParameters*> all;
-    std::vector<double> costs;
-    for (const auto& sweep : block.sweeps)
-        for (const auto& parameters : sweep.cases) {
-            all.push_back(&parameters);
-            costs.push_back(work_of(parameters));
-        }
-    std::vector<std::optional<StressCase>> cases(all.size());
-    for_each_longest_first(costs, execution.jobs, [&](std::size_t i) {
-        if (execution.finished != nullptr)
-            cases[i] = execution.finished->find_case(i);
-        if (cases[i]) {
-            cases[i]->parameters = *all[i];
-            execution.expect(-costs[i]);
-        } else if (execution.advance(0.0)) {
-            cases[i] = judge(*all[i]);
-            if (execution.finished != nullptr)
-                execution.finished->add_case(i, *cases[i]);
-            execution.advance(costs[i]);
-        }
+Parts case_parts(const StressBlock& block) {
+    return {"stress", block.cases(), [&block](std::size_t i) { return work_of(block.case_at(i)); },
+            [&block](std::size_t i) -> std::any { return judge(block.case_at(i)); }};
+}
+
+Parts contraction_parts(const ContractionBlock& block) {
+    return {"stress.contraction", block.dt.size(),
+            [&block](std::size_t /*row*/) {
+                return steps_a_point * static_cast<double>(block.alpha.size()) *
+                       static_cast<double>(block.elements);
+            },
+            [&block](std::size_t row) -> std::any { return measure_contraction(block, row); }};
+}
+
+Parts round_off_parts(const RoundOffBlock& block) {
+    return {"stress.roundoff", block.elements.size(),
+            [&block](std::size_t row) {
+                return steps_a_point * static_cast<double>(block.steps) *
+                       static_cast<double>(block.elements[row]);
+            },
+            [&block](std::size_t row) -> std::any { return measure_round_off(block, row); }};
+}
+
+/// All results of the parts, in their order; none where one is missing.
+template <typename Row>
+std::optional<std::vector<Row>> rows_of(const Parts& parts, const Execution& execution) {
+    std::vector<Row> rows(parts.count);
+    std::size_t there = 0;
+    run_parts(parts, execution, [&](std::size_t i, std::any row) {
+        rows[i] = std::any_cast<Row>(std::move(row));
+        ++there;
     });
+    return there == parts.count ? std::optional(std::move(rows)) : std::nullopt;
+}
+
+} // namespace
+
+std::vector<Parts> parts_of(const StressBlock& block) {
+    std::vector<Parts> all{case_parts(block)};
+    if (block.contraction)
+        all.push_back(contraction_parts(*block.contraction));
+    if (block.roundoff)
+        all.push_back(round_off_parts(*block.roundoff));
+    return all;
+}
+
+StressResult run_stress(const StressBlock& block, const Execution& execution) {
     StressResult result;
-    for (auto& one : cases)
-        if (one)
-            result.cases.push_back(*std::move(one));
-    result.interrupted = result.cases.size() < cases.size();
-    if (block.contraction && execution.advance(0.0))
-        result.contraction = measure_contraction(*block.contraction);
-    if (block.roundoff && execution.advance(0.0))
-        result.roundoff = measure_round_off(*block.roundoff);
-    result.interrupted = result.interrupted || !execution.advance(0.0);
+    run_parts(case_parts(block), execution, [&](std::size_t i, std::any judged) {
+        auto& one = *std::any_cast<StressCase>(&judged);
+        one.parameters = block.case_at(i); // results are kept without
+        result.cases.set(i, one);
+    });
+    result.interrupted = result.cases.size() < block.cases();
+    if (block.contraction) {
+        const auto rows = rows_of<ContractionRow>(contraction_parts(*block.contraction), execution);
+        if (rows)
+            result.contraction = contraction_map(*block.contraction, *rows);
+        result.interrupted = result.interrupted || !rows;
+    }
+    if (block.roundoff) {
+        auto rows = rows_of<RoundOffRow>(round_off_parts(*block.roundoff), execution);
+        result.interrupted = result.interrupted || !rows;
+        if (rows)
+            result.roundoff = RoundOffTable{*std::move(rows)};
+    }
     return result;
 }
 

@@ -3,7 +3,7 @@
 #include "studies/runs/execution.hpp"
 #include "studies/stress/contraction_map.hpp"
 #include "studies/stress/roundoff.hpp"
-#include "studies/stress/stress_case.hpp"
+#include "studies/stress/stress_cases.hpp"
 
 #include <map>
 #include <optional>
@@ -14,13 +14,12 @@ namespace tvbeam {
 
 /// The record of a [stress] study.
 struct StressResult {
-    std::vector<StressCase> cases; ///< of all sweeps in turn
+    StressCases cases; ///< of all sweeps in turn
     std::optional<ContractionMap> contraction;
     std::optional<RoundOffTable> roundoff;
     bool interrupted = false;
 
-    [[nodiscard]] std::int64_t count(Outcome outcome) const;
-    [[nodiscard]] bool failed() const { return interrupted || count(Outcome::failed) > 0; }
+    [[nodiscard]] bool failed() const { return interrupted || cases.count(Outcome::failed) > 0; }
 
     /// What [expect.stress] may hold bands for.
     [[nodiscard]] std::map<std::string, double> figures() const;
@@ -30,7 +29,9 @@ struct StressResult {
 /// cases that were judged.
 StressResult run_stress(const StressBlock& block, const Execution& execution = {});
 
-/// Elements times steps of a case; what it costs, about.
-double work_of(const StressParameters& parameters);
+/// What it is made of, apart from each other: the cases, as "stress" (StressCase); rows of the
+/// contraction map, as "stress.contraction" (ContractionRow); and rows of the round-off table, as
+/// "stress.roundoff" (RoundOffRow). The block must outlive them.
+std::vector<Parts> parts_of(const StressBlock& block);
 
 } // namespace tvbeam

@@ -1,76 +1,24 @@
 #include "studies/stress/stress_block.hpp"
 
 #include "core/certify/stated_scheme.hpp"
-#include "core/gsl_errors.hpp"
 #include "mms/text/toml_reader.hpp"
 #include "studies/scene/study_keys.hpp"
-
-#include <gsl/gsl_qrng.h>
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
-#include <memory>
-#include <new>
+#include <utility>
 
 namespace tvbeam {
 
 namespace {
 
-constexpr std::int64_t most_cases = 100'000; // of all sweeps
+constexpr std::int64_t most_cases = 10'000'000; // of all sweeps
+constexpr std::size_t longest_list = 65'535;    // StressSweep counts in 16 bits
 constexpr std::int64_t most_work = 10'000'000'000;
 
-/// One list of values: sets the one at an index in a case.
-struct Axis {
-    std::size_t values = 1;
-    std::function<void(StressParameters&, std::size_t)> set;
-};
-
-/// The cases that a sampling takes from the axes, by indices.
-using Points = std::vector<std::vector<std::size_t>>;
-
-Points one_at_a_time(const std::vector<Axis>& axes) {
-    Points points{std::vector<std::size_t>(axes.size(), 0)};
-    for (std::size_t k = 0; k < axes.size(); ++k)
-        for (std::size_t i = 1; i < axes[k].values; ++i) {
-            points.emplace_back(axes.size(), 0);
-            points.back()[k] = i;
-        }
-    return points;
-}
-
-Points product(const std::vector<Axis>& axes) {
-    Points points{{}};
-    for (const auto& axis : axes) {
-        Points longer;
-        for (const auto& point : points)
-            for (std::size_t i = 0; i < axis.values; ++i) {
-                longer.push_back(point);
-                longer.back().push_back(i);
-            }
-        points = std::move(longer);
-    }
-    return points;
-}
-
-/// Sobol (1967): a sequence that fills the product of the axes evenly, however long it is.
-Points sobol(const std::vector<Axis>& axes, std::int64_t count) {
-    const std::unique_ptr<gsl_qrng, decltype(&gsl_qrng_free)> generator(
-        gsl_qrng_alloc(gsl_qrng_sobol, static_cast<unsigned>(axes.size())), &gsl_qrng_free);
-    if (!generator)
-        throw std::bad_alloc();
-    Points points;
-    std::vector<double> unit(axes.size());
-    for (std::int64_t n = 0; n < count; ++n) {
-        gsl_qrng_get(generator.get(), unit.data());
-        points.emplace_back();
-        for (std::size_t k = 0; k < axes.size(); ++k)
-            points.back().push_back(static_cast<std::size_t>(
-                std::floor(unit[k] * static_cast<double>(axes[k].values))));
-    }
-    return points;
-}
+using Axis = StressAxis;
 
 template <typename Value>
 Axis axis_of(std::vector<Value> values, Value StressParameters::*member) {
@@ -192,28 +140,25 @@ StressSweep read_sweep(TableReader table, const std::string& name) {
     if (sampling != 2 && table.has("points"))
         throw table.error("points", " belongs to sampling = \"sobol\"; remove it");
     double all = 1.0;
-    for (const auto& axis : axes)
+    for (const auto& axis : axes) {
         all *= static_cast<double>(axis.values);
+        if (axis.values > longest_list)
+            throw InputError(table.place(""), "a list of '" + name + "' makes more than " +
+                                                  std::to_string(longest_list) +
+                                                  " values; shorten it");
+    }
     if (sampling == 1 && all > static_cast<double>(most_cases))
         throw InputError(table.place("sampling"), "the product of the lists has more than " +
                                                       std::to_string(most_cases) +
                                                       " cases; shorten them, or take \"sobol\"");
     table.finish();
 
-    StressSweep sweep{name, {}};
-    const Points chosen = sampling == 0   ? one_at_a_time(axes)
-                          : sampling == 1 ? product(axes)
-                                          : sobol(axes, points);
-    for (const auto& point : chosen) {
-        StressParameters parameters;
-        for (std::size_t k = 0; k < axes.size(); ++k)
-            axes[k].set(parameters, point[k]);
-        parameters.steps = std::clamp<std::int64_t>(work / parameters.elements,
-                                                    std::min<std::int64_t>(2, steps), steps);
-        parameters.seed = static_cast<unsigned>(sweep.cases.size() + 1);
-        sweep.cases.push_back(parameters);
-    }
-    return sweep;
+    return {name,
+            std::move(axes),
+            static_cast<Sampling>(sampling),
+            static_cast<std::size_t>(points),
+            steps,
+            work};
 }
 
 double single(TableReader& table, const char* key, double otherwise, bool positive) {
@@ -279,13 +224,27 @@ RoundOffBlock read_roundoff(TableReader table) {
 
 } // namespace
 
+std::size_t StressBlock::cases() const {
+    std::size_t count = 0;
+    for (const auto& sweep : sweeps)
+        count += sweep.size();
+    return count;
+}
+
+StressParameters StressBlock::case_at(std::size_t index) const {
+    auto sweep = sweeps.begin();
+    for (; index >= sweep->size(); ++sweep)
+        index -= sweep->size();
+    return sweep->at(index);
+}
+
 StressBlock read_stress(TableReader& table) {
     StressBlock block;
     if (auto sweeps = table.table("sweep")) {
         std::size_t cases = 0;
         for (const auto& name : sweeps->unread()) {
             block.sweeps.push_back(read_sweep(*sweeps->table(name), name));
-            cases += block.sweeps.back().cases.size();
+            cases += block.sweeps.back().size();
             if (cases > static_cast<std::size_t>(most_cases))
                 throw sweeps->error(name, " makes them more than " + std::to_string(most_cases) +
                                               " cases, which all sweeps together may have; "

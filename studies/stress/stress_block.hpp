@@ -3,7 +3,9 @@
 #include "core/problem.hpp"
 #include "core/scheme.hpp"
 
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -37,10 +39,41 @@ struct StressParameters {
     Algorithm algorithm = Algorithm::direct;
 };
 
-/// The cases of one table [stress.sweep.NAME].
-struct StressSweep {
-    std::string name;
-    std::vector<StressParameters> cases;
+/// One list of values of a sweep: sets the one at an index in a case.
+struct StressAxis {
+    std::size_t values = 1;
+    std::function<void(StressParameters&, std::size_t)> set;
+};
+
+/// What of the product of the lists becomes a case.
+enum class Sampling {
+    each,    ///< the first values of all, and then one list at a time gone through
+    product, ///< all
+    sobol    ///< Sobol (1967): so many points that fill it evenly
+};
+
+/// The cases of one table [stress.sweep.NAME], each put together when it is asked for.
+class StressSweep {
+public:
+    /// points: of Sobol's sequence. steps: of a case, at most, which work bounds as read_stress
+    /// says.
+    StressSweep(std::string name, std::vector<StressAxis> axes, Sampling sampling,
+                std::size_t points, std::int64_t steps, std::int64_t work);
+
+    [[nodiscard]] const std::string& name() const { return name_; }
+    [[nodiscard]] std::size_t size() const { return size_; }
+    [[nodiscard]] StressParameters at(std::size_t index) const;
+
+private:
+    [[nodiscard]] std::vector<std::size_t> values_of(std::size_t index) const;
+
+    std::string name_;
+    std::vector<StressAxis> axes_;
+    Sampling sampling_;
+    std::int64_t steps_;
+    std::int64_t work_;
+    std::size_t size_ = 0;
+    std::vector<std::uint16_t> sobol_; ///< an index a list, case after case
 };
 
 /// [stress.contraction]: the fixed point's contraction, predicted and measured, on a map.
@@ -70,6 +103,10 @@ struct StressBlock {
     std::vector<StressSweep> sweeps;
     std::optional<ContractionBlock> contraction;
     std::optional<RoundOffBlock> roundoff;
+
+    /// Of all sweeps in turn.
+    [[nodiscard]] std::size_t cases() const;
+    [[nodiscard]] StressParameters case_at(std::size_t index) const;
 };
 
 /// Reads the block. A sweep holds lists of values for

@@ -2,7 +2,7 @@
 
 #include "mms/text/input_error.hpp"
 #include "reports/files/baseline.hpp"
-#include "reports/files/checkpoint.hpp"
+#include "reports/files/finished_work.hpp"
 #include "reports/files/run_identity.hpp"
 #include "studies/data/data_analysis.hpp"
 #include "studies/data/data_file.hpp"
@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include <cmath>
+#include <sstream>
 #include <stdexcept>
 #include <string_view>
 
@@ -37,20 +38,21 @@ const Scene& kept_scene() {
     return scene;
 }
 
-/// The first line of a checkpoint of kept_scene().
+/// The first line of a file of kept_scene().
 const std::string& first_line() {
     static const std::string line = [] {
         const TemporaryDirectory directory;
-        Checkpoint checkpoint(directory.path(), kept_scene(), true);
-        checkpoint.add_case(0, {});
-        checkpoint.write();
+        FinishedWork work(kept_scene(), {});
+        work.keep_in(directory.path() / "unfinished.jsonl");
+        work.add_part("stress", 0, StressCase());
+        work.write();
         const std::string text = directory.read("unfinished.jsonl");
         return text.substr(0, text.find('\n') + 1);
     }();
     return line;
 }
 
-void require_fitting(Checkpoint& checkpoint) {
+void require_fitting(FinishedWork& work) {
     static const Series ladder = kept_scene().series().front();
     static const Series grid = [] {
         Series series = ladder;
@@ -58,7 +60,7 @@ void require_fitting(Checkpoint& checkpoint) {
         return series;
     }();
     for (std::size_t index = 0; index < 2; ++index)
-        if (const auto run = checkpoint.find(ladder, index)) {
+        if (const auto run = work.find(ladder, index)) {
             const bool failed = run->status != RungStatus::ok;
             require(run->errors.size() == (failed ? 0 : 2), "errors of another number of norms");
             require(run->rung.elements == (index == 0 ? 4 : 8), "a run of other elements");
@@ -70,11 +72,14 @@ void require_fitting(Checkpoint& checkpoint) {
                 require(count.value >= 0, "a negative count");
         }
     for (std::size_t index = 0; index < 3; ++index)
-        if (const auto one = checkpoint.find_case(index))
-            require(one->checks.has_value() ==
-                        (one->outcome == Outcome::certified || one->outcome == Outcome::failed),
+        if (const std::any found = work.find_part("stress", index); found.has_value()) {
+            const auto& one = std::any_cast<const StressCase&>(found);
+            require(one.checks.has_value() ==
+                        (one.outcome == Outcome::certified || one.outcome == Outcome::failed),
                     "checks that do not belong to the outcome");
-    require(!checkpoint.find(ladder, 2) && !checkpoint.find(grid, 0) && !checkpoint.find_case(3),
+        }
+    require(!work.find(ladder, 2) && !work.find(grid, 0) &&
+                !work.find_part("stress", 3).has_value(),
             "a run that the scene does not have");
 }
 
@@ -133,6 +138,15 @@ void table(std::span<const std::uint8_t> data) {
     }
 }
 
+/// Lines that the reader takes for whole: what is to be tried lies behind the checksum.
+std::string with_seals(std::span<const std::uint8_t> data) {
+    std::istringstream lines{std::string(text_of(data))};
+    std::string text;
+    for (std::string line; std::getline(lines, line);)
+        text += (line.starts_with('{') ? sealed(line) : line) + "\n";
+    return text;
+}
+
 void kept(std::span<const std::uint8_t> data) {
     const std::uint8_t kind = taken(data);
     try {
@@ -144,10 +158,11 @@ void kept(std::span<const std::uint8_t> data) {
             require(!checked.empty(), "a baseline that nothing is held against");
         } else {
             static const TemporaryDirectory directory;
-            std::string text(text_of(data));
-            directory.write("unfinished.jsonl", kind % 4 == 1 ? text : first_line() + text);
-            Checkpoint checkpoint(directory.path(), kept_scene(), true);
-            require_fitting(checkpoint);
+            directory.write("unfinished.jsonl", kind % 4 == 1 ? std::string(text_of(data))
+                                                              : first_line() + with_seals(data));
+            FinishedWork work(kept_scene(), {});
+            work.read(directory.path() / "unfinished.jsonl");
+            require_fitting(work);
         }
     } catch (const InputError&) {
     }

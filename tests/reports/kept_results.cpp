@@ -1,7 +1,7 @@
 // Results that an earlier attempt has left: those that it wrote come back bit for bit, others are
 // refused with what is wrong with them.
 
-#include "reports/files/checkpoint.hpp"
+#include "reports/files/finished_work.hpp"
 #include "reports/files/kept_result.hpp"
 #include "tests/temporary_directory.hpp"
 
@@ -151,7 +151,8 @@ BOOST_AUTO_TEST_CASE(results_that_cannot_be_kept_do_not_end_the_study) {
     const TemporaryDirectory directory;
     const Scene scene = read_scene("table1");
     const Series ladder = scene.series().front();
-    Checkpoint kept(directory.path(), scene, false);
+    FinishedWork kept(scene, {});
+    kept.keep_in(directory.path() / "unfinished.jsonl");
     rlimit before{};
     getrlimit(RLIMIT_FSIZE, &before);
     const rlimit small{.rlim_cur = 10, .rlim_max = before.rlim_max};

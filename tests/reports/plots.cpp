@@ -198,7 +198,7 @@ BOOST_AUTO_TEST_CASE(the_two_parameters_that_decide_the_outcome_are_the_axes) {
     for (const double alpha : {1e-2, 1e-1, 1e1, 1e2})
         for (const double dt : {1e-3, 1e-1, 1e1, 1e3})
             for (const double zeta : {0.0, 1e-4, 1e-2, 1e0, 1e2, 1e4, 1e6})
-                result.get<StressResult>()->cases.push_back(
+                result.get<StressResult>()->cases.add(
                     stress_case(alpha, zeta * (1 + i++ % 3), dt,
                                 alpha > 1.0 && dt > 1.0 ? Outcome::refused : Outcome::certified));
     const Plot plot = stress_plots(result).at(0);
@@ -221,9 +221,9 @@ BOOST_AUTO_TEST_CASE(zero_and_no_stops_have_places_of_their_own_on_a_logarithmic
     result.records.set(StressResult{});
     for (const double alpha : {0.0, 1e-2, 1.0})
         for (const double gap : {1e-3, 1.0, std::numeric_limits<double>::infinity()}) {
-            result.get<StressResult>()->cases.push_back(
-                stress_case(alpha, 1.0, 1.0, Outcome::certified));
-            result.get<StressResult>()->cases.back().parameters.stops = {-gap, gap};
+            StressCase one = stress_case(alpha, 1.0, 1.0, Outcome::certified);
+            one.parameters.stops = {-gap, gap};
+            result.get<StressResult>()->cases.add(one);
         }
     const Plot plot = stress_plots(result).at(0);
     // A decade below 1e-2, a decade above 1.
@@ -235,8 +235,10 @@ BOOST_AUTO_TEST_CASE(the_lines_of_a_contraction_map_are_where_it_is_predicted) {
     StudyResult result = paper();
     result.records.set(StressResult{});
     const double zeta = 0.05;
+    const ContractionBlock asked{{0.1, 1.0, 10.0}, {1e-3, 0.1},        zeta, 8,
+                                 "euler",          ThermalMass::lumped};
     result.get<StressResult>()->contraction =
-        measure_contraction({{0.1, 1.0, 10.0}, {1e-3, 0.1}, zeta, 8, "euler", ThermalMass::lumped});
+        contraction_map(asked, {measure_contraction(asked, 0), measure_contraction(asked, 1)});
     const auto blocks = blocks_of(contraction_plots(result).at(0));
     for (const double level : {0.01, 0.1, 1.0}) {
         const Rows& line = block(blocks, "predicted: " + shortest(level) + ":");

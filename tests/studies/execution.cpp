@@ -54,19 +54,19 @@ public:
         runs[{series.study, index}] = result;
         ++added;
     }
-    std::optional<StressCase> find_case(std::size_t index) override {
+    std::any find_part(const std::string& study, std::size_t index) override {
         const std::scoped_lock lock(mutex_);
-        const auto at = cases.find(index);
-        return at == cases.end() ? std::nullopt : std::optional(at->second);
+        const auto at = parts.find({study, index});
+        return at == parts.end() ? std::any() : at->second;
     }
-    void add_case(std::size_t index, const StressCase& result) override {
+    void add_part(const std::string& study, std::size_t index, const std::any& result) override {
         const std::scoped_lock lock(mutex_);
-        cases[index] = result;
-        cases[index].parameters = {};
+        std::any& kept = parts[{study, index}] = result;
+        std::any_cast<StressCase&>(kept).parameters = {};
         ++added;
     }
     std::map<std::pair<std::string, std::size_t>, RungResult> runs;
-    std::map<std::size_t, StressCase> cases;
+    std::map<std::pair<std::string, std::size_t>, std::any> parts;
     int added = 0;
 
 private:
@@ -146,18 +146,19 @@ BOOST_DATA_TEST_CASE(a_stress_study_goes_on_where_it_was_interrupted, data::make
     const StudyResult cut =
         run_study(scene, {.jobs = jobs, .progress = &meter, .finished = &shelf});
     BOOST_TEST(cut.interrupted());
-    BOOST_TEST(cut.get<StressResult>()->cases.size() == shelf.cases.size());
-    BOOST_TEST(shelf.cases.size() < 6U);
+    BOOST_TEST(cut.get<StressResult>()->cases.size() == shelf.parts.size());
+    BOOST_TEST(shelf.parts.size() < 6U);
     const StudyResult again = run_study(scene, {.jobs = jobs, .finished = &shelf});
     const StressResult& resumed = *again.get<StressResult>();
     BOOST_REQUIRE(resumed.cases.size() == 6U);
     BOOST_TEST(shelf.added == 6);
     for (std::size_t i = 0; i < 6; ++i) {
-        BOOST_TEST(resumed.cases[i].parameters.alpha == undisturbed.cases[i].parameters.alpha);
-        BOOST_TEST(resumed.cases[i].parameters.elements ==
-                   undisturbed.cases[i].parameters.elements);
-        BOOST_TEST(int(resumed.cases[i].outcome == undisturbed.cases[i].outcome));
-        BOOST_TEST(resumed.cases[i].checks->energy == undisturbed.cases[i].checks->energy);
+        BOOST_TEST(resumed.cases.at(i).parameters.alpha ==
+                   undisturbed.cases.at(i).parameters.alpha);
+        BOOST_TEST(resumed.cases.at(i).parameters.elements ==
+                   undisturbed.cases.at(i).parameters.elements);
+        BOOST_TEST(int(resumed.cases.at(i).outcome == undisturbed.cases.at(i).outcome));
+        BOOST_TEST(resumed.cases.at(i).checks->energy == undisturbed.cases.at(i).checks->energy);
     }
 }
 

@@ -29,13 +29,21 @@ StressBlock read_block(const std::string& text) {
     return *read_scene(directory.write("scene.toml", text)).get<StressBlock>();
 }
 
+std::vector<StressParameters> cases_of(const std::string& text) {
+    const StressBlock block = read_block(text);
+    std::vector<StressParameters> cases;
+    for (std::size_t i = 0; i < block.cases(); ++i)
+        cases.push_back(block.case_at(i));
+    return cases;
+}
+
 } // namespace
 
 BOOST_AUTO_TEST_CASE(samplings_take_the_cases_that_they_say) {
     const std::string lists = "alpha = [0.0, 1.0, 2.0]\nelements = [2, 4]\ngap = [1.0, inf]\n"
                               "sides = [\"both\", \"lower\"]\n";
     const auto cases = [&](const std::string& sampling) {
-        return read_block("[stress.sweep.a]\n" + lists + sampling).sweeps.at(0).cases;
+        return cases_of("[stress.sweep.a]\n" + lists + sampling);
     };
     // inf has no sides: three kinds of stops. One at a time: 1 + 2 + 1 + 2.
     BOOST_TEST(cases("sampling = \"each\"").size() == 6U);
@@ -49,10 +57,7 @@ BOOST_AUTO_TEST_CASE(samplings_take_the_cases_that_they_say) {
 }
 
 BOOST_AUTO_TEST_CASE(work_bounds_the_steps) {
-    const auto cases =
-        read_block("[stress.sweep.a]\nelements = [10, 1000]\nsteps = 50\nwork = 5000")
-            .sweeps.at(0)
-            .cases;
+    const auto cases = cases_of("[stress.sweep.a]\nelements = [10, 1000]\nsteps = 50\nwork = 5000");
     BOOST_TEST(cases[0].steps == 50);
     BOOST_TEST(cases[1].steps == 5);
 }
@@ -139,8 +144,9 @@ BOOST_AUTO_TEST_CASE(contraction_is_measured_as_it_is_predicted_for_the_running_
     for (const auto& time : TimeScheme::names())
         for (const auto mass : {ThermalMass::consistent, ThermalMass::lumped}) {
             BOOST_TEST_CONTEXT(time << ", " << name_of(mass)) {
-                const ContractionMap map =
-                    measure_contraction({{1e-5, 0.3, 1.0}, {1e-3, 0.1}, 0.05, 8, time, mass});
+                const ContractionBlock block{{1e-5, 0.3, 1.0}, {1e-3, 0.1}, 0.05, 8, time, mass};
+                const ContractionMap map = contraction_map(
+                    block, {measure_contraction(block, 0), measure_contraction(block, 1)});
                 const double c = TimeScheme::named(time).stages.back().leading / 0.1;
                 BOOST_TEST(map.predicted(1, 2) ==
                            contraction({.alpha = 1.0, .zeta = 0.05}, Mesh::uniform(8), mass, c));
@@ -159,7 +165,7 @@ BOOST_AUTO_TEST_CASE(a_form_that_stops_says_why_and_meets_no_expectation) {
     block.time = "euler";
     block.elements = {4};
     block.finest_hermite = 4;
-    const RoundOffTable table = measure_round_off(block);
+    const RoundOffTable table{{measure_round_off(block, 0)}};
     BOOST_TEST(!table.rows[0].hermite.value.has_value());
     BOOST_TEST(table.rows[0].hermite.reason.find("would not contract") != std::string::npos);
     BOOST_TEST(std::isnan(table.least_hermite_ratio()));
@@ -167,8 +173,7 @@ BOOST_AUTO_TEST_CASE(a_form_that_stops_says_why_and_meets_no_expectation) {
     BOOST_TEST(std::isfinite(table.greatest_moment_floor()));
 
     block.finest_hermite = 2; // not run, hence no reason
-    const RoundOffTable without = measure_round_off(block);
-    BOOST_TEST(without.rows[0].hermite.reason.empty());
+    BOOST_TEST(measure_round_off(block, 0).hermite.reason.empty());
 }
 
 BOOST_AUTO_TEST_CASE(hermite_form_warns_where_round_off_may_exceed_its_error) {

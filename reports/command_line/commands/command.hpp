@@ -17,6 +17,8 @@ struct Command {
 
 // Each adds its command, with what it takes, to the program; a file each.
 Command add_run(CLI::App& app);
+Command add_merge(CLI::App& app);
+Command add_shard_script(CLI::App& app);
 Command add_check(CLI::App& app);
 Command add_analyse(CLI::App& app);
 Command add_compare(CLI::App& app);

@@ -17,7 +17,7 @@ public:
     }
     [[nodiscard]] bool wanted() const { return standard_output_ || file_; }
     [[nodiscard]] bool standard_output() const { return standard_output_; }
-    void write(const std::string& text) {
+    void write(const LongText& text) {
         if (file_)
             file_->commit(text);
         else

@@ -1,12 +1,13 @@
 #include "reports/command_line/commands/command.hpp"
 #include "reports/command_line/commands/destination.hpp"
 #include "reports/command_line/commands/said.hpp"
+#include "reports/command_line/commands/shard_command.hpp"
 #include "reports/command_line/commands/shared_options.hpp"
 #include "reports/command_line/commands/shown_run.hpp"
 #include "reports/command_line/end_requests.hpp"
 #include "reports/document/result_document.hpp"
 #include "reports/document/text_document.hpp"
-#include "reports/files/checkpoint.hpp"
+#include "reports/files/finished_work.hpp"
 #include "reports/files/report_directory.hpp"
 #include "reports/files/solver_runs.hpp"
 #include "reports/formats/csv_report.hpp"
@@ -31,6 +32,7 @@ struct RunOptions {
     std::string json;
     std::string csv;
     std::string out;
+    std::string shard;
     bool resume = false;
     bool quiet = false;
     bool really_long = false;
@@ -42,32 +44,40 @@ struct RunOptions {
 class KeptRuns {
 public:
     KeptRuns(const RunOptions& options, const Scene& scene) : out_(options.out) {
-        if (scene.solver)
-            solver_.emplace(options.out, scene);
-        else
-            checkpoint_.emplace(options.out, scene, options.resume);
+        if (scene.solver) {
+            solver_.emplace(out_, scene);
+            torn_ = solver_->torn();
+            return;
+        }
+        const auto file = out_ / "unfinished.jsonl";
+        work_.emplace(scene, WorkOrigin{options.scene, options.overrides, {}});
+        work_->keep_in(file);
+        if (!std::filesystem::exists(file))
+            return;
+        if (!options.resume)
+            throw InputError({file.string()},
+                             "holds results of an attempt that was cut short; go on with it by "
+                             "--resume, or remove the file");
+        torn_ = work_->read(file);
     }
-    FinishedRuns* finished() {
-        return solver_ ? static_cast<FinishedRuns*>(&*solver_) : &*checkpoint_;
-    }
+    FinishedRuns* finished() { return solver_ ? static_cast<FinishedRuns*>(&*solver_) : &*work_; }
     /// What is said before anything runs; empty: nothing.
     std::string greeting(bool resume) {
+        const std::string torn = torn_.count == 0 ? "" : "; " + torn_.text();
         if (solver_) {
             const std::size_t found = solver_->found();
-            return found == 0 ? ""
-                              : "goes on with " + std::to_string(found) + " finished runs from " +
-                                    solver_->path().string() + "; remove it to make them anew";
+            return found == 0 && torn.empty()
+                       ? ""
+                       : "goes on with " + std::to_string(found) + " finished runs from " +
+                             solver_->path().string() + torn + "; remove it to make them anew";
         }
         std::error_code error;
-        if (resume && checkpoint_->found() == 0 && !checkpoint_->was_torn() &&
+        if (resume && work_->found() == 0 && torn.empty() &&
             std::filesystem::exists(out_ / "result.json", error))
             return "nothing is left to go on with: " + out_.string() +
                    " holds the results of a run that ended; it is made again";
         return !resume ? ""
-                       : "goes on with " + std::to_string(checkpoint_->found()) + " finished runs" +
-                             (checkpoint_->was_torn() ? "; one that was being written when it was "
-                                                        "cut short is run again"
-                                                      : "");
+                       : "goes on with " + std::to_string(work_->found()) + " finished runs" + torn;
     }
     /// What the result says of runs that were not made; empty: nothing.
     [[nodiscard]] std::string remark() const { return solver_ ? solver_->remark() : ""; }
@@ -76,23 +86,24 @@ public:
         if (solver_)
             return solver_->holds_runs() ? "; the same command goes on from the runs that are kept"
                                          : "";
-        return checkpoint_->holds_runs() ? "; --resume goes on from the runs that are kept" : "";
+        return work_->holds_runs() ? "; --resume goes on from the runs that are kept" : "";
     }
-    void write() { solver_ ? solver_->write() : checkpoint_->write(); }
+    void write() { solver_ ? solver_->write() : work_->write(); }
     /// Why results could not be kept; empty: they are.
     [[nodiscard]] const std::string& failure() const {
-        return solver_ ? solver_->failure() : checkpoint_->failure();
+        return solver_ ? solver_->failure() : work_->failure();
     }
     /// The study has come to its end.
     void end() {
-        if (checkpoint_)
-            checkpoint_->remove();
+        if (work_)
+            work_->remove();
     }
 
 private:
     std::filesystem::path out_;
-    std::optional<Checkpoint> checkpoint_;
+    std::optional<FinishedWork> work_;
     std::optional<SolverRuns> solver_;
+    TornLines torn_;
 };
 
 /// What there is to say of a run that did not go well; empty when it did.
@@ -238,11 +249,30 @@ Command add_run(CLI::App& app) {
                   "go on with an attempt that was cut short, whose finished runs are in the "
                   "directory of --out")
         ->needs("--out");
+    run->add_option("--shard", options->shard,
+                    "make only the Ith of N parts of all runs and cases, and keep them in the "
+                    "directory of --out for tvbeam merge; started again, it goes on. auto/N: I is "
+                    "SLURM_ARRAY_TASK_ID")
+        ->type_name("I/N")
+        ->needs("--out")
+        ->excludes("--json")
+        ->excludes("--csv")
+        ->excludes("--resume");
     run->add_flag("--quiet", options->quiet, "no table, and no progress line");
     add_really_long(*run, options->really_long);
     add_jobs(*run, options->jobs);
     return {run, [options] {
                 require_apart("--json", options->json, "--csv", options->csv);
+                if (!options->shard.empty() && sweep_in(options->overrides))
+                    throw InputError({"--shard"}, "parts one scene; name one value with --set");
+                if (!options->shard.empty())
+                    return shard_command({.scene = options->scene,
+                                          .overrides = options->overrides,
+                                          .shard = options->shard,
+                                          .out = options->out,
+                                          .quiet = options->quiet,
+                                          .really_long = options->really_long,
+                                          .jobs = options->jobs});
                 if (const auto sweep = sweep_in(options->overrides))
                     return sweep_command(*options, *sweep);
                 return run_command(*options);

@@ -66,9 +66,10 @@ int command_line(int argc, char** argv) {
     app.name("tvbeam");
     app.set_version_flag("--version", "tvbeam " TVBEAM_VERSION);
     app.require_subcommand(1);
-    const std::vector<Command> commands{add_run(app),     add_check(app),  add_analyse(app),
-                                        add_compare(app), add_derive(app), add_new(app),
-                                        add_list(app),    add_keys(app),   add_completion(app)};
+    const std::vector<Command> commands{add_run(app),    add_merge(app),     add_shard_script(app),
+                                        add_check(app),  add_analyse(app),   add_compare(app),
+                                        add_derive(app), add_new(app),       add_list(app),
+                                        add_keys(app),   add_completion(app)};
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {

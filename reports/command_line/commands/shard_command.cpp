@@ -1,0 +1,109 @@
+#include "reports/command_line/commands/shard_command.hpp"
+
+#include "mms/text/input_error.hpp"
+#include "reports/command_line/commands/command.hpp"
+#include "reports/command_line/commands/destination.hpp"
+#include "reports/command_line/commands/said.hpp"
+#include "reports/command_line/commands/shown_run.hpp"
+#include "reports/command_line/end_requests.hpp"
+#include "reports/command_line/progress_line.hpp"
+#include "reports/files/shard_files.hpp"
+#include "studies/shards/run_shard.hpp"
+#include "studies/study.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cstdlib>
+#include <filesystem>
+#include <system_error>
+
+namespace tvbeam {
+
+namespace {
+
+constexpr std::uint32_t most_shards = 100'000;
+
+/// A number from 1 to the most; 0 where the text is none.
+std::uint32_t number_in(const std::string& text, std::uint32_t most) {
+    std::uint32_t value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    return error == std::errc() && end == text.data() + text.size() && value <= most ? value : 0;
+}
+
+Shard shard_in(const std::string& text) {
+    const auto slash = text.find('/');
+    const std::uint32_t of =
+        slash == std::string::npos ? 0 : number_in(text.substr(slash + 1), most_shards);
+    const Place place{"--shard " + text};
+    if (of == 0)
+        throw InputError(place, fmt::format("is no part of a whole; write I/N, such as 3/100, with "
+                                            "1 <= I <= N <= {}",
+                                            most_shards));
+    const std::string first = text.substr(0, slash);
+    if (first != "auto") {
+        const Shard shard{number_in(first, of), of};
+        if (shard.number == 0)
+            throw InputError(place, fmt::format("has no part of 1 to {} before the /", of));
+        return shard;
+    }
+    const char* task = std::getenv("SLURM_ARRAY_TASK_ID");
+    const Shard shard{task == nullptr ? 0 : number_in(task, of), of};
+    if (shard.number == 0)
+        throw InputError(
+            place, fmt::format("takes its part from SLURM_ARRAY_TASK_ID, which is {}; "
+                               "it must be 1 to {}",
+                               task == nullptr ? "not set" : "'" + std::string(task) + "'", of));
+    return shard;
+}
+
+/// A file by its absolute path, so that a merge finds it from any directory.
+std::string lasting_name(const Scene& scene, const std::string& given) {
+    const bool is_path = given.find('/') != std::string::npos || given.ends_with(".toml");
+    return is_path ? std::filesystem::absolute(scene.file).string() : given;
+}
+
+} // namespace
+
+int shard_command(const ShardOptions& options) {
+    const Shard shard = shard_in(options.shard);
+    const Scene scene = read_scene(options.scene, options.overrides);
+    require_dealable(scene);
+    predict(scene, true, options.really_long);
+    require_runnable(scene);
+    FinishedWork work(scene, {lasting_name(scene, options.scene), options.overrides, shard});
+    const std::filesystem::path file = shard_file(options.out, shard);
+    const TornLines torn = opened([&] {
+        std::filesystem::create_directories(options.out);
+        work.keep_in(file);
+        return std::filesystem::exists(file) ? work.read(file) : TornLines();
+    });
+    if (!options.quiet && (work.found() > 0 || torn.count > 0))
+        say(fmt::format("shard {} goes on with {} finished runs from {}{}", shard.name(),
+                        work.found(), file.string(), torn.count == 0 ? "" : "; " + torn.text()));
+    EndRequests end_requests([&] {
+        say_interrupted("interrupted in what could not be left in time; the same command goes on "
+                        "from the runs that are kept");
+    });
+    ProgressLine progress(!options.quiet);
+    const ShardEnd end =
+        run_shard(scene, shard, {.jobs = options.jobs, .progress = &progress, .finished = &work});
+    end_requests.settle();
+    work.write();
+    if (!work.failure().empty()) {
+        say(work.failure() + "; the runs behind it are not kept");
+        return run_failed;
+    }
+    if (end.missing > 0) {
+        say(fmt::format("interrupted: {} of {} runs are not made; the same command goes on",
+                        end.missing, end.there + end.missing));
+        return run_failed;
+    }
+    if (!options.quiet)
+        say(fmt::format("shard {} has all of its {} runs in {}; when the others have theirs: "
+                        "tvbeam merge {}",
+                        shard.name(), end.there, file.string(), options.out));
+    return done;
+}
+
+} // namespace tvbeam
