@@ -118,9 +118,9 @@ public:
         return {};
     }
 
-    [[nodiscard]] const Solver& solver() const { return *solver_; }
     [[nodiscard]] const StressChecks& checks() const { return checks_; }
     [[nodiscard]] const Sizes& sizes() const { return sizes_; }
+    [[nodiscard]] Eigen::VectorXd temperature() const { return solver_->temperature(); }
     /// How the steps differ from those of the scheme; empty: not at all.
     [[nodiscard]] const std::string& other_steps() const { return other_steps_; }
 
@@ -219,8 +219,8 @@ void compare_paths(const StressParameters& parameters, const Mesh& mesh, const P
 
 /// The error of the temperature at the end over the one that the scheme's recurrence for the mode
 /// sin πx predicts: the sum of a term of h, by the eigenvalue of the mesh, and one of Δt.
-void compare_error(const StressParameters& parameters, const Mesh& mesh, const Solver& solver,
-                   StressChecks& checks) {
+void compare_error(const StressParameters& parameters, const Mesh& mesh,
+                   const Eigen::VectorXd& temperature, StressChecks& checks) {
     const Beam beam = beam_of(parameters);
     if (parameters.load != 0.0 || parameters.theta_A != 0.0 || beam.stops.exist() ||
         parameters.initial != InitialData::smooth || beam.zeta == 0.0) {
@@ -243,7 +243,7 @@ void compare_error(const StressParameters& parameters, const Mesh& mesh, const S
     }
     const Eigen::ArrayXd sine = (std::numbers::pi * mesh.nodes).sin();
     const double error =
-        (solver.temperature().array() - static_cast<double>(exact.theta) * sine).abs().maxCoeff() /
+        (temperature.array() - static_cast<double>(exact.theta) * sine).abs().maxCoeff() /
         sine.maxCoeff();
     checks.error = error / predicted;
 }
@@ -251,7 +251,7 @@ void compare_error(const StressParameters& parameters, const Mesh& mesh, const S
 /// The order in Δt that three runs show, of N, 2N and 4N steps, where they show that of the scheme
 /// when they are exact: where the steps are small and the differences above round-off.
 void compare_order(const StressParameters& parameters, const Mesh& mesh, const ProblemData& data,
-                   const Solver& coarsest, StressChecks& checks) {
+                   const Eigen::VectorXd& coarsest, StressChecks& checks) {
     const Beam beam = beam_of(parameters);
     const int claimed = stated_order(parameters.time);
     const auto order_of = [](auto coarse, auto medium, auto fine) {
@@ -272,7 +272,7 @@ void compare_order(const StressParameters& parameters, const Mesh& mesh, const P
         std::abs(order_of(expected[0], expected[1], expected[2]) - claimed) > 0.1)
         return;
     const Eigen::Index middle = mesh.elements() / 2;
-    double found[3] = {coarsest.temperature()(middle)};
+    double found[3] = {coarsest(middle)};
     for (int k = 1; k < 3; ++k) {
         const Scheme scheme = scheme_of(parameters);
         const std::int64_t steps = parameters.steps << k;
@@ -316,6 +316,27 @@ std::string violation(const StressChecks& checks) {
     return {};
 }
 
+/// What is left of a march: a large one takes far more memory.
+struct Marched {
+    std::string stopped; ///< why it stopped; empty: it did not
+    std::string other_steps;
+    StressChecks checks;
+    Sizes sizes;
+    Eigen::VectorXd temperature;
+};
+
+Marched march(const StressParameters& parameters, const Mesh& mesh, const ProblemData& data,
+              double underflow) {
+    Marcher marcher(parameters, mesh, data);
+    Marched marched{.stopped = marcher.march(underflow),
+                    .other_steps = marcher.other_steps(),
+                    .checks = marcher.checks(),
+                    .sizes = marcher.sizes(),
+                    .temperature = {}};
+    marched.temperature = marcher.temperature();
+    return marched;
+}
+
 void run_case(StressCase& result) {
     const StressParameters& parameters = result.parameters;
     constexpr double least = std::numeric_limits<double>::min();
@@ -327,25 +348,25 @@ void run_case(StressCase& result) {
     // The smallest normalised number, over the unit.
     const double underflow = least / unit_of(parameters);
     for (const double floor : {0.0, underflow}) {
-        Marcher marcher(parameters, mesh, data);
-        if (std::string reason = marcher.march(floor); !reason.empty()) {
+        const Marched marched = march(parameters, mesh, data, floor);
+        if (!marched.stopped.empty()) {
             result.outcome = Outcome::stopped;
-            result.reason = reason;
+            result.reason = marched.stopped;
             result.checks.reset();
             return;
         }
-        result.checks = marcher.checks();
-        if (!marcher.other_steps().empty()) {
+        result.checks = marched.checks;
+        if (!marched.other_steps.empty()) {
             result.outcome = Outcome::failed;
-            result.reason = marcher.other_steps();
+            result.reason = marched.other_steps;
             return;
         }
         if (floor == 0.0) {
-            compare_paths(parameters, mesh, data, marcher.sizes(), *result.checks);
+            compare_paths(parameters, mesh, data, marched.sizes, *result.checks);
             if (parameters.algorithm == Algorithm::direct) {
-                compare_error(parameters, mesh, marcher.solver(), *result.checks);
+                compare_error(parameters, mesh, marched.temperature, *result.checks);
                 if (result.checks->error)
-                    compare_order(parameters, mesh, data, marcher.solver(), *result.checks);
+                    compare_order(parameters, mesh, data, marched.temperature, *result.checks);
             } else
                 result.checks->error_skipped = "measured with the direct algorithm";
         }

@@ -38,7 +38,8 @@ SpaceFunction sawtooth(Eigen::Index elements, bool continuous) {
             if (!continuous)
                 return 1.0 - 2.0 * xi;
             const auto value = [s](double node) {
-                return node == 0.0 || node == s ? 0.0 : std::fmod(node, 2.0) == 0.0 ? 1.0 : -1.0;
+                return node == 0.0 || node == s ? 0.0
+                                                : 1.0 - 2.0 * (node - 2.0 * std::floor(node / 2.0));
             };
             return (1.0 - xi) * value(element) + xi * value(element + 1.0);
         });

@@ -15,6 +15,8 @@
 #include <string>
 #include <vector>
 
+#include <malloc.h>
+
 namespace {
 
 using namespace tvbeam;
@@ -122,6 +124,11 @@ int reported_command_line(int argc, char** argv) {
 } // namespace
 
 int main(int argc, char** argv) {
+    // Vectors of large meshes come and go; their pages stay, as to clear new ones takes longer than
+    // to compute with them.
+    constexpr int keep = 1 << 30; // bytes
+    mallopt(M_MMAP_THRESHOLD, keep);
+    mallopt(M_TRIM_THRESHOLD, keep);
     // A closed pipe then fails the write, which is reported like any other.
     std::signal(SIGPIPE, SIG_IGN);
     std::set_terminate(&terminate_said);
