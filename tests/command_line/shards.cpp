@@ -236,9 +236,23 @@ BOOST_AUTO_TEST_CASE(a_script_asks_for_what_is_predicted_and_runs) {
     const std::string scene = directory.write("a scene.toml", stress);
     const std::string script =
         "shard-script '" + scene + "' 3 --out '" + (directory.path() / "parts").string() + "'";
-    const Called slurm = call(directory, script + " --slurm");
+    // No cluster, one that counts no memory, and one that has too little.
+    const auto with_nodes_of = [&](const std::string& megabytes) {
+        const std::string sinfo = directory.write("sinfo", "#!/bin/sh\n[ -n '" + megabytes +
+                                                               "' ] && echo '" + megabytes + "'\n");
+        std::filesystem::permissions(sinfo, std::filesystem::perms::owner_all);
+        return call(directory, script + " --slurm",
+                    "PATH=" + directory.path().string() + ":$PATH ");
+    };
+    BOOST_TEST(has(with_nodes_of("1").output, "counts no memory"));
+    BOOST_TEST(has(with_nodes_of("64000+").output, "#SBATCH --mem="));
+    const Called too_small = with_nodes_of("100");
+    BOOST_TEST(too_small.exit == 2);
+    BOOST_TEST(has(too_small.errors, "no node of this cluster has more than 100 MB"));
+    const Called slurm = with_nodes_of("");
     BOOST_TEST(slurm.exit == 0, slurm.errors);
-    for (const char* line : {"#SBATCH --array=1-3\n", "#SBATCH --mem=", "#SBATCH --time="})
+    for (const char* line :
+         {"#SBATCH --array=1-3\n", "#SBATCH --mem=", "#SBATCH --time=", "auto/3 --quiet\n"})
         BOOST_TEST(has(slurm.output, line), slurm.output);
     BOOST_TEST(call(directory, script).exit == 2);
     // As the scheduler runs it, one member after another.

@@ -17,7 +17,7 @@ namespace {
 /// What prints the names that a command takes; empty: it takes none of something that there is.
 std::string names_for(const CLI::App& command) {
     const std::string& name = command.get_name();
-    if (name == "run" || name == "check")
+    if (name == "run" || name == "check" || name == "shard-script")
         return "tvbeam list --names scenes";
     if (name == "derive")
         return "tvbeam list --names derive";

@@ -10,8 +10,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -55,6 +59,33 @@ Request request_of(const Scene& scene, std::uint32_t shards) {
             rounded_up((any_process + 2.0 * predicted.bytes) / 1e6)};
 }
 
+/// What the largest node of this machine's Slurm cluster has, in MB, as its administrators say;
+/// none where no cluster answers. One that does not count memory says 1, and refuses who asks for
+/// more.
+std::optional<std::int64_t> memory_of_nodes() {
+    const std::unique_ptr<FILE, decltype(&pclose)> sinfo(
+        popen("sinfo --noheader --format=%m 2>/dev/null", "r"), &pclose);
+    std::optional<std::int64_t> largest;
+    std::array<char, 64> line{};
+    while (sinfo && std::fgets(line.data(), line.size(), sinfo.get()) != nullptr)
+        if (const long long megabytes = std::atoll(line.data()); megabytes > 0)
+            largest = std::max<std::int64_t>(largest.value_or(0), megabytes);
+    return largest;
+}
+
+/// The line that asks for memory, or why it is none.
+std::string memory_line(std::int64_t megabytes) {
+    const auto largest = memory_of_nodes();
+    if (!largest || *largest >= megabytes)
+        return fmt::format("#SBATCH --mem={}M", megabytes);
+    if (*largest == 1)
+        return fmt::format("# It is to take {} MB; this cluster counts no memory.", megabytes);
+    throw InputError({},
+                     fmt::format("a shard is to take {} MB, and no node of this cluster has more "
+                                 "than {} MB",
+                                 megabytes, *largest));
+}
+
 int script_command(const ScriptOptions& options) {
     if (options.slurm == options.parallel)
         throw InputError({},
@@ -70,13 +101,13 @@ int script_command(const ScriptOptions& options) {
                                           "#SBATCH --job-name={}\n"
                                           "#SBATCH --array=1-{}\n"
                                           "#SBATCH --cpus-per-task=1\n"
-                                          "#SBATCH --mem={}M\n"
+                                          "{}\n"
                                           "#SBATCH --time={}\n"
                                           "# Afterwards: {}\n"
                                           "exec {}auto/{} --quiet\n",
                                           word("tvbeam-" + scene.name), options.shards,
-                                          request.megabytes, request.minutes, merge, run,
-                                          options.shards));
+                                          memory_line(request.megabytes), request.minutes, merge,
+                                          run, options.shards));
     else
         write_standard_output(fmt::format("#!/bin/sh\n"
                                           "# A job is to take at most {} minutes and {} MB.\n"
