@@ -7,6 +7,7 @@
 #include "studies/data/data_analysis.hpp"
 #include "studies/data/data_file.hpp"
 #include "studies/predicted_work.hpp"
+#include "studies/stress/stress_case.hpp"
 #include "tests/temporary_directory.hpp"
 
 #include <nlohmann/json.hpp>
