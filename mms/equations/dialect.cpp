@@ -300,10 +300,23 @@ std::set<std::string> words(const char* text) {
 constexpr const char* words_of_c =
     "auto break case char const continue default do double else enum extern float for goto if "
     "inline int long main register restrict return short signed sizeof static struct switch "
-    "typedef union unsigned void volatile while asm abs acosh asinh atan2 atanh cbrt ceil erf erfc "
-    "exp2 expm1 fabs fdim floor fma fmax fmin fmod frexp hypot ilogb j0 j1 jn ldexp lgamma gamma "
-    "log10 log1p log2 logb lrint lround modf nan nearbyint nextafter pow remainder rint round "
-    "scalb scalbn signgam tgamma trunc y0 y1 yn";
+    "typedef typeof union unsigned void volatile while asm abs signgam lgamma_r lgammaf_r "
+    "lgammal_r";
+/// Functions of math.h, which also have an f and an l behind their names.
+constexpr const char* functions_of_c =
+    "acos acosh asin asinh atan atan2 atanh cbrt ceil copysign cos cosh drem erf erfc exp exp2 "
+    "expm1 fabs fdim finite floor fma fmax fmin fmod frexp gamma hypot ilogb isinf isnan j0 j1 jn "
+    "ldexp lgamma llrint llround log log10 log1p log2 logb lrint lround modf nan nearbyint "
+    "nextafter nexttoward pow remainder remquo rint round scalb scalbln scalbn significand sin "
+    "sinh sqrt tan tanh tgamma trunc y0 y1 yn";
+/// Macros of math.h, of what C++ includes with it, and of the compilers.
+constexpr const char* macros_of_c =
+    "NAN INFINITY NULL HUGE_VAL HUGE_VALF HUGE_VALL M_E M_LOG2E M_LOG10E M_LN2 M_LN10 M_PI M_PI_2 "
+    "M_PI_4 M_1_PI M_2_PI M_2_SQRTPI M_SQRT2 M_SQRT1_2 FP_NAN FP_INFINITE FP_ZERO FP_SUBNORMAL "
+    "FP_NORMAL FP_ILOGB0 FP_ILOGBNAN MATH_ERRNO MATH_ERREXCEPT math_errhandling MAXFLOAT SNAN "
+    "SNANF SNANL RAND_MAX EXIT_SUCCESS EXIT_FAILURE BYTE_ORDER BIG_ENDIAN LITTLE_ENDIAN "
+    "PDP_ENDIAN isless islessgreater islessequal isnormal issubnormal fpclassify isgreater "
+    "isgreaterequal isfinite signbit isunordered alloca linux unix i386";
 constexpr const char* words_of_cpp =
     "alignas alignof and bitand bitor bool break case catch char class compl concept const "
     "constexpr continue decltype default delete do double else enum explicit export extern false "
@@ -321,7 +334,8 @@ constexpr const char* words_of_julia =
     "function global if import let local macro module quote return struct true try using while "
     "in isa where im ℯ";
 constexpr const char* words_of_freefem =
-    "N P area bool border break catch cin complex continue cout element else end endl false "
+    "N P R R2 R3 area bool border break catch cin complex continue cout element else end endl "
+    "false "
     "fespace "
     "for func hTriangle if ifstream include int intalledges lenEdge label load macro matrix mesh "
     "mesh3 nTonEdge nuEdge nuTriangle ofstream plot problem real region return solve string true "
@@ -330,11 +344,26 @@ constexpr const char* words_of_freefem =
     "lgamma tgamma j0 j1 jn y0 y1 yn i verbosity version time clock";
 constexpr const char* words_of_moose = "e abs max min if int pow plog";
 
+std::set<std::string> all_words_of_c() {
+    std::set<std::string> all = words(words_of_c);
+    all.merge(words(macros_of_c));
+    for (const auto& function : words(functions_of_c))
+        for (const char* end : {"", "f", "l"})
+            all.insert(function + end);
+    return all;
+}
+
+std::set<std::string> all_words_of_cpp() {
+    std::set<std::string> all = words(words_of_cpp);
+    all.merge(words(macros_of_c));
+    return all;
+}
+
 const std::array<Dialect, 8>& dialects() {
     using enum CodeLanguage;
     static const std::array<Dialect, 8> all = {
-        Dialect{c, "c", {}, words(words_of_c), false, write_c},
-        Dialect{cpp, "c++", {.function_prefix = "std::"}, words(words_of_cpp), false, write_cpp},
+        Dialect{c, "c", {}, all_words_of_c(), false, write_c},
+        Dialect{cpp, "c++", {.function_prefix = "std::"}, all_words_of_cpp(), false, write_cpp},
         Dialect{fortran,
                 "fortran",
                 {.number_ending = "_dp", .power = "**"},

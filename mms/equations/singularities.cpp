@@ -9,6 +9,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
 #include <vector>
 
 namespace tvbeam {
@@ -100,25 +104,53 @@ bool holds(const Critical& critical, const Span& operand) {
     return false;
 }
 
+/// By step: whether it is the same in all of the domain.
+std::vector<bool> constants_in(const Program& program, const DerivedSystem& derived) {
+    const auto& coordinates = derived.system.coordinates;
+    std::vector<bool> constant;
+    for (const auto& step : program.steps()) {
+        const auto is = [&](int operand) {
+            return operand < 0 || constant[static_cast<std::size_t>(operand)];
+        };
+        constant.push_back(step.operation == Operation::name
+                               ? std::find(coordinates.begin(), coordinates.end(), step.text) ==
+                                     coordinates.end()
+                               : is(step.left) && is(step.right));
+    }
+    return constant;
+}
+
 class Search {
 public:
     Search(const Program& program, const DerivedSystem& derived)
-        : program_(program), derived_(derived), criticals_(criticals_of(program)) {}
+        : program_(program), derived_(derived), criticals_(criticals_of(program)),
+          is_constant_(constants_in(program, derived)) {}
 
-    std::optional<Singularity> worst() {
-        if (criticals_.empty())
-            return std::nullopt;
+    std::vector<Singularity> worst() {
         sample();
-        std::optional<Singularity> found;
+        std::vector<Singularity> found;
         std::vector<const Critical*> open;
-        for (std::size_t i = 0; i < criticals_.size(); ++i) {
-            const auto one = sampled(i);
-            if (!one)
+        for (std::size_t i = 0; i < criticals_.size(); ++i)
+            if (auto one = sampled(i))
+                found.push_back(*std::move(one));
+            else if (!is_constant_[static_cast<std::size_t>(criticals_[i].operand)])
                 open.push_back(&criticals_[i]);
-            else if (!found || one->kind < found->kind)
-                found = one;
-        }
-        return found || open.empty() ? found : not_excluded(open);
+        if (found.empty() && overflow_)
+            found.push_back(*overflow_);
+        if (found.empty() && !open.empty())
+            if (auto one = not_excluded(open))
+                found.push_back(*std::move(one));
+        std::stable_sort(found.begin(), found.end(),
+                         [](const auto& a, const auto& b) { return a.kind < b.kind; });
+        // One a place: a root that is divided by is a root and a divisor.
+        std::set<std::string> places;
+        std::erase_if(found, [&](const Singularity& one) {
+            return !places.insert(one.text.substr(one.text.rfind(" is "))).second;
+        });
+        constexpr std::size_t most_said = 3;
+        if (found.size() > most_said)
+            found.resize(most_said);
+        return found;
     }
 
 private:
@@ -154,8 +186,23 @@ private:
         }
     }
 
+    /// The first step that a double cannot hold, though what it is made of can be held.
+    void look_for_overflow(const std::vector<long double>& values, const DomainPoint& point) {
+        const auto is_held = [](long double value) {
+            return std::abs(value) <= std::numeric_limits<double>::max();
+        };
+        const auto beyond = std::find_if_not(values.begin(), values.end(), is_held);
+        if (overflow_ || beyond == values.end())
+            return;
+        overflow_ = Singularity{
+            Singularity::Kind::overflow,
+            readable_text(program_, static_cast<int>(beyond - values.begin()), longest_text) +
+                " is beyond the range of doubles " + text_of(point)};
+    }
+
     void look_at(const DomainPoint& point) {
         const auto values = program_.values(names_at(derived_, point));
+        look_for_overflow(values, point);
         for (std::size_t k = 0; k < criticals_.size(); ++k) {
             const long double here =
                 margin(criticals_[k], values[static_cast<std::size_t>(criticals_[k].operand)]);
@@ -174,6 +221,13 @@ private:
     [[nodiscard]] long double margin_at(const Critical& critical, const DomainPoint& point) const {
         const auto values = program_.values(names_at(derived_, point));
         return margin(critical, values[static_cast<std::size_t>(critical.operand)]);
+    }
+
+    /// As x^(-1/2) is at x = 0.
+    [[nodiscard]] bool is_infinite_at(const DomainPoint& point) const {
+        const auto values = program_.evaluate(names_at(derived_, point));
+        return std::any_of(values.begin(), values.end(),
+                           [](long double value) { return std::isinf(value); });
     }
 
     /// The point between two, at which the margins have different signs, where it is 0.
@@ -230,10 +284,11 @@ private:
                         crossing(critical, seen.at_least, seen.at_greatest));
         if (one_sided && seen.least < -zero)
             return Singularity{Kind::no_value, said(critical) + "or beyond everywhere"};
-        if (std::abs(seen.least) <= zero)
-            return with(critical.pole ? Kind::pole : Kind::kink, seen.at_least);
-        if (std::abs(seen.greatest) <= zero)
-            return with(critical.pole ? Kind::pole : Kind::kink, seen.at_greatest);
+        for (const auto& [value, point] :
+             {std::pair(seen.least, &seen.at_least), std::pair(seen.greatest, &seen.at_greatest)})
+            if (std::abs(value) <= zero)
+                return with(critical.pole || is_infinite_at(*point) ? Kind::pole : Kind::kink,
+                            *point);
         return std::nullopt;
     }
 
@@ -313,12 +368,14 @@ private:
     const Program& program_;
     const DerivedSystem& derived_;
     std::vector<Critical> criticals_;
+    std::vector<bool> is_constant_; ///< by step: it is the same everywhere
     std::vector<Extremes> extremes_;
+    std::optional<Singularity> overflow_;
 };
 
 } // namespace
 
-std::optional<Singularity> singularity_of(const Program& program, const DerivedSystem& derived) {
+std::vector<Singularity> singularities_of(const Program& program, const DerivedSystem& derived) {
     return Search(program, derived).worst();
 }
 

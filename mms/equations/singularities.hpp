@@ -3,8 +3,8 @@
 #include "mms/equations/derived_system.hpp"
 #include "mms/equations/program.hpp"
 
-#include <optional>
 #include <string>
+#include <vector>
 
 namespace tvbeam {
 
@@ -13,6 +13,7 @@ struct Singularity {
     enum class Kind {
         pole,     ///< a divisor is 0, tan or log is infinite
         no_value, ///< beyond what sqrt, log, asin or acos is defined on
+        overflow, ///< a value that is needed is beyond the range of doubles
         kink,     ///< at the edge of that: no derivative there, or an infinite one
         not_excluded,
     };
@@ -20,7 +21,9 @@ struct Singularity {
     std::string text; ///< "1 - 2*x is 0 at x = 0.5"
 };
 
-/// The worst that is found of a program on the domain; nothing: it is smooth everywhere.
-std::optional<Singularity> singularity_of(const Program& program, const DerivedSystem& derived);
+/// What is found of a program on the domain, the worst first, one a place and at most three;
+/// none: it is smooth
+/// everywhere. Overflow is looked for at the points of a grid that has the ends of the domain.
+std::vector<Singularity> singularities_of(const Program& program, const DerivedSystem& derived);
 
 } // namespace tvbeam

@@ -10,7 +10,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numbers>
+#include <optional>
 
 namespace tvbeam {
 
@@ -76,16 +78,18 @@ private:
     void require_values(const DerivedFunction& exact) {
         const Program program = located_program({exact.formula}, derived_.fields, exact);
         const std::string advice = "; choose another solution, or a [domain] without that place";
-        if (const auto found = singularity_of(program, derived_)) {
+        for (const auto& found : singularities_of(program, derived_)) {
             using Kind = Singularity::Kind;
-            if (found->kind == Kind::pole || found->kind == Kind::no_value)
+            if (found.kind == Kind::pole || found.kind == Kind::no_value)
                 throw InputError(
                     exact.source,
-                    exact.of + (found->kind == Kind::pole ? " has a pole: " : " has no value: ") +
-                        found->text + advice);
+                    exact.of + (found.kind == Kind::pole ? " has a pole: " : " has no value: ") +
+                        found.text + advice);
+            if (found.kind == Kind::overflow)
+                throw InputError(exact.source, exact.of + ": " + found.text + advice);
             say(exact.source,
-                exact.of + (found->kind == Kind::kink ? " is not smooth: " : ": ") + found->text);
-            said_.push_back(exact.of);
+                exact.of + (found.kind == Kind::kink ? " is not smooth: " : ": ") + found.text);
+            said_.emplace(exact.of, found.kind);
         }
         for (const Rounded& value : values_of(program))
             if (!(std::abs(value.value) <= std::numeric_limits<double>::max()))
@@ -131,26 +135,28 @@ private:
                     "parameter " + name + " has no effect on anything that is derived");
     }
 
-    /// What the exact values have is not said of their derivatives again.
+    /// What the exact values have is not said of their derivatives again, unless these have worse.
     void look_for_singularity(const DerivedFunction& function) {
+        std::optional<Singularity::Kind> known;
         for (const EquationField* field : derived_.fields.occurring_in(function.formula))
-            if (std::find(said_.begin(), said_.end(), field->unknown) != said_.end())
-                return;
+            if (const auto said = said_.find(field->unknown); said != said_.end())
+                known = std::min(known.value_or(said->second), said->second);
         const Program program = located_program({function.formula}, derived_.fields, function);
-        const auto found = singularity_of(program, derived_);
-        if (!found)
-            return;
-        using Kind = Singularity::Kind;
-        const std::string what = found->kind == Kind::pole       ? " has a pole: "
-                                 : found->kind == Kind::no_value ? " has no value in places: "
-                                 : found->kind == Kind::kink     ? " is not smooth: "
-                                                                 : ": ";
-        say(function.source, function.name + what + found->text);
+        for (const auto& found : singularities_of(program, derived_)) {
+            using Kind = Singularity::Kind;
+            if (known && found.kind >= *known)
+                continue;
+            const std::string what = found.kind == Kind::pole       ? " has a pole: "
+                                     : found.kind == Kind::no_value ? " has no value in places: "
+                                     : found.kind == Kind::kink     ? " is not smooth: "
+                                                                    : ": ";
+            say(function.source, function.name + what + found.text);
+        }
     }
 
     DerivedSystem& derived_;
     std::vector<DomainPoint> points_;
-    std::vector<std::string> said_; ///< unknowns
+    std::map<std::string, Singularity::Kind> said_; ///< by unknown, the worst
     std::vector<Remark> remarks_;
 };
 

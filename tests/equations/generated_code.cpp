@@ -359,6 +359,20 @@ BOOST_AUTO_TEST_CASE(reserved_names_are_changed_also_where_they_are_used) {
     BOOST_TEST(c.find("double lambda = 0.6;") != std::string::npos);
 }
 
+// Macros, functions with their endings, and what a compiler predefines.
+BOOST_AUTO_TEST_CASE(names_that_headers_take_are_changed_so_that_the_code_compiles) {
+    for (const std::string name : {"M_PI", "NAN", "INFINITY", "linux", "unix", "typeof", "isnan",
+                                   "j0f", "gammal", "FP_ZERO"}) {
+        const auto derived = derive_system(parse_equation_system(
+            "[parameters]\n" + name + " = 2\n[unknowns]\nu = \"sin(x)\"\n[equations]\nf = \"" +
+                name + "*diff(u, x)\"\n",
+            "my.toml"));
+        BOOST_TEST(system_code(derived, CodeLanguage::c).find(name + "_ = 2.0;") !=
+                       std::string::npos,
+                   name);
+    }
+}
+
 BOOST_AUTO_TEST_CASE(what_is_used_once_is_not_named_and_what_is_zero_is_not_added) {
     const auto derived =
         derive_system(parse_equation_system("[unknowns]\nu = \"sin(x)*t\"\n[equations]\nf = "
