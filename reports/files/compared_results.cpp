@@ -46,12 +46,13 @@ Json result_in(const std::string& name) {
     return json;
 }
 
-/// What tells an element of a list from the others: its level, its name; else its place.
-std::string element_name(const Json& element, std::size_t place) {
+/// What tells an element of a list from the others: its level, its name, the value of a sweep; else
+/// its place.
+std::string element_name(const Json& element, bool of_sweep, std::size_t place) {
     std::string name;
     if (element.is_object())
         for (const auto& [key, word] : std::array<std::pair<const char*, const char*>, 3>{
-                 {{"name", ""}, {"elements", "s = "}, {"dt", "dt = "}}})
+                 {{of_sweep ? "value" : "name", ""}, {"elements", "s = "}, {"dt", "dt = "}}})
             if (element.contains(key) && (element[key].is_number() || element[key].is_string()))
                 name += (name.empty() ? " " : ", ") + std::string(word) + element[key].dump();
     return name.empty() ? fmt::format(" {}", place + 1) : name + ":";
@@ -74,7 +75,7 @@ void collect(const Json& json, const std::string& path, Values& values) {
                 collect(value, inside(path, key), values);
     } else if (json.is_array()) {
         for (std::size_t i = 0; i < json.size(); ++i) {
-            std::string name = path + element_name(json[i], i);
+            std::string name = path + element_name(json[i], path == "rows", i);
             if (values.contains(name))
                 name += fmt::format(" ({})", i + 1);
             collect(json[i], name, values);
@@ -94,7 +95,7 @@ std::optional<double> relative_difference(const Json& a, const Json& b) {
 }
 
 std::vector<ResultDifference> differences(const Values& first, const Values& second,
-                                          std::size_t& equal) {
+                                          double tolerance, std::size_t& equal) {
     std::vector<ResultDifference> found;
     const auto text = [](const Json& value) {
         return value.dump(-1, ' ', false, Json::error_handler_t::replace);
@@ -103,7 +104,8 @@ std::vector<ResultDifference> differences(const Values& first, const Values& sec
         const auto other = second.find(what);
         if (other == second.end())
             found.push_back({what, text(value), std::nullopt, std::nullopt});
-        else if (other->second == value)
+        else if (other->second == value ||
+                 relative_difference(value, other->second).value_or(2.0) <= tolerance)
             ++equal;
         else
             found.push_back({what, text(value), text(other->second),
@@ -117,7 +119,8 @@ std::vector<ResultDifference> differences(const Values& first, const Values& sec
 
 } // namespace
 
-ComparedResults compare_results(const std::string& first, const std::string& second) {
+ComparedResults compare_results(const std::string& first, const std::string& second,
+                                double tolerance) {
     std::array<Values, 2> scenes;
     std::array<Values, 2> results;
     const std::array<const std::string*, 2> names{&first, &second};
@@ -130,8 +133,8 @@ ComparedResults compare_results(const std::string& first, const std::string& sec
     }
     ComparedResults compared;
     std::size_t in_scene = 0;
-    compared.scene = differences(scenes[0], scenes[1], in_scene);
-    compared.results = differences(results[0], results[1], compared.equal);
+    compared.scene = differences(scenes[0], scenes[1], 0.0, in_scene);
+    compared.results = differences(results[0], results[1], tolerance, compared.equal);
     // What only one has stands last.
     std::stable_sort(compared.results.begin(), compared.results.end(),
                      [](const auto& a, const auto& b) {

@@ -24,8 +24,10 @@ struct ComparedResults {
 };
 
 /// Compares two files that `tvbeam run --json` or `--out` has written, or the directories that hold
-/// a result.json. Not compared: run times, and where the results come from. Throws InputError where
+/// a result.json. Found numbers that differ by a part of at most `tolerance` of the greater are the
+/// same. Not compared: run times, and where the results come from. Throws InputError where
 /// one is not such a file.
-ComparedResults compare_results(const std::string& first, const std::string& second);
+ComparedResults compare_results(const std::string& first, const std::string& second,
+                                double tolerance = 0.0);
 
 } // namespace tvbeam

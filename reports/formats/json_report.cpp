@@ -30,7 +30,10 @@ Json json_of(const ReferenceResult& reference, const ReferenceBlock& block) {
     return json;
 }
 
-Json json_of(const Provenance& p) {
+} // namespace
+
+nlohmann::ordered_json provenance_json(const Scene& scene) {
+    const Provenance p = provenance_of(scene);
     return {{"version", p.version},    {"commit", p.commit},
             {"compiler", p.compiler},  {"build_type", p.build_type},
             {"flags", p.flags},        {"processor", p.processor},
@@ -38,15 +41,13 @@ Json json_of(const Provenance& p) {
             {"overrides", p.overrides}};
 }
 
-} // namespace
-
 std::string json_report(const StudyResult& result) {
     Json json = Json::object();
     if (result.scene.defect)
         json["defect"] = defect_words;
     json.update({{"schema", "tvbeam-result/1"},
                  {"scene", Json::parse(result.scene.json)},
-                 {"provenance", json_of(provenance_of(result.scene))},
+                 {"provenance", provenance_json(result.scene)},
                  {"left_out", result.left_out},
                  {"remarks", result.remarks},
                  {"interrupted", result.interrupted()}});

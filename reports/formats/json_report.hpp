@@ -2,6 +2,8 @@
 
 #include "studies/study.hpp"
 
+#include <nlohmann/json_fwd.hpp>
+
 #include <string>
 
 namespace tvbeam {
@@ -9,5 +11,8 @@ namespace tvbeam {
 /// The whole result as JSON, schema tvbeam-result/1: numbers read back to the same doubles, what is
 /// undefined is null.
 std::string json_report(const StudyResult& result);
+
+/// By what, from what and when a scene was run.
+nlohmann::ordered_json provenance_json(const Scene& scene);
 
 } // namespace tvbeam

@@ -3,6 +3,7 @@
 #include "mms/text/input_error.hpp"
 #include "reports/document/json_text.hpp"
 #include "reports/document/result_document.hpp"
+#include "reports/formats/json_report.hpp"
 #include "reports/plots/drawing.hpp"
 #include "reports/plots/plot_style.hpp"
 #include "reports/studies/run_fields.hpp"
@@ -30,12 +31,19 @@ bool is_word(const std::string& text) {
     });
 }
 
+/// Without the quotes of TOML around it, if it has some.
+std::string unquoted(const std::string& text) {
+    const bool quoted = text.size() > 2 && (text.front() == '"' || text.front() == '\'') &&
+                        text.back() == text.front();
+    return quoted ? text.substr(1, text.size() - 2) : text;
+}
+
 /// Parts between commas; empty where it is not a list of words.
 std::vector<std::string> words_in(const std::string& text) {
     std::vector<std::string> words;
     for (std::size_t begin = 0; begin <= text.size();) {
         const std::size_t end = std::min(text.find(',', begin), text.size());
-        words.push_back(text.substr(begin, end - begin));
+        words.push_back(unquoted(text.substr(begin, end - begin)));
         if (!is_word(words.back()))
             return {};
         begin = end + 1;
@@ -194,18 +202,38 @@ bool has_defect(const std::vector<StudyResult>& results) {
                        [](const auto& result) { return result.scene.defect.has_value(); });
 }
 
+/// Why a row is not whole: "beam.alpha = 1e3: the reason"; nothing where all are.
+std::vector<std::string> troubles(const Sweep& sweep, const std::vector<StudyResult>& results) {
+    std::vector<std::string> all;
+    for (std::size_t i = 0; i < results.size(); ++i)
+        if (const Ending ending = results[i].ending(); ending.failed)
+            all.push_back(fmt::format("{} = {}: {}", sweep.key, sweep.values[i],
+                                      ending.reason.empty() ? "a run failed" : ending.reason));
+    return all;
+}
+
 std::string sweep_json(const Sweep& sweep, const std::vector<StudyResult>& results) {
-    nlohmann::ordered_json json{{"schema", "tvbeam-sweep/1"}, {"key", sweep.key}};
+    using Json = nlohmann::ordered_json;
+    Json json{{"schema", "tvbeam-sweep/1"}, {"key", sweep.key}};
     if (has_defect(results))
         json["defect"] = defect_words;
-    json["rows"] = nlohmann::ordered_json::array();
+    if (!results.empty()) {
+        json["scene"] = Json::parse(results.front().scene.json); // of the first value
+        json["provenance"] = provenance_json(results.front().scene);
+    }
+    json["interrupted"] = results.size() < sweep.values.size() ||
+                          std::any_of(results.begin(), results.end(),
+                                      [](const auto& result) { return result.interrupted(); });
+    json["rows"] = Json::array();
     const auto rows = rows_of(results);
     for (std::size_t i = 0; i < rows.size(); ++i) {
-        nlohmann::ordered_json row{{"value", sweep.values[i]}};
+        const auto value = number(sweep.values[i]);
+        Json row{{"value", value ? Json(*value) : Json(sweep.values[i])}};
+        if (const Ending ending = results[i].ending(); ending.failed)
+            row["failed"] = ending.reason;
         for (const auto& cell : rows[i]) {
             auto& place = cell.group.empty() ? row[cell.heading] : row[cell.group][cell.heading];
-            place = cell.value && std::isfinite(*cell.value) ? nlohmann::ordered_json(*cell.value)
-                                                             : nlohmann::ordered_json();
+            place = cell.value && std::isfinite(*cell.value) ? Json(*cell.value) : Json();
         }
         json["rows"].push_back(std::move(row));
     }
@@ -286,6 +314,8 @@ Reported reported(const Sweep& sweep, const std::vector<StudyResult>& results) {
                 all.document.head.push_back(remark);
     if (!results.empty())
         all.document.sections.push_back({"Sweep", {table_of(sweep, results)}});
+    for (const auto& trouble : troubles(sweep, results))
+        all.document.sections.back().blocks.emplace_back(Finding{trouble});
     all.json = [&sweep, &results] { return sweep_json(sweep, results); };
     all.csvs = [&sweep, &results] {
         return std::vector<NamedText>{{"sweep.csv", sweep_csv(sweep, results)}};

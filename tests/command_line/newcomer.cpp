@@ -155,6 +155,30 @@ BOOST_AUTO_TEST_CASE(a_sweep_gives_a_row_a_value) {
     BOOST_TEST(call(directory, "run sheared --set beam.zeta=1,2 --set beam.alpha=1,2").exit == 2);
 }
 
+// α = 1e200 is beyond what a step can be solved with; the other row is there all the same.
+BOOST_AUTO_TEST_CASE(a_row_of_a_sweep_that_failed_says_why) {
+    const TemporaryDirectory directory;
+    const std::string json = (directory.path() / "sweep.json").string();
+    const Called called =
+        call(directory, "run table1 --set ladder.printed={} --set ladder.elements=[4,8] --set "
+                        "ladder.dt=[0.1,0.05] --set beam.alpha=0.017,1e200 --json " +
+                            json);
+    BOOST_TEST(called.exit == 3);
+    const auto sweep = nlohmann::json::parse(directory.read("sweep.json"));
+    BOOST_REQUIRE(sweep.at("rows").size() == 2U);
+    BOOST_TEST(sweep.at("rows")[0].at("value") == 0.017);
+    BOOST_TEST(!sweep.at("rows")[0].contains("failed"));
+    BOOST_TEST(has(sweep.at("rows")[1].at("failed"), "beyond the range"));
+    BOOST_TEST(sweep.at("provenance").contains("commit"));
+    BOOST_TEST(sweep.at("interrupted") == false);
+    // Words may be quoted as in the file.
+    const Called quoted =
+        call(directory, "run sheared --quiet --set 'scheme.time=\"euler\",\"bdf2\"'"
+                        " --csv -");
+    BOOST_TEST(quoted.exit == 0, quoted.errors);
+    BOOST_TEST(has(quoted.output, "\nbdf2,"), quoted.output);
+}
+
 BOOST_AUTO_TEST_CASE(a_comparison_says_what_differs_and_by_how_much) {
     const TemporaryDirectory directory;
     for (const std::string alpha : {"1", "2"})
@@ -169,6 +193,17 @@ BOOST_AUTO_TEST_CASE(a_comparison_says_what_differs_and_by_how_much) {
     BOOST_TEST(other.exit == 1);
     BOOST_TEST(has(other.output, "beam.alpha: 1 against 2, by a part of 0.50"), other.output);
     BOOST_TEST(call(directory, "compare " + files + "/dev/null").exit == 2);
+    // Rows of a sweep are found by their values, in any order.
+    const std::string row = R"({"schema":"tvbeam-sweep/1","rows":[{"value":1,"e":)";
+    const std::string a = directory.write("a.json", row + "1.0},{\"value\":2,\"e\":5}]}");
+    const std::string b = directory.write(
+        "b.json",
+        R"({"schema":"tvbeam-sweep/1","rows":[{"value":2,"e":5},{"value":1,"e":1.001}]})");
+    BOOST_TEST(call(directory, "compare " + a + " " + b + " --tolerance 1e-2").exit == 0);
+    const Called apart = call(directory, "compare " + a + " " + b + " --tolerance 1e-4");
+    BOOST_TEST(apart.exit == 1);
+    BOOST_TEST(has(apart.output, "same in both to a part of 0.0001, 1 differ"), apart.output);
+    BOOST_TEST(call(directory, "compare " + a + " " + b + " --tolerance -1").exit == 2);
 }
 
 // Every shipped scene is one of the schema, and a misspelt key is none.

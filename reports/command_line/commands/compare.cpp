@@ -37,11 +37,12 @@ std::string part_text(const std::string& heading, const std::vector<ResultDiffer
     return text;
 }
 
-int compare_command(const std::string& first, const std::string& second) {
-    const ComparedResults compared = compare_results(first, second);
+int compare_command(const std::string& first, const std::string& second, double tolerance) {
+    const ComparedResults compared = compare_results(first, second, tolerance);
     std::string text = part_text("What was asked for differs:", compared.scene) +
                        part_text("What was found differs, the most first:", compared.results);
-    text += fmt::format("{} values are the same in both, {} differ\n", compared.equal,
+    text += fmt::format("{} values are the same in both{}, {} differ\n", compared.equal,
+                        tolerance > 0.0 ? fmt::format(" to a part of {}", tolerance) : "",
                         compared.results.size());
     write_standard_output(visible(text));
     return compared.results.empty() ? done : violated;
@@ -57,12 +58,21 @@ Command add_compare(CLI::App& app) {
     struct Files {
         std::string first;
         std::string second;
+        double tolerance = 0.0;
     };
     const auto files = std::make_shared<Files>();
     compare->add_option("first", files->first, "a result.json, or the directory that holds it")
         ->required();
     compare->add_option("second", files->second, "the other")->required();
-    return {compare, [files] { return compare_command(files->first, files->second); }};
+    constexpr double all = 1.0;
+    compare
+        ->add_option("--tolerance", files->tolerance,
+                     "what was found is the same where it differs by at most this part")
+        ->check(CLI::Range(0.0, all))
+        ->type_name("PART")
+        ->capture_default_str();
+    return {compare,
+            [files] { return compare_command(files->first, files->second, files->tolerance); }};
 }
 
 } // namespace tvbeam
