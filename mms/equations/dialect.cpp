@@ -301,7 +301,7 @@ constexpr const char* words_of_c =
     "auto break case char const continue default do double else enum extern float for goto if "
     "inline int long main register restrict return short signed sizeof static struct switch "
     "typedef typeof union unsigned void volatile while asm abs signgam lgamma_r lgammaf_r "
-    "lgammal_r";
+    "lgammal_r float_t double_t";
 /// Functions of math.h, which also have an f and an l behind their names.
 constexpr const char* functions_of_c =
     "acos acosh asin asinh atan atan2 atanh cbrt ceil copysign cos cosh drem erf erfc exp exp2 "
@@ -311,8 +311,7 @@ constexpr const char* functions_of_c =
     "sinh sqrt tan tanh tgamma trunc y0 y1 yn";
 /// Macros of math.h, of what C++ includes with it, and of the compilers.
 constexpr const char* macros_of_c =
-    "NAN INFINITY NULL HUGE_VAL HUGE_VALF HUGE_VALL M_E M_LOG2E M_LOG10E M_LN2 M_LN10 M_PI M_PI_2 "
-    "M_PI_4 M_1_PI M_2_PI M_2_SQRTPI M_SQRT2 M_SQRT1_2 FP_NAN FP_INFINITE FP_ZERO FP_SUBNORMAL "
+    "NAN INFINITY NULL HUGE_VAL HUGE_VALF HUGE_VALL FP_NAN FP_INFINITE FP_ZERO FP_SUBNORMAL "
     "FP_NORMAL FP_ILOGB0 FP_ILOGBNAN MATH_ERRNO MATH_ERREXCEPT math_errhandling MAXFLOAT SNAN "
     "SNANF SNANL RAND_MAX EXIT_SUCCESS EXIT_FAILURE BYTE_ORDER BIG_ENDIAN LITTLE_ENDIAN "
     "PDP_ENDIAN isless islessgreater islessequal isnormal issubnormal fpclassify isgreater "
@@ -323,7 +322,7 @@ constexpr const char* words_of_cpp =
     "float for friend goto if inline int long mutable namespace new noexcept not nullptr operator "
     "or private protected public register requires return short signed sizeof static std struct "
     "switch template this throw true try typedef typeid typename union unsigned using virtual void "
-    "volatile while xor asm auto";
+    "volatile while xor asm auto typeof wchar_t char8_t char16_t char32_t float_t double_t";
 constexpr const char* words_of_fortran = "dp kind real";
 constexpr const char* words_of_python =
     "and as assert async await break class continue def del elif else except finally for from "
@@ -344,9 +343,19 @@ constexpr const char* words_of_freefem =
     "lgamma tgamma j0 j1 jn y0 y1 yn i verbosity version time clock";
 constexpr const char* words_of_moose = "e abs max min if int pow plog";
 
+/// With M_PI and the like, also with the endings of types.
+std::set<std::string> all_macros() {
+    std::set<std::string> all = words(macros_of_c);
+    for (const auto& number :
+         words("E LOG2E LOG10E LN2 LN10 PI PI_2 PI_4 1_PI 2_PI 2_SQRTPI SQRT2 SQRT1_2"))
+        for (const char* end : {"", "f", "l", "f32", "f64", "f128", "f32x", "f64x"})
+            all.insert("M_" + number + end);
+    return all;
+}
+
 std::set<std::string> all_words_of_c() {
     std::set<std::string> all = words(words_of_c);
-    all.merge(words(macros_of_c));
+    all.merge(all_macros());
     for (const auto& function : words(functions_of_c))
         for (const char* end : {"", "f", "l"})
             all.insert(function + end);
@@ -355,7 +364,7 @@ std::set<std::string> all_words_of_c() {
 
 std::set<std::string> all_words_of_cpp() {
     std::set<std::string> all = words(words_of_cpp);
-    all.merge(words(macros_of_c));
+    all.merge(all_macros());
     return all;
 }
 

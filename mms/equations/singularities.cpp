@@ -144,12 +144,14 @@ public:
                          [](const auto& a, const auto& b) { return a.kind < b.kind; });
         // One a place: a root that is divided by is a root and a divisor.
         std::set<std::string> places;
-        std::erase_if(found, [&](const Singularity& one) {
-            return !places.insert(one.text.substr(one.text.rfind(" is "))).second;
-        });
+        std::erase_if(found,
+                      [&](const Singularity& one) { return !places.insert(one.place).second; });
         constexpr std::size_t most_said = 3;
-        if (found.size() > most_said)
+        if (found.size() > most_said) {
+            found[most_said - 1].text +=
+                " (and " + std::to_string(found.size() - most_said) + " more)";
             found.resize(most_said);
+        }
         return found;
     }
 
@@ -186,18 +188,28 @@ private:
         }
     }
 
-    /// The first step that a double cannot hold, though what it is made of can be held.
+    /// Whether a double holds it.
+    static bool is_held(long double value) {
+        return std::abs(value) <= std::numeric_limits<double>::max();
+    }
+
+    /// The first step that a double cannot hold, where an output then has no value either: 1/(1 +
+    /// exp(1000 x)) is 0 all the same.
     void look_for_overflow(const std::vector<long double>& values, const DomainPoint& point) {
-        const auto is_held = [](long double value) {
-            return std::abs(value) <= std::numeric_limits<double>::max();
-        };
         const auto beyond = std::find_if_not(values.begin(), values.end(), is_held);
         if (overflow_ || beyond == values.end())
+            return;
+        std::map<std::string, double> names;
+        for (const auto& [name, value] : names_at(derived_, point))
+            names[name] = static_cast<double>(value);
+        const auto outputs = program_.evaluate(names);
+        if (std::all_of(outputs.begin(), outputs.end(), is_held))
             return;
         overflow_ = Singularity{
             Singularity::Kind::overflow,
             readable_text(program_, static_cast<int>(beyond - values.begin()), longest_text) +
-                " is beyond the range of doubles " + text_of(point)};
+                " is beyond the range of doubles " + text_of(point),
+            text_of(point)};
     }
 
     void look_at(const DomainPoint& point) {
@@ -221,6 +233,14 @@ private:
     [[nodiscard]] long double margin_at(const Critical& critical, const DomainPoint& point) const {
         const auto values = program_.values(names_at(derived_, point));
         return margin(critical, values[static_cast<std::size_t>(critical.operand)]);
+    }
+
+    /// Not where it is only small, as exp(-50).
+    [[nodiscard]] bool may_vanish(const Critical& critical, const DomainPoint& point) const {
+        std::map<std::string, Span> names;
+        for (const auto& [name, value] : names_at(derived_, point))
+            names[name] = widened(Span(static_cast<double>(value)));
+        return !holds(critical, program_.values(names)[static_cast<std::size_t>(critical.operand)]);
     }
 
     /// As x^(-1/2) is at x = 0.
@@ -276,17 +296,21 @@ private:
         const bool one_sided =
             critical.rule == Critical::Rule::positive || critical.rule == Critical::Rule::below_one;
         const bool crosses = seen.least < -zero && seen.greatest > zero;
+        const bool same = is_constant_[static_cast<std::size_t>(critical.operand)];
         const auto with = [&](Kind kind, const DomainPoint& point) {
-            return Singularity{kind, said(critical) + text_of(point)};
+            const std::string place = same ? "everywhere" : text_of(point);
+            return Singularity{kind, said(critical) + place, place};
         };
         if (crosses)
             return with(one_sided ? Kind::no_value : Kind::pole,
                         crossing(critical, seen.at_least, seen.at_greatest));
         if (one_sided && seen.least < -zero)
-            return Singularity{Kind::no_value, said(critical) + "or beyond everywhere"};
+            return Singularity{Kind::no_value, said(critical) + "or beyond everywhere",
+                               "everywhere"};
         for (const auto& [value, point] :
              {std::pair(seen.least, &seen.at_least), std::pair(seen.greatest, &seen.at_greatest)})
-            if (std::abs(value) <= zero)
+            if (std::abs(value) <= zero && may_vanish(critical, *point) &&
+                !(same && !critical.pole && !is_infinite_at(*point))) // no kink in x
                 return with(critical.pole || is_infinite_at(*point) ? Kind::pole : Kind::kink,
                             *point);
         return std::nullopt;
@@ -311,7 +335,8 @@ private:
             if (++looked_at > most_parts || !can_be_halved(box))
                 return Singularity{Singularity::Kind::not_excluded,
                                    "it could not be excluded that " + said(*broken) + "near " +
-                                       text_of(middle_of(box)).substr(3)};
+                                       text_of(middle_of(box)).substr(3),
+                                   text_of(middle_of(box))};
             halve(box, whole, left);
         }
         return std::nullopt;

@@ -18,12 +18,13 @@ struct Singularity {
         not_excluded,
     };
     Kind kind;
-    std::string text; ///< "1 - 2*x is 0 at x = 0.5"
+    std::string text;  ///< "1 - 2*x is 0 at x = 0.5"
+    std::string place; ///< "at x = 0.5"
 };
 
-/// What is found of a program on the domain, the worst first, one a place and at most three;
-/// none: it is smooth
-/// everywhere. Overflow is looked for at the points of a grid that has the ends of the domain.
+/// What is found of a program on the domain, the worst first and one a place, at most three and how
+/// many more; none: it is smooth everywhere. Overflow is what leaves an output without a value in
+/// doubles, at the points of a grid that has the ends of the domain.
 std::vector<Singularity> singularities_of(const Program& program, const DerivedSystem& derived);
 
 } // namespace tvbeam

@@ -8,8 +8,12 @@
 
 #include <fmt/format.h>
 
+#include <cerrno>
 #include <stdexcept>
+#include <system_error>
 #include <utility>
+
+#include <unistd.h>
 
 namespace tvbeam {
 
@@ -145,17 +149,26 @@ void FinishedWork::read_entry(const Json& entry, const KeptLine& line) {
         throw std::invalid_argument(fmt::format("the scene has no run {} of {}", index, study));
     const std::any result = result_of(group->second, index, entry["result"]);
     Where& where = places_[group->second][index];
-    if (where.file > 0) // made by two programs: the first one's
+    if (where.file > 0 && !where.failed) // made by two programs: the first one's
         return;
+    if (where.file == 0)
+        ++found_;
     where = {.offset = line.offset,
              .size = static_cast<std::uint32_t>(line.text.size()),
              .file = static_cast<std::uint32_t>(files_.size()) & 0x7fffffffU,
              .failed = has_failed(result)};
-    ++found_;
     holds_runs_ = true;
 }
 
 void FinishedWork::keep_in(const std::filesystem::path& file) {
+    std::error_code error;
+    if (std::filesystem::exists(file, error)) {
+        if (!std::filesystem::is_regular_file(file, error))
+            throw InputError({file.string()}, "is no file of results; remove it");
+        if (access(file.c_str(), W_OK) != 0)
+            throw OutputError("cannot write '" + file.string() +
+                              "': " + std::generic_category().message(errno));
+    }
     const OutputFile writable(file);
     kept_.emplace(file);
 }
@@ -165,7 +178,7 @@ std::any FinishedWork::find(const std::string& study, std::size_t index) const {
     if (group == group_of_.end() || index >= places_[group->second].size())
         return {};
     const Where& where = places_[group->second][index];
-    if (where.file == 0)
+    if (where.file == 0 || (where.failed && kept_ && scene_.solver))
         return {};
     return result_of(group->second, index,
                      parsed(files_[where.file - 1].line_at(where.offset, where.size))["result"]);
@@ -229,7 +242,7 @@ void FinishedWork::remove() {
     holds_runs_ = false;
 }
 
-WorkOrigin work_origin_of(const std::filesystem::path& file) {
+std::optional<WorkOrigin> work_origin_of(const std::filesystem::path& file) {
     struct Found {};
     WorkOrigin origin;
     try {
@@ -244,8 +257,7 @@ WorkOrigin work_origin_of(const std::filesystem::path& file) {
     } catch (const Found&) {
         return origin;
     }
-    throw InputError({file.string()},
-                     "has no whole line that says what it is of" + std::string(removal));
+    return std::nullopt;
 }
 
 } // namespace tvbeam

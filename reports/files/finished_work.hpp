@@ -40,8 +40,9 @@ public:
     /// of the scene gives. Returns what of it is not whole.
     TornLines read(const std::filesystem::path& file);
 
-    /// Results from here on are appended to the file. Throws OutputError where nothing can be
-    /// written.
+    /// Results from here on are appended to the file, and runs of an external program that failed
+    /// are made again: what it lacked may be there now. Throws OutputError where nothing can be
+    /// written, InputError where it is no regular file.
     void keep_in(const std::filesystem::path& file);
 
     std::optional<RungResult> find(const Series& series, std::size_t index) override;
@@ -72,6 +73,12 @@ public:
     /// Why results could not be kept, all of them or the later ones; empty: they are. A study goes
     /// on without, and its results are written.
     [[nodiscard]] const std::string& failure() const { return failure_; }
+
+    /// Whether results can be kept still.
+    [[nodiscard]] bool keeps() const {
+        const std::scoped_lock lock(mutex_);
+        return failure_.empty();
+    }
 
     /// The file of keep_in: the study has come to its end. Throws OutputError.
     void remove();
@@ -107,8 +114,8 @@ private:
     std::string failure_;
 };
 
-/// What the first line of a file says, before the scene is at hand. Throws InputError where it says
-/// nothing of the kind.
-WorkOrigin work_origin_of(const std::filesystem::path& file);
+/// What the first whole line of a file says, before the scene is at hand; none where there is no
+/// whole line. Throws InputError where it says nothing of the kind.
+std::optional<WorkOrigin> work_origin_of(const std::filesystem::path& file);
 
 } // namespace tvbeam

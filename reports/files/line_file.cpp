@@ -178,13 +178,8 @@ void LineFile::append(const std::string& object) {
     if (descriptor_ < 0)
         open();
     const std::string text = before_ + sealed(object) + "\n";
-    const auto before = lseek(descriptor_, 0, SEEK_END);
     if (!write_whole(descriptor_, text)) {
-        const int error = errno;
-        // Half a line is no result; should another program have appended to it, it stays.
-        if (lseek(descriptor_, 0, SEEK_END) - before < static_cast<off_t>(text.size()))
-            uncut([&] { return ftruncate(descriptor_, before); });
-        errno = error;
+        before_ = "\n"; // of what is there of it, which no reader takes for a line
         fail();
     }
     before_.clear();

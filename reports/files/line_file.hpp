@@ -55,7 +55,8 @@ public:
     [[nodiscard]] std::string line_at(std::int64_t offset, std::size_t size) const;
 
     /// Appends an object of JSON. It survives the program at once, and a crash of the machine half
-    /// a second later. Throws OutputError, and leaves what was there, where it does not fit.
+    /// a second later. Throws OutputError where it does not fit; a part of it may stay, which
+    /// read() knows to be no whole line.
     void append(const std::string& object);
 
     void flush();  ///< all of it to the disk; throws OutputError

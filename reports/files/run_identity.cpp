@@ -55,8 +55,12 @@ nlohmann::ordered_json run_identity(const Scene& scene) {
             lines.push_back({phase.until ? phase.until->text() : "", phase.theta.text(),
                              phase.u.text(), phase.sigma ? phase.sigma->text() : ""});
     }
-    if (scene.solver) // the levels are in the scene
-        identity["solver"] = RunIdentities(*scene.solver).of(scene.series().front(), 0);
+    if (scene.solver) {
+        const RunIdentities identities(*scene.solver);
+        for (const auto& series : scene.series())
+            for (std::size_t level = 0; level < series.rungs.size(); ++level)
+                identity["solver"].push_back(identities.of(series, level));
+    }
     return identity;
 }
 

@@ -108,7 +108,8 @@ Json json_of(const StressResult& result) {
         all.visit([&json](const StressCase& one) { json["cases"].push_back(json_of(one)); });
     } else {
         json["cases_left_out"] = fmt::format(
-            "{} cases are more than {}: their rows stand in the CSV", all.size(), most_in_json);
+            "{} cases are more than {}: their rows stand in stress.csv, which --csv writes, or [report] "
+            "where its files hold \"csv\"", all.size(), most_in_json);
     }
     if (result.contraction)
         json["contraction"] = json_of(*result.contraction);

@@ -16,14 +16,20 @@ struct Task {
     std::size_t index;
 };
 
-/// Whether it is there afterwards.
-bool make(const Task& task, const RunCall& run, const Execution& execution) {
+bool is_there(const Task& task, FinishedRuns& finished) {
+    const auto& [group, index] = task;
+    return group->series ? finished.find(*group->series, index).has_value()
+                         : finished.find_part(group->study, index).has_value();
+}
+
+RungStatus make(const Task& task, const RunCall& run, const Execution& execution) {
     const auto& [group, index] = task;
     if (!group->series)
-        return make_or_find(group->parts, index, execution).has_value();
+        return make_or_find(group->parts, index, execution).has_value() ? RungStatus::ok
+                                                                        : RungStatus::interrupted;
     if (!execution.advance(0.0))
-        return false;
-    return run_or_find(*group->series, index, run, execution).status != RungStatus::interrupted;
+        return RungStatus::interrupted;
+    return run_or_find(*group->series, index, run, execution).status;
 }
 
 } // namespace
@@ -34,24 +40,37 @@ ShardEnd run_shard(const Scene& scene, const Shard& shard, const Execution& exec
     std::vector<Task> tasks;
     std::vector<double> costs;
     double work = 0.0;
+    ShardEnd end;
     for (std::size_t g = 0; g < groups.size(); ++g)
-        for (std::size_t i = 0; i < groups[g].count(); ++i)
-            if (owners[g][i] == shard.number) {
-                tasks.push_back({&groups[g], i});
-                costs.push_back(groups[g].work(i));
-                work += groups[g].series
-                            ? work_of(groups[g].series->method, groups[g].series->rungs[i])
-                            : groups[g].parts.work(i);
+        for (std::size_t i = 0; i < groups[g].count(); ++i) {
+            const Task task{&groups[g], i};
+            if (owners[g][i] != shard.number)
+                continue;
+            if (is_there(task, *execution.finished)) {
+                ++end.there;
+                continue;
             }
+            tasks.push_back(task);
+            costs.push_back(groups[g].work(i));
+            work += groups[g].series ? work_of(groups[g].series->method, groups[g].series->rungs[i])
+                                     : groups[g].parts.work(i);
+        }
+    if (tasks.empty()) // what runs are prepared with, a reference say, takes long
+        return end;
     execution.expect(work);
-    std::atomic<std::size_t> there = 0;
+    std::atomic<std::size_t> made = 0;
+    std::atomic<std::size_t> failed = 0;
     on_prepared(scene, execution, [&](const StudyContext& context) {
         for_each_longest_first(costs, execution.jobs, [&](std::size_t k) {
-            if (make(tasks[k], context.solver.run, execution))
-                ++there;
+            const RungStatus status = make(tasks[k], context.solver.run, execution);
+            made += status == RungStatus::interrupted ? 0 : 1;
+            failed += status == RungStatus::failed ? 1 : 0;
         });
     });
-    return {there, tasks.size() - there};
+    end.there += made;
+    end.failed = failed;
+    end.missing = tasks.size() - made;
+    return end;
 }
 
 } // namespace tvbeam

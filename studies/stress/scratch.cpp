@@ -15,18 +15,21 @@ namespace tvbeam {
 
 namespace {
 
+/// TMPDIR, or /tmp where that is no directory.
+std::filesystem::path directory() {
+    std::error_code error;
+    auto path = std::filesystem::temp_directory_path(error);
+    return error ? std::filesystem::path("/tmp") : path;
+}
+
 [[noreturn]] void fail(const std::string& what) {
     const std::string reason = std::generic_category().message(errno);
-    std::error_code ignored;
-    throw std::runtime_error("cannot " + what + " a temporary file in '" +
-                             std::filesystem::temp_directory_path(ignored).string() +
+    throw std::runtime_error("cannot " + what + " a temporary file in '" + directory().string() +
                              "' for the results of many cases: " + reason);
 }
 
 int unnamed_file() {
-    std::error_code ignored;
-    std::string name =
-        (std::filesystem::temp_directory_path(ignored) / "tvbeam-scratch-XXXXXX").string();
+    std::string name = (directory() / "tvbeam-scratch-XXXXXX").string();
     const int descriptor = mkostemp(name.data(), O_CLOEXEC);
     if (descriptor < 0)
         fail("make");

@@ -362,7 +362,7 @@ BOOST_AUTO_TEST_CASE(reserved_names_are_changed_also_where_they_are_used) {
 // Macros, functions with their endings, and what a compiler predefines.
 BOOST_AUTO_TEST_CASE(names_that_headers_take_are_changed_so_that_the_code_compiles) {
     for (const std::string name : {"M_PI", "NAN", "INFINITY", "linux", "unix", "typeof", "isnan",
-                                   "j0f", "gammal", "FP_ZERO"}) {
+                                   "j0f", "gammal", "FP_ZERO", "float_t", "M_PIl"}) {
         const auto derived = derive_system(parse_equation_system(
             "[parameters]\n" + name + " = 2\n[unknowns]\nu = \"sin(x)\"\n[equations]\nf = \"" +
                 name + "*diff(u, x)\"\n",

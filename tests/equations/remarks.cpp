@@ -115,7 +115,28 @@ BOOST_AUTO_TEST_CASE(a_source_that_a_double_cannot_hold_is_said_with_what_overfl
     BOOST_TEST(remark_of("x", "exp(800*u)/(1 + exp(800*u))") == "");
 }
 
+// Doubles give 0, π/2 and 1e-22 there: no overflow, no pole.
+BOOST_AUTO_TEST_CASE(what_comes_out_well_is_not_called_an_overflow_or_a_pole) {
+    BOOST_TEST(remark_of("1/(1 + exp(900*x))", "u") == "");
+    // Of the slope 2000 e^s/(1 + e^2s) doubles make ∞/∞.
+    const auto said = remarks_of("atan(exp(2000*(x - 0.5)))", "u");
+    BOOST_REQUIRE(said.size() == 1U);
+    BOOST_TEST(said[0].starts_with("my.toml:2:6: u_exact_x: "), said[0]);
+    BOOST_TEST(remark_of("x", "u/(1 + exp(1000*x))") == "");
+    BOOST_TEST(remark_of("x", "u/exp(-50*x)") == "");
+}
+
+BOOST_AUTO_TEST_CASE(what_is_singular_by_its_parameters_is_so_everywhere) {
+    BOOST_TEST(remark_of("x", "sqrt(k + 1)*u + u", "[parameters]\nk = -1\n").find("not smooth") ==
+               std::string::npos);
+    const std::string pole = remark_of("x", "u/k", "[parameters]\nk = 0\n");
+    BOOST_TEST(pole.find("the divisor k is 0 everywhere") != std::string::npos, pole);
+}
+
 BOOST_AUTO_TEST_CASE(every_singularity_of_a_source_is_said) {
+    const std::string many =
+        remark_of("x", "1/(u - 0.3) + 1/(u - 0.4) + 1/(u - 0.6) + 1/(u - 0.7)");
+    BOOST_TEST(many.find("(and 1 more)") != std::string::npos, many);
     const auto said = remarks_of("x", "1/(u - 0.25) + 1/(u - 0.75)");
     BOOST_REQUIRE(said.size() == 2U);
     for (const char* place : {"x = 0.25", "x = 0.75"})

@@ -11,6 +11,7 @@
 #include "reports/files/report_directory.hpp"
 #include "reports/files/shard_files.hpp"
 #include "reports/formats/report_format.hpp"
+#include "studies/predicted_work.hpp"
 #include "studies/study.hpp"
 
 #include <fmt/format.h>
@@ -30,6 +31,7 @@ struct MergeOptions {
     std::string scene;
     bool status = false;
     bool quiet = false;
+    bool really_long = false;
     int jobs = 1;
 };
 
@@ -38,18 +40,30 @@ class Merged {
 public:
     explicit Merged(const MergeOptions& options)
         : directory_(options.directory), files_(shard_files_in(directory_)),
-          origin_(work_origin_of(files_.files.front().second)),
-          scene_(read(options.scene.empty() ? origin_.scene : options.scene)),
-          work_(scene_, {origin_.scene, origin_.overrides, {}}) {
+          origin_(origin_of(files_)), name_(options.scene.empty() ? origin_.scene : options.scene),
+          scene_(read(name_)), work_(scene_, {origin_.scene, origin_.overrides, {}}) {
+        std::string torn;
         for (const auto& [shard, file] : files_.files)
-            if (const TornLines torn = work_.read(file); torn.count > 0)
-                say(file.string() + ": " + torn.text() + "; its shard makes what is missing again");
+            if (const TornLines lines = work_.read(file); lines.count > 0)
+                torn += (torn.empty() ? "" : "; ") + file.string() + ": " + lines.text();
         states_ = shard_states(work_, files_.of);
+        if (!torn.empty() && !complete())
+            say(torn + "; their shards make what is missing again");
     }
 
     [[nodiscard]] const Scene& scene() const { return scene_; }
     FinishedWork& work() { return work_; }
     [[nodiscard]] bool complete() const { return unfinished().empty(); }
+
+    /// What the merge makes itself: an evolution, a sensitivity, a reference.
+    [[nodiscard]] PredictedWork left_to_do() const {
+        PredictedWork predicted = predicted_work(scene_);
+        for (const auto& group : work_.groups())
+            for (std::size_t i = 0; i < group.count(); ++i)
+                predicted.seconds -= group.work(i) / steps_a_second;
+        predicted.seconds = std::max(predicted.seconds, 0.0);
+        return predicted;
+    }
 
     /// What is there and what is missing, by shard, and the command that makes it.
     [[nodiscard]] std::string status() const {
@@ -85,6 +99,25 @@ public:
     }
 
 private:
+    /// That of the first file that has one: others may have been begun only.
+    static WorkOrigin origin_of(const ShardFiles& files) {
+        std::optional<WorkOrigin> found;
+        for (const auto& [shard, file] : files.files) {
+            const auto origin = work_origin_of(file);
+            if (!origin)
+                continue;
+            if (!origin->shard || origin->shard->name() != shard.name())
+                throw InputError({file.string()}, "holds another shard than its name says; remove "
+                                                  "it, or give it its name again");
+            if (!found)
+                found = origin;
+        }
+        if (!found)
+            throw InputError({files.files.front().second.string()},
+                             "has no whole line that says what it is of, nor has another shard; "
+                             "remove the files to make their runs anew");
+        return *found;
+    }
     [[nodiscard]] Scene read(const std::string& name) const {
         try {
             return read_scene(name, origin_.overrides, {.report_files = report_format_names()});
@@ -115,7 +148,7 @@ private:
     }
     [[nodiscard]] std::string command() const {
         const auto numbers = unfinished();
-        const std::string run = shard_command_line(origin_.scene, origin_.overrides, directory_);
+        const std::string run = shard_command_line(name_, origin_.overrides, directory_);
         if (numbers.size() == 1)
             return fmt::format("{}{}/{}", run, numbers.front(), files_.of);
         std::string list;
@@ -128,6 +161,7 @@ private:
     std::string directory_;
     ShardFiles files_;
     WorkOrigin origin_;
+    std::string name_; ///< of the scene
     Scene scene_;
     FinishedWork work_;
     std::vector<ShardState> states_;
@@ -140,6 +174,8 @@ int merge_command(const MergeOptions& options) {
         return merged.complete() ? done : run_failed;
     }
     const bool complete = merged.complete();
+    if (!options.really_long)
+        require_short_enough(merged.scene(), merged.left_to_do());
     std::optional<ReportDirectory> out;
     opened([&] { out.emplace(options.directory, merged.scene().report); });
     EndRequests end_requests([&] {
@@ -189,6 +225,7 @@ Command add_merge(CLI::App& app) {
                      "the scene's file, where it does not stand any more where the shards read it")
         ->type_name("SCENE");
     merge->add_flag("--quiet", options->quiet, "no table, and no progress line");
+    add_really_long(*merge, options->really_long);
     add_jobs(*merge, options->jobs);
     return {merge, [options] { return merge_command(*options); }};
 }

@@ -4,10 +4,12 @@
 #include "reports/command_line/commands/command.hpp"
 #include "reports/command_line/commands/destination.hpp"
 #include "reports/command_line/commands/said.hpp"
-#include "reports/command_line/commands/shown_run.hpp"
+#include "reports/command_line/commands/shell_words.hpp"
 #include "reports/command_line/end_requests.hpp"
 #include "reports/command_line/progress_line.hpp"
+#include "reports/files/output_file.hpp"
 #include "reports/files/shard_files.hpp"
+#include "studies/predicted_work.hpp"
 #include "studies/shards/run_shard.hpp"
 #include "studies/study.hpp"
 
@@ -63,18 +65,43 @@ std::string lasting_name(const Scene& scene, const std::string& given) {
     return is_path ? std::filesystem::absolute(scene.file).string() : given;
 }
 
+void make_directory(const std::filesystem::path& directory) {
+    std::error_code error;
+    std::filesystem::create_directories(directory, error);
+    if (!std::filesystem::is_directory(directory))
+        throw OutputError("cannot make the directory '" + directory.string() + "'" +
+                          (error ? ": " + error.message() : "; a file has its name"));
+}
+
+/// Ends a shard whose results cannot be kept: nothing else comes of it.
+class WhileKept final : public Progress {
+public:
+    WhileKept(Progress& progress, const FinishedWork& work) : progress_(progress), work_(work) {}
+    void expect(double work) override { progress_.expect(work); }
+    bool advance(double work) override { return progress_.advance(work) && work_.keeps(); }
+
+private:
+    Progress& progress_;
+    const FinishedWork& work_;
+};
+
 } // namespace
 
 int shard_command(const ShardOptions& options) {
     const Shard shard = shard_in(options.shard);
     const Scene scene = read_scene(options.scene, options.overrides);
     require_dealable(scene);
-    predict(scene, true, options.really_long);
+    if (!options.really_long) {
+        PredictedWork predicted = predicted_work(scene);
+        for (double* part : {&predicted.seconds, &predicted.steps, &predicted.runs})
+            *part /= shard.of;
+        require_short_enough(scene, predicted);
+    }
     require_runnable(scene);
     FinishedWork work(scene, {lasting_name(scene, options.scene), options.overrides, shard});
     const std::filesystem::path file = shard_file(options.out, shard);
     const TornLines torn = opened([&] {
-        std::filesystem::create_directories(options.out);
+        make_directory(options.out);
         work.keep_in(file);
         return std::filesystem::exists(file) ? work.read(file) : TornLines();
     });
@@ -86,12 +113,13 @@ int shard_command(const ShardOptions& options) {
                         "from the runs that are kept");
     });
     ProgressLine progress(!options.quiet);
+    WhileKept while_kept(progress, work);
     const ShardEnd end =
-        run_shard(scene, shard, {.jobs = options.jobs, .progress = &progress, .finished = &work});
+        run_shard(scene, shard, {.jobs = options.jobs, .progress = &while_kept, .finished = &work});
     end_requests.settle();
     work.write();
     if (!work.failure().empty()) {
-        say(work.failure() + "; the runs behind it are not kept");
+        say(work.failure() + "; the shard ends here, and goes on when it is started again");
         return run_failed;
     }
     if (end.missing > 0) {
@@ -99,11 +127,17 @@ int shard_command(const ShardOptions& options) {
                         end.missing, end.there + end.missing));
         return run_failed;
     }
-    if (!options.quiet)
+    if (end.failed > 0)
+        say(fmt::format("{} runs of shard {} failed; tvbeam merge says which and why", end.failed,
+                        shard.name()));
+    else if (!options.quiet && end.there == 0)
+        say(fmt::format("shard {} is dealt no run: there are fewer runs than shards",
+                        shard.name()));
+    else if (!options.quiet)
         say(fmt::format("shard {} has all of its {} runs in {}; when the others have theirs: "
                         "tvbeam merge {}",
-                        shard.name(), end.there, file.string(), options.out));
-    return done;
+                        shard.name(), end.there, file.string(), word(options.out)));
+    return end.failed > 0 ? run_failed : done;
 }
 
 } // namespace tvbeam

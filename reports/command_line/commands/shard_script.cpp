@@ -32,31 +32,57 @@ struct ScriptOptions {
     bool parallel = false;
 };
 
-/// Of the shard that asks for most, in whole minutes and MB: ten times the predicted time, which is
-/// right within a factor of ten, and the predicted memory besides what any process takes.
+/// Of the shard that asks for most.
 struct Request {
-    std::int64_t minutes = 0;
+    std::optional<std::int64_t> minutes; ///< none: nobody knows what a program takes
     std::int64_t megabytes = 0;
+    bool really_long = false; ///< a shard is refused without --yes-really-long
 };
 
+/// Ten times the predicted time, which is right within a factor of ten: that of a reference, which
+/// every shard makes for itself, and of its own runs; of a program as long as its time-out allows.
+/// The predicted memory besides what any process takes.
 Request request_of(const Scene& scene, std::uint32_t shards) {
     const auto groups = work_groups(scene);
     const auto owners = dealt(groups, shards);
     std::vector<double> work(shards, 0.0);
+    std::vector<double> runs(shards, 0.0);
+    double all = 0.0;
     for (std::size_t group = 0; group < groups.size(); ++group)
-        for (std::size_t i = 0; i < owners[group].size(); ++i)
+        for (std::size_t i = 0; i < owners[group].size(); ++i) {
             work[owners[group][i] - 1] += groups[group].work(i);
-    double seconds = *std::max_element(work.begin(), work.end()) / steps_a_second;
+            all += groups[group].work(i);
+            ++runs[owners[group][i] - 1];
+        }
     const PredictedWork predicted = predicted_work(scene);
-    if (scene.solver) // a program's time is known by its time-out only
-        seconds = predicted.at_most / static_cast<double>(shards);
+    const double shared = std::max(0.0, predicted.seconds - all / steps_a_second);
+    const double seconds = shared + *std::max_element(work.begin(), work.end()) / steps_a_second;
     constexpr double margin = 10.0;
     constexpr double any_process = 200e6; // bytes
     const auto rounded_up = [](double value) {
         return static_cast<std::int64_t>(std::ceil(value));
     };
-    return {rounded_up(margin * seconds / 60.0) + 1,
-            rounded_up((any_process + 2.0 * predicted.bytes) / 1e6)};
+    Request request{.minutes = rounded_up(margin * seconds / 60.0) + 1,
+                    .megabytes = rounded_up((any_process + 2.0 * predicted.bytes) / 1e6),
+                    .really_long = !scene.is_long && predicted.seconds / shards > longest_work};
+    if (scene.solver && scene.solver->timeout)
+        request.minutes = 1 + rounded_up(*std::max_element(runs.begin(), runs.end()) *
+                                         *scene.solver->timeout / 60.0);
+    else if (scene.solver)
+        request.minutes.reset();
+    return request;
+}
+
+std::string time_line(const Request& request) {
+    return request.minutes ? fmt::format("#SBATCH --time={}", *request.minutes)
+                           : "# What the program takes is not known: [solver] has no timeout; a "
+                             "line #SBATCH --time=MINUTES says it here.";
+}
+
+/// What stands in a comment has one line.
+void require_one_line(const std::string& text) {
+    if (std::any_of(text.begin(), text.end(), [](unsigned char c) { return c < 0x20; }))
+        throw InputError({}, "a name with a control character cannot stand in a script");
 }
 
 /// What the largest node of this machine's Slurm cluster has, in MB, as its administrators say;
@@ -93,28 +119,24 @@ int script_command(const ScriptOptions& options) {
     const Scene scene = read_scene(options.scene, options.overrides);
     require_dealable(scene);
     const std::string out = options.out.empty() ? "out/" + scene.name : options.out;
+    require_one_line(out + options.scene);
     const Request request = request_of(scene, options.shards);
     const std::string run = shard_command_line(options.scene, options.overrides, out);
+    const std::string rest = request.really_long ? " --quiet --yes-really-long" : " --quiet";
     const std::string merge = "tvbeam merge " + word(out);
     if (options.slurm)
-        write_standard_output(fmt::format("#!/bin/sh\n"
-                                          "#SBATCH --job-name={}\n"
-                                          "#SBATCH --array=1-{}\n"
-                                          "#SBATCH --cpus-per-task=1\n"
-                                          "{}\n"
-                                          "#SBATCH --time={}\n"
-                                          "# Afterwards: {}\n"
-                                          "exec {}auto/{} --quiet\n",
-                                          word("tvbeam-" + scene.name), options.shards,
-                                          memory_line(request.megabytes), request.minutes, merge,
-                                          run, options.shards));
+        write_standard_output(fmt::format(
+            "#!/bin/sh\n#SBATCH --job-name={}\n#SBATCH --array=1-{}\n#SBATCH "
+            "--cpus-per-task=1\n{}\n{}\n# Afterwards: {}\nexec {}auto/{}{}\n",
+            word("tvbeam-" + scene.name), options.shards, memory_line(request.megabytes),
+            time_line(request), merge, run, options.shards, rest));
     else
-        write_standard_output(fmt::format("#!/bin/sh\n"
-                                          "# A job is to take at most {} minutes and {} MB.\n"
-                                          "seq {} | parallel --memfree {}M {}{{}}/{} --quiet\n"
-                                          "{}\n",
-                                          request.minutes, request.megabytes, options.shards,
-                                          request.megabytes, run, options.shards, merge));
+        write_standard_output(fmt::format(
+            "#!/bin/sh\n# Each job takes up to {} MB{}.\nseq {} | parallel -q --memfree {}M "
+            "{}{{}}/{}{}\n{}\n",
+            request.megabytes,
+            request.minutes ? fmt::format(" and {} minutes", *request.minutes) : "", options.shards,
+            request.megabytes, run, options.shards, rest, merge));
     return done;
 }
 
