@@ -17,6 +17,7 @@ namespace {
 
 std::vector<ValueRow> sequence(int levels, const std::function<double(double)>& value) {
     std::vector<ValueRow> rows;
+    rows.reserve(static_cast<std::size_t>(levels));
     for (int k = 0; k < levels; ++k)
         rows.push_back({std::exp2(-k), value(std::exp2(-k))});
     return rows;

@@ -45,6 +45,7 @@ Method method(const std::string& name) {
 
 std::vector<Rung> levels(const std::vector<std::int64_t>& elements) {
     std::vector<Rung> rungs;
+    rungs.reserve(elements.size());
     for (const auto s : elements)
         rungs.push_back({s, s * s, 1.0 / static_cast<double>(s * s)});
     return rungs;

@@ -107,6 +107,7 @@ namespace {
 std::vector<std::string> remarks_by_model(const std::vector<double>& elements) {
     const TwoTermModel model{.a = 1.0, .p = 2.0, .b = 1.0 / 160.0, .q = 1.0, .rho = 0.0};
     std::vector<Refinement> ladder;
+    ladder.reserve(elements.size());
     for (const double s : elements)
         ladder.push_back({.h = 1.0 / s, .dt = 1.0 / s, .error = model.error(1.0 / s, 1.0 / s)});
     return order_remarks(measure_of(*Norm::named("theta_L2L2")), ladder, &model);
