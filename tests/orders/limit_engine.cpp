@@ -17,6 +17,7 @@ namespace {
 
 std::vector<ValueRow> sequence(int levels, const std::function<double(double)>& value) {
     std::vector<ValueRow> rows;
+    rows.reserve(static_cast<std::size_t>(levels));
     for (int k = 0; k < levels; ++k)
         rows.push_back({std::exp2(-k), value(std::exp2(-k))});
     return rows;
@@ -112,6 +113,20 @@ BOOST_AUTO_TEST_CASE(celik_extrapolates_with_the_ratio_of_the_fine_pair) {
         BOOST_TEST(std::abs(found->order - p) < 1e-6);
         BOOST_TEST(std::abs(found->limit - 1.0) < 1e-8);
     }
+}
+
+// f = 7 + 10 h + r with r = −6, 15, −12, 3 on h = 8, 4, 2, 1. With the weights 1/h, r is orthogonal
+// to 1, h and h ln h, so that the fit has the limit 7 and the order 1. Of n = 4 values and 3
+// parameters the deviation is σ² = n Σ w r² / (n − 3) = 4 · 141.75 / 1.875 = 302.4 with weights of
+// sum one; the equal weights' is larger. It is less than (81 − 15) / (n − 1) = 22, the mean step of
+// the data, so that the fit is a good one and U = 1.25 · |10 h_1| + σ + |r_1|.
+BOOST_AUTO_TEST_CASE(the_uncertainty_of_eca_and_hoekstra_is_theirs) {
+    const auto found = eca_hoekstra_of(std::vector<ValueRow>{{8, 81}, {4, 62}, {2, 15}, {1, 20}});
+    BOOST_REQUIRE(found.has_value());
+    BOOST_TEST(found->model == "f0 + C h^p");
+    BOOST_TEST(std::abs(found->order - 1) < 1e-5);
+    BOOST_TEST(std::abs(found->limit - 7) < 1e-3);
+    BOOST_TEST(std::abs(found->uncertainty - (12.5 + std::sqrt(302.4) + 3)) < 1e-3);
 }
 
 // A 95 % interval may miss one case of twenty, and of these the most extreme: p = ½, and a next

@@ -9,6 +9,8 @@
 
 #include <atomic>
 #include <cmath>
+#include <string>
+#include <vector>
 
 using namespace tvbeam;
 
@@ -43,6 +45,7 @@ Method method(const std::string& name) {
 
 std::vector<Rung> levels(const std::vector<std::int64_t>& elements) {
     std::vector<Rung> rungs;
+    rungs.reserve(elements.size());
     for (const auto s : elements)
         rungs.push_back({s, s * s, 1.0 / static_cast<double>(s * s)});
     return rungs;
@@ -80,6 +83,67 @@ BOOST_AUTO_TEST_CASE(a_grid_of_calls_has_the_orders_and_constants_of_what_is_cal
         BOOST_TEST(model->a == 3.0, boost::test_tools::tolerance(1e-4));
         BOOST_TEST(model->b == 2.0, boost::test_tools::tolerance(1e-4));
     }
+}
+
+// e² = 25 h⁴ with Δt = h², so that C = e² / (h² + Δt²) = 25 / (s² + 1): the coarsest and the finest
+// run have none.
+BOOST_AUTO_TEST_CASE(constants_of_a_theorem_are_those_of_the_runs_that_have_an_error) {
+    const auto breaks = [](const RunTask& task) {
+        RungResult result = made_up(task);
+        if (task.level == 0 || task.level == 3) {
+            result.status = RungStatus::failed;
+            result.errors.clear();
+        }
+        return result;
+    };
+    const OrdersBlock block{.final_time = 1.0,
+                            .grid = levels({4, 8, 16, 32}),
+                            .norms = {{"L2_sq", true, "", "Theorem 1"}}};
+    const OrdersResult grid = run_orders(block, method("first"), {.run = breaks});
+    BOOST_REQUIRE(grid.corollary.has_value());
+    const auto near = boost::test_tools::tolerance(1e-12);
+    BOOST_TEST(grid.corollary->greatest == 25.0 / (8 * 8 + 1), near);
+    BOOST_TEST(grid.corollary->least == 25.0 / (16 * 16 + 1), near);
+    BOOST_TEST(grid.corollary->finest == 25.0 / (16 * 16 + 1), near);
+}
+
+// e = 3 h², whatever Δt: the fit holds, and knows no order in Δt.
+BOOST_AUTO_TEST_CASE(a_grid_that_shows_one_order_alone_predicts_nothing) {
+    const auto in_space = [](const RunTask& task) {
+        RungResult result = made_up(task);
+        result.errors = {3.0 * task.rung.h() * task.rung.h()};
+        return result;
+    };
+    OrdersBlock block{.final_time = 1.0, .grid = {}, .norms = {norms[0]}};
+    for (const std::int64_t steps : {10, 20, 40, 80})
+        for (const std::int64_t s : {4, 8, 16, 32})
+            block.grid.push_back({s, steps, 1.0 / static_cast<double>(steps)});
+    const OrdersResult grid = run_orders(block, method("first"), {.run = in_space});
+    BOOST_TEST(grid.norms[0].fit.holds());
+    BOOST_TEST(grid.fit_of(norms[0]) == nullptr);
+}
+
+// e = 5 h², but for the coarsest run, known to 2 %, and the finest, with half the reference's
+// elements, which are wrong.
+BOOST_AUTO_TEST_CASE(remarks_rest_on_the_levels_that_are_resolved_and_not_close_to_the_reference) {
+    const auto wrong_at_the_ends = [](const RunTask& task) {
+        RungResult result = made_up(task);
+        if (task.level == 0 || task.level == 4)
+            result.errors[0] *= 10.0;
+        result.uncertainties = {task.level == 0 ? 0.02 : 0.01};
+        return result;
+    };
+    const LadderBlock block{
+        .final_time = 1.0, .rungs = levels({4, 8, 16, 32, 64}), .norms = {norms[0]}, .printed = {}};
+    const LadderResult ladder =
+        run_ladder(block, method("first"),
+                   {.run = wrong_at_the_ends,
+                    .reference = ReferenceBlock{.elements = 128, .dt = 1.0 / (128 * 128)}});
+    BOOST_TEST(ladder.norms[0].remarks == std::vector<std::string>{"L2: order 2.00 up to s = 32."},
+               boost::test_tools::per_element());
+    BOOST_TEST(ladder.quadrature_remark.find("s = 4: L2 is uncertain by 0.02 of itself.") !=
+                   std::string::npos,
+               ladder.quadrature_remark);
 }
 
 BOOST_AUTO_TEST_CASE(a_race_of_calls_gives_each_scheme_its_own_errors) {

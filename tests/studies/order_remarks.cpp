@@ -86,4 +86,49 @@ BOOST_AUTO_TEST_CASE(of_a_square_both_orders_are_named) {
                remarks[0]);
 }
 
+// The last order is 0.3 off the others, or 0.1.
+BOOST_AUTO_TEST_CASE(orders_are_one_to_within_0_15) {
+    const auto remark = [](double last) {
+        std::vector<Refinement> ladder{{.h = 0.1, .error = 1.0}};
+        for (const double order : {2.0, 2.0, last})
+            ladder.push_back(
+                {.h = ladder.back().h / 2.0, .error = ladder.back().error * std::exp2(-order)});
+        return order_remarks(measure_of(*Norm::named("theta_L2L2")), ladder, nullptr).at(0);
+    };
+    BOOST_TEST(remark(1.7).starts_with(
+                   "theta_L2L2: order 2.00 up to s = 40; then it falls, to 1.70 at s = 80"),
+               remark(1.7));
+    BOOST_TEST(remark(1.9) == "theta_L2L2: order 1.90 to 2.00 up to s = 80.");
+}
+
+namespace {
+
+/// h² and Δt/160 with Δt = h.
+std::vector<std::string> remarks_by_model(const std::vector<double>& elements) {
+    const TwoTermModel model{.a = 1.0, .p = 2.0, .b = 1.0 / 160.0, .q = 1.0, .rho = 0.0};
+    std::vector<Refinement> ladder;
+    ladder.reserve(elements.size());
+    for (const double s : elements)
+        ladder.push_back({.h = 1.0 / s, .dt = 1.0 / s, .error = model.error(1.0 / s, 1.0 / s)});
+    return order_remarks(measure_of(*Norm::named("theta_L2L2")), ladder, &model);
+}
+
+} // namespace
+
+// At s = 40 the term of Δt is 40/160 of the other.
+BOOST_AUTO_TEST_CASE(the_slower_error_is_told_as_a_part_of_the_faster) {
+    const auto remarks = remarks_by_model({10.0, 20.0, 40.0});
+    BOOST_REQUIRE(remarks.size() == 2U);
+    const std::string said =
+        "theta_L2L2: the order 2.00 is that of the space error; the time error, "
+        "of order 1.00 along this ladder, is 0.25 times as large at s = 40 and "
+        "hidden.";
+    BOOST_TEST(remarks[1].starts_with(said), remarks[1]);
+}
+
+// Ratios of 2 and 3: the orders between the rows are no order of the ladder.
+BOOST_AUTO_TEST_CASE(a_model_explains_no_ladder_of_uneven_ratios) {
+    BOOST_TEST(remarks_by_model({10.0, 20.0, 60.0}).size() == 1U);
+}
+
 BOOST_AUTO_TEST_SUITE_END()
