@@ -103,4 +103,11 @@ BOOST_AUTO_TEST_CASE(schemes_with_history_begin_with_their_starter) {
     BOOST_CHECK_THROW(TimeScheme::named("rk4"), std::out_of_range);
 }
 
+BOOST_AUTO_TEST_CASE(parts_of_a_scheme_are_named_as_in_scenes) {
+    BOOST_TEST(name_of(ThermalMass::consistent) == "consistent");
+    BOOST_TEST(name_of(ThermalMass::lumped) == "lumped");
+    BOOST_TEST(name_of(Algorithm::direct) == "direct");
+    BOOST_TEST(name_of(Algorithm::fixed_point) == "fixed-point");
+}
+
 BOOST_AUTO_TEST_SUITE_END()
