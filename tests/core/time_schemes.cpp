@@ -58,6 +58,7 @@ std::vector<double> errors(const Scheme& scheme, std::int64_t steps) {
     const std::string text = "theta = 'theta_A*(1 - x)'\nu = '(x^3/6 - x^2/2)*sin(2*t)'";
     const ProblemData problem = manufactured_problem(parse_solution(text, "test"), beam, 1.0);
     std::vector<Norm> asked;
+    asked.reserve(norms.size());
     for (const auto& name : norms)
         asked.push_back(*Norm::named(name));
     const RunResult result = run({beam, Mesh::uniform(20), scheme, 1.0, steps, asked}, problem);
