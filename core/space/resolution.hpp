@@ -22,7 +22,8 @@ namespace tvbeam {
 /// norms. With ‖φ‖ of [0, 1], the greatest over time where φ depends on time, an interval is cut in
 /// two until no difference is more than `tolerance` ‖φ‖ and `tolerance` ‖φ‖², plus what the
 /// round-off of x makes: 4ε (w max|φ| + x (max φ − min φ)). The finer of the two then errs by far
-/// less: of a smooth φ by 2^−12 of the difference.
+/// less: of a smooth φ by 2^−12 of the difference. Nor is one left that is more than twice as long
+/// as its neighbour.
 ///
 /// A profile is also looked at in 8192 places, a function of space and time in 2048 at one time and
 /// in 128 at every other, what is known to be gentle in 32: an interval is cut as well where φ

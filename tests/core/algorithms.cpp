@@ -129,6 +129,27 @@ BOOST_AUTO_TEST_CASE(difference_of_the_rows_of_table_1_grows_no_faster_than_roun
     }
 }
 
+// Couples that bend the outer half of a beam at rest, and nothing else: the first iteration leaves
+// the temperature and the inner half as they are, and the heat of the bending is still to come.
+BOOST_AUTO_TEST_CASE(the_iteration_waits_for_the_deflection_of_the_whole_beam) {
+    using Eigen::ArrayXd;
+    ProblemData problem;
+    problem.amplitudes = [](const ArrayXd& t) { return Eigen::ArrayXXd::Ones(1, t.size()); };
+    problem.amplitude_count = 1;
+    problem.profiles = {
+        [](const ArrayXd& x) -> ArrayXd {
+            return (x > 0.5).select((x < 0.75).select(0 * x + 1, -1), 0);
+        },
+        // ∫_y^1 of it
+        [](const ArrayXd& y) -> ArrayXd { return -(y - 0.5).min(1.0 - y).max(0.0); }};
+    problem.couple_load.terms = {{0, 0}};
+    problem.moment_load.terms = {{0, 1}};
+    const Difference largest =
+        difference({.alpha = 0.3, .zeta = 0.1}, problem, TimeScheme::named("euler"),
+                   ThermalMass::consistent, 4, 0.1, 1, 1e-13);
+    BOOST_TEST(largest.temperature <= 1e-13);
+}
+
 BOOST_AUTO_TEST_CASE(fixed_point_that_does_not_converge_is_given_up_with_a_reason) {
     // It contracts, by 0.999 in an iteration; a thousand of them leave e^{-1} of the first change.
     const double pi = std::numbers::pi;

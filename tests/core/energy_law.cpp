@@ -4,6 +4,7 @@
 #include "core/certify/energy_law.hpp"
 #include "core/certify/contact_law.hpp"
 #include "core/certify/residuals.hpp"
+#include "core/worse.hpp"
 #include "tests/marching.hpp"
 
 #include <Eigen/LU>
@@ -61,8 +62,8 @@ Worst worst_of(const Scheme& scheme, const Beam& beam, int elements, double dt, 
         if (spoil)
             spoil(last);
         const Residuals residual = residuals(beam, mesh, scheme.thermal_mass, last, 0.0);
-        worst.heat = std::max(worst.heat, residual.heat);
-        worst.beam = std::max(worst.beam, residual.beam);
+        worst.heat = worse(worst.heat, residual.heat);
+        worst.beam = worse(worst.beam, residual.beam);
         const ContactDefects contact = contact_defects(beam, mesh, last);
         worst.contact = std::max(
             {worst.contact, contact.penetration, contact.wrong_sign, contact.complementarity});
@@ -147,6 +148,39 @@ BOOST_DATA_TEST_CASE(a_result_wrong_in_the_tenth_digit_is_noticed, data::make(di
     BOOST_TEST(spoilt([](SolveRecord& r) { r.heat_load *= 1.0 + 1e-6; }).energy > 1e-12);
     BOOST_TEST(spoilt([](SolveRecord& r) { r.moment *= 1.0 + 1e-6; }).energy > 1e-12);
     BOOST_TEST(spoilt([](SolveRecord& r) { r.stress += 1e-9; }).contact > 1e-13);
+    const auto not_a_number = [](SolveRecord& r) { r.now.theta(1) = std::nan(""); };
+    BOOST_TEST(std::isnan(spoilt(not_a_number).heat));
+    BOOST_TEST(std::isnan(spoilt(not_a_number).beam));
+}
+
+// A tip at rest, closer to one of the stops. A reaction of that stop pushes away from it; one that
+// pulls, λ = 0.3, counts with the length |λ|/3 (κ = 1).
+BOOST_AUTO_TEST_CASE(a_reaction_that_pulls_has_the_wrong_sign_at_either_stop) {
+    const Mesh mesh = Mesh::uniform(2);
+    SolveRecord record;
+    record.now.w = certify::BrokenLinear::Zero(2, 2);
+    record.now.curvature_size = 2.0; // a scale of 1
+    const auto wrong_sign = [&](const Stops& stops, double stress) {
+        record.stress = stress;
+        return contact_defects({.stops = stops}, mesh, record).wrong_sign;
+    };
+    const Stops lower_is_near{-0.25, 0.5};
+    const Stops upper_is_near{-0.5, 0.25};
+    BOOST_TEST(wrong_sign(lower_is_near, 0.3) == 0.0);
+    BOOST_TEST(wrong_sign(upper_is_near, -0.3) == 0.0);
+    BOOST_TEST(wrong_sign(lower_is_near, -0.3) == 0.1, boost::test_tools::tolerance(1e-15));
+    BOOST_TEST(wrong_sign(upper_is_near, 0.3) == 0.1, boost::test_tools::tolerance(1e-15));
+}
+
+BOOST_AUTO_TEST_CASE(a_step_of_too_few_or_too_many_solves_is_told) {
+    const ProblemData problem;
+    const SolverState rest{Eigen::VectorXd::Zero(3), certify::BrokenLinear::Zero(2, 2)};
+    SolveRecorder recorder({}, problem, Mesh::uniform(2), "sdirk2", 0.1, {}, rest);
+    for (const int solves : {2, 1, 3}) {
+        for (int i = 0; i < solves; ++i)
+            recorder.record(rest);
+        BOOST_TEST(recorder.end_step().empty() == (solves == 2));
+    }
 }
 
 BOOST_AUTO_TEST_SUITE_END()

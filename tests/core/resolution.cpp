@@ -152,6 +152,34 @@ BOOST_DATA_TEST_CASE(loads_and_squares_of_a_sharp_function_are_those_of_sixty_po
                1e-11 * norm * norm);
 }
 
+// Differences pass relative to ‖φ‖ and ‖φ‖², and a factor that is a power of two rounds nothing.
+BOOST_DATA_TEST_CASE(intervals_do_not_depend_on_the_unit_of_a_function,
+                     data::make(sharp_functions) * data::make({0x1p-20, 0x1p20}), sharp, unit) {
+    const auto ends = [](const Resolution& resolution) {
+        std::vector<double> left;
+        for (const Interval& interval : resolution.intervals())
+            left.push_back(interval.left);
+        return left;
+    };
+    const SpaceFunction scaled = [&, factor = unit](const ArrayXd& x) -> ArrayXd {
+        return factor * sharp.function(x);
+    };
+    BOOST_TEST(ends(resolution_of(scaled)) == ends(resolution_of(sharp.function)),
+               boost::test_tools::per_element());
+}
+
+BOOST_DATA_TEST_CASE(no_interval_is_more_than_twice_as_long_as_its_neighbour,
+                     data::make(sharp_functions), sharp) {
+    const Resolution found = resolution_of(sharp.function);
+    const std::vector<Interval>& intervals = found.intervals();
+    double greatest = 1.0;
+    for (std::size_t i = 1; i < intervals.size(); ++i) {
+        const double ratio = intervals[i].length / intervals[i - 1].length;
+        greatest = std::max({greatest, ratio, 1.0 / ratio});
+    }
+    BOOST_TEST(greatest <= 2.0);
+}
+
 BOOST_AUTO_TEST_CASE(a_spike_is_found_wherever_it_stands) {
     std::mt19937 random(7);
     std::uniform_real_distribution<double> place(0.1, 0.9);

@@ -4,6 +4,7 @@
 #include "core/space/linear_elements.hpp"
 #include "core/space/mesh.hpp"
 #include "core/space/quadrature.hpp"
+#include "core/space/tail_moment.hpp"
 #include "core/space/tridiagonal.hpp"
 
 #include <Eigen/Dense>
@@ -158,6 +159,18 @@ BOOST_AUTO_TEST_CASE(curvature_of_nodal_values_inverts_deflection) {
     const Mesh mesh = uneven_mesh(9);
     const DiscontinuousLinear w = DiscontinuousLinear::Random(2, 9);
     BOOST_TEST((curvature(mesh, deflection(mesh, w)) - w).abs().maxCoeff() <= 1e-12);
+}
+
+// ∫_y^1 (x − y) x dx = 1/3 − y/2 + y³/6, wherever [0, 1] is cut: the rule is exact.
+BOOST_AUTO_TEST_CASE(the_moment_of_a_tail_does_not_depend_on_the_intervals) {
+    const ArrayXd y = ArrayXd::LinSpaced(9, 0.0, 1.0);
+    const ArrayXd expected = 1.0 / 3.0 - y / 2.0 + y.cube() / 6.0;
+    for (const std::vector<Interval>& intervals :
+         {std::vector<Interval>{{0.0, 1.0}}, {{0.0, 0.5}, {0.5, 0.25}, {0.75, 0.25}}}) {
+        const ArrayXd moment = tail_moment(
+            intervals, [](const ArrayXd& x) { return x; }, y);
+        BOOST_TEST((moment - expected).abs().maxCoeff() <= 1e-15);
+    }
 }
 
 BOOST_AUTO_TEST_CASE(a_family_of_meshes_is_graded_or_keeps_its_nodes) {

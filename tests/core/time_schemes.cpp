@@ -58,6 +58,7 @@ std::vector<double> errors(const Scheme& scheme, std::int64_t steps) {
     const std::string text = "theta = 'theta_A*(1 - x)'\nu = '(x^3/6 - x^2/2)*sin(2*t)'";
     const ProblemData problem = manufactured_problem(parse_solution(text, "test"), beam, 1.0);
     std::vector<Norm> asked;
+    asked.reserve(norms.size());
     for (const auto& name : norms)
         asked.push_back(*Norm::named(name));
     const RunResult result = run({beam, Mesh::uniform(20), scheme, 1.0, steps, asked}, problem);
@@ -101,6 +102,13 @@ BOOST_AUTO_TEST_CASE(schemes_with_history_begin_with_their_starter) {
     BOOST_TEST(bdf2.at_step(2).name == "bdf2");
     BOOST_TEST(TimeScheme::named("euler").at_step(1).name == "euler");
     BOOST_CHECK_THROW(TimeScheme::named("rk4"), std::out_of_range);
+}
+
+BOOST_AUTO_TEST_CASE(parts_of_a_scheme_are_named_as_in_scenes) {
+    BOOST_TEST(name_of(ThermalMass::consistent) == "consistent");
+    BOOST_TEST(name_of(ThermalMass::lumped) == "lumped");
+    BOOST_TEST(name_of(Algorithm::direct) == "direct");
+    BOOST_TEST(name_of(Algorithm::fixed_point) == "fixed-point");
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -1,3 +1,4 @@
+#include "mms/admissible/sampled_rules.hpp"
 #include "mms/manufactured_problem.hpp"
 #include "tests/suited_beam.hpp"
 
@@ -382,6 +383,17 @@ BOOST_DATA_TEST_CASE(a_wrong_solution_is_told_the_nearest_repair, data::make(rep
     // And it is one: who does as told has an admissible solution.
     BOOST_CHECK_NO_THROW(law_distance(parse_solution(sample.repaired, "my.toml"),
                                       sample.repaired_beam.value_or(sample.beam), 2.0));
+}
+
+// The times of a series are more than those of the grid on which a solution must be finite.
+BOOST_AUTO_TEST_CASE(an_end_value_that_is_not_a_number_is_none) {
+    const Eigen::ArrayXd times{{0.0, 1.0}};
+    const Eigen::ArrayXd differences{{0.0, std::nan("")}};
+    BOOST_CHECK_EXCEPTION(
+        require_value(differences, times, 0.0, 1e-12, {"my.toml", 2, 6}, "u(0,t)", "0"), InputError,
+        [](const InputError& error) {
+            return std::string(error.what()).find("at t = 1;") != std::string::npos;
+        });
 }
 
 BOOST_AUTO_TEST_CASE(beams_and_times_must_be_finite) {

@@ -7,6 +7,7 @@
 #include <boost/test/unit_test.hpp>
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <string>
 
@@ -59,6 +60,13 @@ BOOST_AUTO_TEST_CASE(honest_cancellation_is_no_disagreement) {
     BOOST_TEST(
         first_disagreement({jet.at(0, 0)}, ComputedValues::of(ArrayXd::Constant(1, 1e16 * 1e-10)))
             .has_value());
+}
+
+BOOST_AUTO_TEST_CASE(what_is_not_a_number_disagrees) {
+    for (const double computed : {std::nan(""), std::numeric_limits<double>::infinity()})
+        BOOST_TEST(
+            first_disagreement({written(0.5)}, ComputedValues::of(ArrayXd::Constant(1, computed)))
+                .has_value());
 }
 
 // What is written is -(x^2), 2^(3^2), 1 - 2 - 3.

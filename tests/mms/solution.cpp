@@ -6,7 +6,9 @@
 #include <boost/test/data/test_case.hpp>
 #include <boost/test/unit_test.hpp>
 
+#include <cmath>
 #include <filesystem>
+#include <limits>
 #include <ostream>
 #include <random>
 #include <string>
@@ -237,6 +239,8 @@ BOOST_AUTO_TEST_CASE(number_expressions_have_values_or_places) {
     BOOST_CHECK_EXCEPTION(value("0.01/h", 1.0), InputError, at("scene.toml:4:12: unknown symbol"));
     BOOST_CHECK_EXCEPTION(value("1/s", 0.0), InputError, at("scene.toml:4:7: division by zero"));
     BOOST_CHECK_EXCEPTION(value("exp(s)", 1000.0), InputError, at("scene.toml:4:7: "));
+    for (const double s : {std::numeric_limits<double>::infinity(), std::nan("")})
+        BOOST_CHECK_EXCEPTION(value("1/s", s), InputError, at("scene.toml:4:7: s is not finite"));
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -66,6 +66,7 @@ const std::vector<std::string> formulas = {
     "sinh(x) + cosh(t) + tanh(x*t) + log(1+x) + cos(t)",
     "tanh(5*(x-1/4-t/4)) + sin(pi*x*(1+t*(1-x)))",
     "exp(-pi^2*t)*cos(pi*x)^2*(1 - cos(pi*x))",
+    "sinh(x)^2/cosh(x) + sinh(t)/cosh(t)^3",
 };
 
 } // namespace
@@ -203,6 +204,23 @@ BOOST_AUTO_TEST_CASE(powers_of_sums_with_decimals_are_what_they_say) {
     check("1/(1 + (0.001*x + 0.5)^200)^3", 1 + std::pow(0.001L * x + 0.5L, 200), -3);
     check("(1 - 0.001*x)^200*(0.002*t + 0.99)^200", (1 - 0.001L * x) * (0.002L * t + 0.99L), 200);
     check("exp(-1000)*10^434*x/x", std::exp(-1000.0L) * 1e434L, 1);
+}
+
+// Of the law of penalised stops. GiNaC folds step(0) to 1/2 where it can.
+BOOST_AUTO_TEST_CASE(a_step_is_one_half_where_it_jumps) {
+    const Tape tape = compile_tape({GiNaC::step(model_symbols().t)});
+    const ArrayXd t{{-1.0, 0.0, 1.0}};
+    const Eigen::ArrayXXd values = tape.evaluate(ArrayXd::Zero(1), t);
+    BOOST_TEST(values(0, 0) == 0.0);
+    BOOST_TEST(values(0, 1) == 0.5);
+    BOOST_TEST(values(0, 2) == 1.0);
+}
+
+// 4^600 is beyond the range of a double, though no number in the text is large.
+BOOST_AUTO_TEST_CASE(powers_of_sums_of_ones_have_room) {
+    const Tape tape = compile_tape({parsed("(1 + x + t + x*t)^600/(1 + x + t + x^2)^599")});
+    const ArrayXd one = ArrayXd::Ones(1);
+    BOOST_TEST(tape.evaluate(one, one)(0, 0) == 4.0, boost::test_tools::tolerance(1e-12));
 }
 
 // x^(a-1) x log x and e^z/(1 + e^z)^2 are 0 times infinity, or infinity over infinity, as they

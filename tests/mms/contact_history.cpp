@@ -1,0 +1,75 @@
+// What an exact solution does at the stops: touches, onsets and their powers.
+
+#include "mms/contact_history.hpp"
+#include "mms/solution.hpp"
+
+#include <boost/test/data/monomorphic.hpp>
+#include <boost/test/data/test_case.hpp>
+#include <boost/test/unit_test.hpp>
+
+#include <cmath>
+#include <string>
+
+namespace data = boost::unit_test::data;
+using namespace tvbeam;
+
+BOOST_AUTO_TEST_SUITE(mms_contact_history)
+
+namespace {
+
+constexpr double final_time = 2.0;
+
+ContactHistory history(const std::string& document) {
+    const Beam beam{.alpha = 0.4, .zeta = 0.15, .theta_A = 0.0, .stops = {-0.02, 0.1}};
+    return contact_history(
+        derive_on(parse_solution("theta = 'sin(pi*x)'\n" + document, "my.toml"), beam), beam.stops,
+        final_time);
+}
+
+/// A formula for u whose tip is g2 times this one.
+std::string tip(const std::string& share) {
+    return "u = 'g2*(3*x^2 - x^3)/2*(" + share + ")'\n";
+}
+
+/// Until t = 1 the tip is short of g2 by this share of it; then a force presses it on.
+ContactHistory onset(const std::string& gap, const std::string& force) {
+    return history("[[phase]]\nuntil = 1\n" + tip("1 - " + gap) + "[[phase]]\n" + tip("1") +
+                   "sigma = '-" + force + "'\n");
+}
+
+} // namespace
+
+BOOST_DATA_TEST_CASE(a_touch_without_a_force_is_seen_wherever_it_is,
+                     data::make({"0", "0.3", "1.2345", "2"}), at) {
+    const ContactHistory found = history(tip("1 - (t - " + std::string(at) + ")^2/9"));
+    BOOST_TEST(found.onsets.empty());
+    BOOST_TEST(!found.pressed_until);
+    BOOST_REQUIRE(found.touch);
+    // Where a parabola is flat it does not change within the square root of round-off.
+    BOOST_TEST(std::abs(*found.touch - std::stod(at)) <= 1e-6);
+}
+
+BOOST_DATA_TEST_CASE(an_onset_has_the_powers_of_its_formulas,
+                     data::make({1, 2, 6}) * data::make({0, 1, 6}), m, k) {
+    const ContactHistory found =
+        onset("(1 - t)^" + std::to_string(m), "(1 + t)*(t - 1)^" + std::to_string(k));
+    BOOST_TEST(!found.touch);
+    BOOST_REQUIRE(found.onsets.size() == 1);
+    BOOST_TEST(found.onsets[0].t == 1.0);
+    BOOST_TEST((found.onsets[0].approach == m));
+    BOOST_TEST((found.onsets[0].force == k));
+    BOOST_TEST((found.pressed_until == final_time));
+}
+
+// Over a phase of length 1 a term c (1 − t)^6 is c at most: less than 1e-9 is nothing, though its
+// sixth derivative is 720 c. What is left is flatter than any power looked for.
+BOOST_AUTO_TEST_CASE(a_term_that_is_nothing_over_its_phase_is_no_power) {
+    const ContactHistory nothing = onset("((1 - t)^8 + 5e-10*(1 - t)^6)", "(t - 1)");
+    BOOST_REQUIRE(nothing.onsets.size() == 1);
+    BOOST_TEST(!nothing.onsets[0].approach);
+    const ContactHistory something = onset("((1 - t)^8 + 2e-9*(1 - t)^6)", "(t - 1)");
+    BOOST_REQUIRE(something.onsets.size() == 1);
+    BOOST_TEST((something.onsets[0].approach == 6));
+}
+
+BOOST_AUTO_TEST_SUITE_END()
