@@ -107,9 +107,10 @@ Json json_of(const StressResult& result) {
         json["cases"] = Json::array();
         all.visit([&json](const StressCase& one) { json["cases"].push_back(json_of(one)); });
     } else {
-        json["cases_left_out"] = fmt::format(
-            "{} cases are more than {}: their rows stand in stress.csv, which --csv writes, or [report] "
-            "where its files hold \"csv\"", all.size(), most_in_json);
+        json["cases_left_out"] = fmt::format("{} cases are more than {}: their rows stand in "
+                                             "stress.csv, which --csv writes, or [report] "
+                                             "where its files hold \"csv\"",
+                                             all.size(), most_in_json);
     }
     if (result.contraction)
         json["contraction"] = json_of(*result.contraction);

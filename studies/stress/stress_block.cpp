@@ -15,7 +15,7 @@ namespace tvbeam {
 namespace {
 
 constexpr std::int64_t most_cases = 2'000'000; // of all sweeps
-constexpr std::size_t longest_list = 65'535;    // StressSweep counts in 16 bits
+constexpr std::size_t longest_list = 65'535;   // StressSweep counts in 16 bits
 constexpr std::int64_t most_work = 10'000'000'000;
 
 using Axis = StressAxis;
