@@ -4,7 +4,7 @@
 #include "studies/ladder/ladder_block.hpp"
 #include "studies/runs/beam_runs.hpp"
 #include "studies/sensitivity/sensitivity.hpp"
-#include "studies/stress/stress.hpp"
+#include "studies/stress/stress_block.hpp"
 #include "studies/study.hpp"
 
 #include <fmt/format.h>
@@ -23,8 +23,10 @@ constexpr double bytes_a_case = 100.0;
 
 /// Cases go to the disk; what is dealt and kept of each are a few words.
 void add_stress(const StressBlock& stress, PredictedWork& predicted) {
-    for (const auto& parts : parts_of(stress))
-        predicted.runs += static_cast<double>(parts.count);
+    predicted.runs += static_cast<double>(stress.cases());
+    if (const auto& map = stress.contraction)
+        predicted.runs +=
+            static_cast<double>(map->alpha.size()) * static_cast<double>(map->dt.size());
     std::int64_t largest = 0;
     for (std::size_t i = 0; i < stress.cases(); ++i)
         largest = std::max(largest, stress.case_at(i).elements);

@@ -108,7 +108,8 @@ Axis gap_axis(const std::vector<double>& gaps, const std::vector<std::size_t>& s
     return axis_of(stops, &StressParameters::stops);
 }
 
-StressSweep read_sweep(TableReader table, const std::string& name) {
+/// left: how many cases all sweeps together may have still.
+StressSweep read_sweep(TableReader table, const std::string& name, std::int64_t left) {
     std::vector<Axis> axes;
     axes.push_back(
         axis_of(numbers(table, "alpha", 0.5, Range::not_negative), &StressParameters::alpha));
@@ -151,6 +152,15 @@ StressSweep read_sweep(TableReader table, const std::string& name) {
         throw InputError(table.place("sampling"), "the product of the lists has more than " +
                                                       std::to_string(most_cases) +
                                                       " cases; shorten them, or take \"sobol\"");
+    double cases = sampling == 2 ? static_cast<double>(points) : sampling == 1 ? all : 1.0;
+    if (sampling == 0)
+        for (const auto& axis : axes)
+            cases += static_cast<double>(axis.values - 1);
+    if (cases > static_cast<double>(left))
+        throw InputError(table.place(""), "'" + name + "' makes them more than " +
+                                              std::to_string(most_cases) +
+                                              " cases, which all sweeps together may have; "
+                                              "shorten its lists");
     table.finish();
 
     return {name,
@@ -241,15 +251,9 @@ StressParameters StressBlock::case_at(std::size_t index) const {
 StressBlock read_stress(TableReader& table) {
     StressBlock block;
     if (auto sweeps = table.table("sweep")) {
-        std::size_t cases = 0;
-        for (const auto& name : sweeps->unread()) {
-            block.sweeps.push_back(read_sweep(*sweeps->table(name), name));
-            cases += block.sweeps.back().size();
-            if (cases > static_cast<std::size_t>(most_cases))
-                throw sweeps->error(name, " makes them more than " + std::to_string(most_cases) +
-                                              " cases, which all sweeps together may have; "
-                                              "shorten their lists");
-        }
+        for (const auto& name : sweeps->unread())
+            block.sweeps.push_back(read_sweep(
+                *sweeps->table(name), name, most_cases - static_cast<std::int64_t>(block.cases())));
         sweeps->finish();
     }
     if (auto contraction = table.table("contraction"))

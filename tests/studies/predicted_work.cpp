@@ -111,9 +111,9 @@ const std::vector<Large> large_scenes{
      repeated(3,
               [](int i) {
                   return "[stress.sweep.s" + std::to_string(i) +
-                         "]\nsampling = \"sobol\"\npoints = 50000\nalpha = [1, 2]\n";
+                         "]\nsampling = \"sobol\"\npoints = 900000\nalpha = [1, 2]\n";
               }),
-     "more than 100000 cases, which all sweeps together may have"},
+     "more than 2000000 cases, which all sweeps together may have"},
     {"levels", ladder(list(10001, "4"), "\"0.1\""), "at most 10000 are read"},
     {"probes",
      beam + "[evolution]\nfinal_time = 1.0\nelements = 4\ndt = 0.1\nprobes = [" +
