@@ -108,10 +108,12 @@ PredictedWork predicted_work(const Scene& scene) {
     predicted.bytes = bytes_a_run * predicted.runs + bytes_a_node * largest;
     if (const auto* stress = scene.get<StressBlock>())
         add_stress(*stress, predicted);
-    if (const auto* evolution = scene.get<EvolutionBlock>())
+    if (const auto* evolution = scene.get<EvolutionBlock>()) {
+        const std::int64_t times = evolution->rung.steps / evolution->every;
         predicted.bytes += static_cast<double>(sizeof(double)) *
                            static_cast<double>(evolution->probes.size()) *
-                           static_cast<double>(evolution->rung.steps / evolution->every);
+                           static_cast<double>(times);
+    }
     if (const auto* sensitivity = scene.get<SensitivityBlock>()) {
         predicted.steps *= 1.0 + repetitions(*sensitivity);
         predicted.runs *= 1.0 + repetitions(*sensitivity);

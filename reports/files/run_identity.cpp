@@ -6,6 +6,7 @@
 #include "reports/files/provenance.hpp"
 #include "studies/external/external_runs.hpp"
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -79,7 +80,7 @@ std::string difference_of(const nlohmann::ordered_json& there, const nlohmann::o
         for (const auto& key : keys)
             if (!key.empty())
                 listed += (listed.empty() ? "" : ", ") + key;
-        return words + (listed.empty() ? "" : " (" + listed + ")");
+        return listed.empty() ? words : fmt::format("{} ({})", words, listed);
     }
     return {};
 }
