@@ -128,8 +128,8 @@ int shard_command(const ShardOptions& options) {
         return run_failed;
     }
     if (end.failed > 0)
-        say(fmt::format("{} runs of shard {} failed; tvbeam merge says which and why", end.failed,
-                        shard.name()));
+        say(fmt::format("{} of the runs of shard {} failed; tvbeam merge says which and why",
+                        end.failed, shard.name()));
     else if (!options.quiet && end.there == 0)
         say(fmt::format("shard {} is dealt no run: there are fewer runs than shards",
                         shard.name()));
