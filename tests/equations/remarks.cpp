@@ -150,6 +150,9 @@ BOOST_AUTO_TEST_CASE(a_source_that_is_infinite_at_an_end_has_a_pole_there) {
     const std::string all = remark_of("x^1.5", "diff(u, x, 2)");
     BOOST_TEST(all.find("f has a pole: ") != std::string::npos, all);
     BOOST_TEST(all.find("x = 0") != std::string::npos, all);
+    // Also where the power is a parameter's.
+    const std::string named = remark_of("x^k", "diff(u, x, 2)", "[parameters]\nk = 1.5\n");
+    BOOST_TEST(named.find("f has a pole: ") != std::string::npos, named);
 }
 
 BOOST_AUTO_TEST_CASE(what_is_smooth_is_proven_to_be) {

@@ -93,6 +93,12 @@ BOOST_DATA_TEST_CASE(all_work_is_dealt_once_and_the_heaviest_shard_is_near_the_m
                4.0 / 3.0 * std::max(longest, all / shards));
 }
 
+// 6 against six of 1; the other way round one shard would have 3 and the other 3 + 6.
+BOOST_AUTO_TEST_CASE(the_longest_is_dealt_first) {
+    const auto load = loads(groups_of({{1e9, 1e9, 1e9, 6e9, 1e9, 1e9, 1e9}}), 2);
+    BOOST_TEST(load[0] == load[1], boost::test_tools::tolerance(1e-3));
+}
+
 // A list of ten values in a product, dealt in turn to ten shards, would give each shard one of
 // them.
 BOOST_AUTO_TEST_CASE(cases_that_take_as_long_are_mixed) {
