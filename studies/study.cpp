@@ -60,10 +60,13 @@ double work_of(const ReferenceBlock& reference, double final_time) {
 
 } // namespace
 
+double reference_work(const Scene& scene) {
+    return scene.reference ? work_of(*scene.reference, longest_time(scene.measured_series())) : 0.0;
+}
+
 double work_of(const Scene& scene) {
     const Method own = scene.method();
-    double work =
-        scene.reference ? work_of(*scene.reference, longest_time(scene.measured_series())) : 0.0;
+    double work = reference_work(scene);
     for (const auto& [kind, block] : scene.blocks.entries())
         work += kind->work(block, own);
     return work;

@@ -59,6 +59,7 @@ struct StudyResult {
 
 /// What the studies of a scene cost, about, in the unit of work_of(Method, Rung).
 double work_of(const Scene& scene);
+double reference_work(const Scene& scene); ///< of that, what a [reference] does
 
 /// Refuses what is there to be told before anything runs, besides what a reader told: throws
 /// InputError where there is no such program as [solver] calls.

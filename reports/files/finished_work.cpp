@@ -125,6 +125,10 @@ void FinishedWork::read_head(const Json& head, const Place& place) const {
         throw InputError(place, "holds another shard than its name says" + std::string(removal));
 }
 
+bool FinishedWork::is_made_again(const Where& where) const {
+    return where.failed && kept_ && scene_.solver;
+}
+
 std::any FinishedWork::result_of(std::size_t group, std::size_t index, const Json& json) const {
     const WorkGroup& asked = groups_[group];
     if (asked.series)
@@ -151,12 +155,12 @@ void FinishedWork::read_entry(const Json& entry, const KeptLine& line) {
     Where& where = places_[group->second][index];
     if (where.file > 0 && !where.failed) // made by two programs: the first one's
         return;
-    if (where.file == 0)
-        ++found_;
+    const bool counted = where.file > 0 && !is_made_again(where);
     where = {.offset = line.offset,
              .size = static_cast<std::uint32_t>(line.text.size()),
              .file = static_cast<std::uint32_t>(files_.size()) & 0x7fffffffU,
              .failed = has_failed(result)};
+    found_ += !counted && !is_made_again(where) ? 1 : 0;
     holds_runs_ = true;
 }
 
@@ -178,7 +182,7 @@ std::any FinishedWork::find(const std::string& study, std::size_t index) const {
     if (group == group_of_.end() || index >= places_[group->second].size())
         return {};
     const Where& where = places_[group->second][index];
-    if (where.file == 0 || (where.failed && kept_ && scene_.solver))
+    if (where.file == 0 || is_made_again(where))
         return {};
     return result_of(group->second, index,
                      parsed(files_[where.file - 1].line_at(where.offset, where.size))["result"]);

@@ -91,6 +91,8 @@ private:
         std::uint32_t file : 31 = 0; ///< from 1; 0: nowhere
         bool failed : 1 = false;
     };
+    /// What the file of keep_in is to have anew.
+    [[nodiscard]] bool is_made_again(const Where& where) const;
     void read_head(const nlohmann::ordered_json& head, const Place& place) const;
     void read_entry(const nlohmann::ordered_json& entry, const KeptLine& line);
     [[nodiscard]] std::any result_of(std::size_t group, std::size_t index,

@@ -103,8 +103,8 @@ Json json_of(const StressResult& result) {
               {"refused", all.count(Outcome::refused)},
               {"stopped", all.count(Outcome::stopped)},
               {"failed", all.count(Outcome::failed)}};
+    json["cases"] = Json::array();
     if (all.size() <= most_in_json) {
-        json["cases"] = Json::array();
         all.visit([&json](const StressCase& one) { json["cases"].push_back(json_of(one)); });
     } else {
         json["cases_left_out"] = fmt::format("{} cases are more than {}: their rows stand in "

@@ -248,8 +248,9 @@ private:
             result_.failure = "timed out";
         else if (result_.failure.empty())
             result_.failure = ending_of(status);
-        // A scheduler ends all of a job at once: what was asked to end with us has not failed.
-        if (WIFSIGNALED(status) && !task_.go_on())
+        // A scheduler ends all of a job at once: what was asked to end with us has not failed,
+        // whether a signal ended it or it heard one and says so by its exit.
+        if (!result_.failure.empty() && !task_.go_on())
             result_.interrupted = true;
     }
 

@@ -2,6 +2,7 @@
 
 #include "mms/text/input_error.hpp"
 #include "studies/ladder/ladder_block.hpp"
+#include "studies/study.hpp"
 #include "studies/work_precision/work_precision_block.hpp"
 
 #include <algorithm>
@@ -59,6 +60,39 @@ std::vector<std::vector<std::uint32_t>> dealt(const std::vector<WorkGroup>& grou
         loads.emplace(load + unit.work, shard);
     }
     return owners;
+}
+
+PredictedWork predicted_work(const Scene& scene, std::uint32_t shards) {
+    const auto groups = work_groups(scene);
+    const auto owners = dealt(groups, shards);
+    std::vector<double> work(shards, 0.0);
+    std::vector<double> runs(shards, 0.0);
+    for (std::size_t group = 0; group < groups.size(); ++group)
+        for (std::size_t i = 0; i < owners[group].size(); ++i) {
+            work[owners[group][i] - 1] += groups[group].work(i);
+            ++runs[owners[group][i] - 1];
+        }
+    PredictedWork predicted = predicted_work(scene);
+    predicted.runs = *std::max_element(runs.begin(), runs.end());
+    predicted.steps = *std::max_element(work.begin(), work.end()) + reference_work(scene);
+    if (scene.solver) // what a program takes is known to nobody here
+        predicted.steps = 0.0;
+    predicted.seconds = predicted.steps / steps_a_second + predicted.runs * seconds_a_run;
+    predicted.at_most = 0.0;
+    if (scene.solver && scene.solver->timeout) {
+        predicted.at_most = predicted.runs * *scene.solver->timeout;
+        predicted.bounded_by = "by the time-out of each run";
+    }
+    return predicted;
+}
+
+PredictedWork predicted_merge(const Scene& scene) {
+    PredictedWork predicted = predicted_work(scene);
+    for (const auto& group : work_groups(scene))
+        for (std::size_t i = 0; i < group.count(); ++i)
+            predicted.seconds -= group.work(i) / steps_a_second + seconds_a_run;
+    predicted.seconds = std::max(predicted.seconds, 0.0);
+    return predicted;
 }
 
 void require_dealable(const Scene& scene) {

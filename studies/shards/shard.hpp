@@ -1,5 +1,6 @@
 #pragma once
 
+#include "studies/predicted_work.hpp"
 #include "studies/shards/work_group.hpp"
 
 #include <cstdint>
@@ -21,6 +22,13 @@ struct Shard {
 /// machine.
 std::vector<std::vector<std::uint32_t>> dealt(const std::vector<WorkGroup>& groups,
                                               std::uint32_t shards);
+
+/// What the heaviest of so many shards takes: its own runs, and a reference, which every shard
+/// makes for itself.
+PredictedWork predicted_work(const Scene& scene, std::uint32_t shards);
+
+/// What is left to the merge of all: a reference, an evolution, a sensitivity.
+PredictedWork predicted_merge(const Scene& scene);
 
 /// Throws InputError where a scene cannot be dealt: its runs are timed, each depends on the last,
 /// or there are none.

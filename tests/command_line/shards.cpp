@@ -8,6 +8,9 @@
 #include <boost/test/unit_test.hpp>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -148,6 +151,75 @@ BOOST_AUTO_TEST_CASE(a_shard_that_is_started_again_makes_only_what_it_lacks) {
     BOOST_TEST(merge(directory, " --quiet").exit == 0);
 }
 
+BOOST_AUTO_TEST_CASE(a_run_of_a_program_that_failed_is_made_again) {
+    const TemporaryDirectory directory;
+    const std::string flag = (directory.path() / "mended").string();
+    const std::string scene = directory.write(
+        "scene.toml", "title = \"a program\"\n"
+                      "[solver]\ncommand = [\"sh\", \"-c\", \"[ {elements} != 20 ] || [ -e " +
+                          flag +
+                          " ] || exit 7; awk 'BEGIN {{ print 3/{elements}^2 }}'\"]\n"
+                          "[solver.errors]\nL2 = '([0-9.e+-]+)'\n"
+                          "[ladder]\nfinal_time = 1.0\nelements = [10, 20, 40]\ndt = [0.1, 0.1, "
+                          "0.1]\nnorms = [\"L2\"]\n");
+    const std::string shard =
+        "run " + scene + " --out " + (directory.path() / "parts").string() + " --shard 1/1";
+    const Called failing = call(directory, shard);
+    BOOST_TEST(failing.exit == 3);
+    BOOST_TEST(has(merge(directory, " --status").output,
+                   "all          3          3          0          1"));
+    directory.write("mended", "");
+    const Called mended = call(directory, shard);
+    BOOST_TEST(mended.exit == 0, mended.errors);
+    BOOST_TEST(has(mended.errors, "goes on with 2 finished runs"), mended.errors);
+    BOOST_TEST(merge(directory, " --quiet").exit == 0);
+    const Json rungs = result_in(directory, "parts").at("ladder").at("rungs");
+    BOOST_TEST(rungs.at(1).at("errors").at("L2").get<double>() == 3.0 / 400.0);
+}
+
+BOOST_AUTO_TEST_CASE(a_file_without_a_whole_line_is_a_shard_that_is_to_be_made) {
+    const TemporaryDirectory directory;
+    const std::string scene = directory.write("scene.toml", stress);
+    run_shards(directory, scene, {1, 2}, 2);
+    const std::string file = "parts/shard-1-of-2.jsonl";
+    for (const std::string& text : {std::string(), directory.read(file).substr(0, 100)}) {
+        directory.write(file, text);
+        const Called status = merge(directory, " --status");
+        BOOST_TEST(status.exit == 3);
+        BOOST_TEST(has(status.output, "--shard 1/2\n"), status.output << status.errors);
+        run_shards(directory, scene, {1}, 2);
+        BOOST_TEST(merge(directory, " --quiet").exit == 0);
+    }
+    // What is no file at all is not waited for.
+    std::filesystem::remove(directory.path() / file);
+    const Called pipe = call(directory, "merge " + (directory.path() / "parts").string(),
+                             "mkfifo " + (directory.path() / file).string() + " && ");
+    BOOST_TEST(pipe.exit == 2);
+    BOOST_TEST(has(pipe.errors, "shard-1-of-2.jsonl"), pipe.errors);
+}
+
+BOOST_AUTO_TEST_CASE(a_result_of_many_cases_has_their_totals_and_keeps_to_the_schema) {
+    const TemporaryDirectory directory;
+    const std::string scene = directory.write(
+        "scene.toml",
+        "title = \"many\"\n[report]\nfiles = [\"json\", \"csv\"]\n"
+        "[stress.sweep.a]\nalpha = [0.1, 1.0]\nload = [1.0, 2.0]\nelements = [2]\ndt = [1e-3]\n"
+        "steps = 1\nsampling = \"sobol\"\npoints = 20001\n");
+    BOOST_TEST(call(directory, "run " + scene + out(directory, "whole")).exit == 0);
+    const Json result = result_in(directory, "whole").at("stress");
+    BOOST_TEST(result.at("certified").get<int>() == 20001);
+    BOOST_TEST(result.at("cases").empty());
+    BOOST_TEST(has(result.at("cases_left_out").get<std::string>(), "20001 cases"));
+    const std::string rows = directory.read("whole/stress.csv");
+    BOOST_TEST(std::count(rows.begin(), rows.end(), '\n') == 20002);
+    const std::string validate = "python3 -W ignore -m jsonschema " TVBEAM_SCHEMA;
+    if (std::system("python3 -c 'import jsonschema' 2>/dev/null") == 0)
+        BOOST_TEST(
+            std::system(
+                (validate + " -i " + (directory.path() / "whole/result.json").string()).c_str()) ==
+            0);
+}
+
 BOOST_AUTO_TEST_CASE(two_programs_with_one_shard_lose_nothing) {
     const TemporaryDirectory directory;
     const std::string scene = directory.write("scene.toml", stress);
@@ -264,6 +336,37 @@ BOOST_AUTO_TEST_CASE(a_script_asks_for_what_is_predicted_and_runs) {
                                  (directory.path() / "job.sh").string() + "; done; ");
     BOOST_TEST(done.errors.empty(), done.errors);
     BOOST_TEST(merge(directory, " --status").exit == 0);
+}
+
+// A program takes what its time-out allows, run by run; without one nobody knows. A reference is
+// made by every shard, so that more shards do not make it cheaper.
+BOOST_AUTO_TEST_CASE(a_script_asks_for_the_heaviest_shard) {
+    const TemporaryDirectory directory;
+    const auto script = [&](const std::string& text, int shards, const std::string& scheduler) {
+        const std::string scene = directory.write("scene.toml", text);
+        const Called called = call(directory, "shard-script " + scene + " " +
+                                                  std::to_string(shards) + " " + scheduler);
+        BOOST_TEST(called.exit == 0, called.errors);
+        return called.output;
+    };
+    BOOST_TEST(has(script(solver, 2, "--slurm"), "What the program takes is not known"));
+    std::string timed = solver;
+    timed.insert(timed.find("[solver.errors]"), "timeout = 90\n");
+    // Three runs in two shards: two of 90 s, and one minute more.
+    BOOST_TEST(has(script(timed, 2, "--slurm"), "#SBATCH --time=4\n"));
+    BOOST_TEST(has(script(timed, 3, "--slurm"), "#SBATCH --time=3\n"));
+    const std::string parallel = script(timed, 2, "--parallel");
+    BOOST_TEST(has(parallel, "seq 2 | parallel -q --memfree "), parallel);
+    BOOST_TEST(has(parallel, " and 4 minutes"), parallel);
+    // 2e5 x 5e4 steps of elements of the reference, 100 s: ten times that and one minute more.
+    const std::string reference =
+        "title = \"of a reference\"\n[beam]\nalpha = 0.1\nzeta = 0.1\nstops = [-1.0, 1.0]\n"
+        "[data]\ntheta0 = \"x\"\n[ladder]\nfinal_time = 0.1\nelements = [4, 8]\n"
+        "dt = [0.01, 0.01]\nnorms = [\"theta_L2L2\"]\n"
+        "[reference]\nelements = 200000\ndt = 2e-6\n";
+    for (const int shards : {1, 2})
+        BOOST_TEST(has(script(reference, shards, "--slurm"), "#SBATCH --time=18\n"),
+                   script(reference, shards, "--slurm"));
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -279,6 +279,14 @@ BOOST_AUTO_TEST_CASE(a_run_that_is_not_to_go_on_is_interrupted_and_no_failure) {
     BOOST_TEST(result.seconds < 5.0);
 }
 
+BOOST_AUTO_TEST_CASE(a_program_that_hears_the_end_of_all_and_says_so_is_interrupted) {
+    for (const char* ending : {"exit 4", "kill -TERM $$"}) {
+        Shell shell(std::string("echo asked; ") + ending);
+        shell.task.go_on = [&] { return shell.lines.empty(); };
+        BOOST_TEST(shell.run().interrupted, ending);
+    }
+}
+
 BOOST_AUTO_TEST_CASE(what_a_program_leaves_behind_ends_with_it) {
     Shell shell("sleep 60 > /dev/null 2>&1 & echo $!");
     BOOST_TEST(shell.run().failure == "");

@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <random>
 #include <set>
 
@@ -191,6 +192,29 @@ BOOST_AUTO_TEST_CASE(bytes_are_the_same_in_memory_and_in_a_file) {
     BOOST_TEST(read(Scratch::most_in_memory + 7, high.size()) == high);
     BOOST_TEST(read(Scratch::most_in_memory, 7) == std::string(7, '\0'));
     BOOST_TEST(scratch.size() == Scratch::most_in_memory + 7 + high.size());
+}
+
+BOOST_AUTO_TEST_CASE(a_full_disk_or_a_directory_that_is_none_is_said) {
+    const auto written = [](const char* directory) -> std::string {
+        setenv("TMPDIR", directory, 1);
+        Scratch scratch;
+        try {
+            scratch.write(Scratch::most_in_memory, "x", 1);
+        } catch (const std::runtime_error& error) {
+            return error.what();
+        }
+        return "";
+    };
+    const char* set = std::getenv("TMPDIR");
+    const std::string before = set == nullptr ? "" : set;
+    BOOST_TEST(written("/dev/null").empty()); // no directory: /tmp
+    const std::string none = written("/proc");
+    BOOST_TEST(none.starts_with("cannot make a temporary file in '/proc' for the results of many"),
+               none);
+    if (set == nullptr)
+        unsetenv("TMPDIR");
+    else
+        setenv("TMPDIR", before.c_str(), 1);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -11,7 +11,6 @@
 #include "reports/files/report_directory.hpp"
 #include "reports/files/shard_files.hpp"
 #include "reports/formats/report_format.hpp"
-#include "studies/predicted_work.hpp"
 #include "studies/study.hpp"
 
 #include <fmt/format.h>
@@ -54,16 +53,6 @@ public:
     [[nodiscard]] const Scene& scene() const { return scene_; }
     FinishedWork& work() { return work_; }
     [[nodiscard]] bool complete() const { return unfinished().empty(); }
-
-    /// What the merge makes itself: an evolution, a sensitivity, a reference.
-    [[nodiscard]] PredictedWork left_to_do() const {
-        PredictedWork predicted = predicted_work(scene_);
-        for (const auto& group : work_.groups())
-            for (std::size_t i = 0; i < group.count(); ++i)
-                predicted.seconds -= group.work(i) / steps_a_second;
-        predicted.seconds = std::max(predicted.seconds, 0.0);
-        return predicted;
-    }
 
     /// What is there and what is missing, by shard, and the command that makes it.
     [[nodiscard]] std::string status() const {
@@ -175,7 +164,7 @@ int merge_command(const MergeOptions& options) {
     }
     const bool complete = merged.complete();
     if (!options.really_long)
-        require_short_enough(merged.scene(), merged.left_to_do());
+        require_short_enough(merged.scene(), predicted_merge(merged.scene()));
     std::optional<ReportDirectory> out;
     opened([&] { out.emplace(options.directory, merged.scene().report); });
     EndRequests end_requests([&] {

@@ -9,7 +9,6 @@
 #include "reports/command_line/progress_line.hpp"
 #include "reports/files/output_file.hpp"
 #include "reports/files/shard_files.hpp"
-#include "studies/predicted_work.hpp"
 #include "studies/shards/run_shard.hpp"
 #include "studies/study.hpp"
 
@@ -91,12 +90,8 @@ int shard_command(const ShardOptions& options) {
     const Shard shard = shard_in(options.shard);
     const Scene scene = read_scene(options.scene, options.overrides);
     require_dealable(scene);
-    if (!options.really_long) {
-        PredictedWork predicted = predicted_work(scene);
-        for (double* part : {&predicted.seconds, &predicted.steps, &predicted.runs})
-            *part /= shard.of;
-        require_short_enough(scene, predicted);
-    }
+    if (!options.really_long)
+        require_short_enough(scene, predicted_work(scene, shard.of));
     require_runnable(scene);
     FinishedWork work(scene, {lasting_name(scene, options.scene), options.overrides, shard});
     const std::filesystem::path file = shard_file(options.out, shard);

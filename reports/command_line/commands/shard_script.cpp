@@ -3,7 +3,6 @@
 #include "reports/command_line/commands/shared_options.hpp"
 #include "reports/command_line/commands/shell_words.hpp"
 #include "reports/files/output_file.hpp"
-#include "studies/predicted_work.hpp"
 #include "studies/shards/shard.hpp"
 #include "studies/study.hpp"
 
@@ -39,36 +38,20 @@ struct Request {
     bool really_long = false; ///< a shard is refused without --yes-really-long
 };
 
-/// Ten times the predicted time, which is right within a factor of ten: that of a reference, which
-/// every shard makes for itself, and of its own runs; of a program as long as its time-out allows.
-/// The predicted memory besides what any process takes.
+/// Ten times the predicted time, which is right within a factor of ten; of a program as long as its
+/// time-out allows. The predicted memory besides what any process takes.
 Request request_of(const Scene& scene, std::uint32_t shards) {
-    const auto groups = work_groups(scene);
-    const auto owners = dealt(groups, shards);
-    std::vector<double> work(shards, 0.0);
-    std::vector<double> runs(shards, 0.0);
-    double all = 0.0;
-    for (std::size_t group = 0; group < groups.size(); ++group)
-        for (std::size_t i = 0; i < owners[group].size(); ++i) {
-            work[owners[group][i] - 1] += groups[group].work(i);
-            all += groups[group].work(i);
-            ++runs[owners[group][i] - 1];
-        }
-    const PredictedWork predicted = predicted_work(scene);
-    const double shared = std::max(0.0, predicted.seconds - all / steps_a_second);
-    const double seconds = shared + *std::max_element(work.begin(), work.end()) / steps_a_second;
+    const PredictedWork predicted = predicted_work(scene, shards);
     constexpr double margin = 10.0;
     constexpr double any_process = 200e6; // bytes
     const auto rounded_up = [](double value) {
         return static_cast<std::int64_t>(std::ceil(value));
     };
-    Request request{.minutes = rounded_up(margin * seconds / 60.0) + 1,
+    const double seconds = scene.solver ? predicted.at_most : margin * predicted.seconds;
+    Request request{.minutes = rounded_up(seconds / 60.0) + 1,
                     .megabytes = rounded_up((any_process + 2.0 * predicted.bytes) / 1e6),
-                    .really_long = !scene.is_long && predicted.seconds / shards > longest_work};
-    if (scene.solver && scene.solver->timeout)
-        request.minutes = 1 + rounded_up(*std::max_element(runs.begin(), runs.end()) *
-                                         *scene.solver->timeout / 60.0);
-    else if (scene.solver)
+                    .really_long = !scene.is_long && predicted.seconds > longest_work};
+    if (scene.solver && !scene.solver->timeout)
         request.minutes.reset();
     return request;
 }
