@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <new>
+#include <utility>
 
 namespace tvbeam {
 
@@ -22,13 +23,17 @@ MomentForm::MomentForm(const Beam& beam, const ProblemData& data, const Mesh& me
     load_initial_state();
     load_profiles();
     eliminate(scheme.time.at_step(1).stages.front().leading / dt);
+    std::int64_t projected = 0;
     if (needs.curvature && bending_)
-        for (const auto& profile : data_.profiles)
-            projections_.push_back(project(mesh_, profile));
-    counters_.doubles_allocated =
-        static_cast<std::int64_t>(projections_.size()) * 2 * mesh_.elements() +
-        2 * factor_.order() + inverse_lengths_.size() + loads_.size() + arm_load_.size() +
-        response_.size() + state_.size() + increment_.size() + balance_.size();
+        for (std::size_t r = 0; r < data_.profiles.size(); ++r) {
+            projections_.push_back(is_bending(static_cast<Eigen::Index>(r))
+                                       ? project(mesh_, data_.profiles[r])
+                                       : DiscontinuousLinear(2, 0));
+            projected += projections_.back().size();
+        }
+    counters_.doubles_allocated = projected + 2 * factor_.order() + inverse_lengths_.size() +
+                                  loads_.size() + arm_load_.size() + response_.size() +
+                                  state_.size() + increment_.size() + balance_.size();
 }
 
 void MomentForm::lay_out_state() {
@@ -68,6 +73,10 @@ void MomentForm::load_initial_state() {
         balance_ = Eigen::VectorXd::Zero(mesh_.elements() + 1);
 }
 
+bool MomentForm::is_bending(Eigen::Index profile) const {
+    return data_.moment_load.uses(profile) || data_.curvature_initial.uses(profile);
+}
+
 void MomentForm::load_profiles() {
     const Eigen::Index inner = mesh_.elements() - 1;
     const auto arm = static_cast<Eigen::Index>(data_.profiles.size());
@@ -77,9 +86,7 @@ void MomentForm::load_profiles() {
     tip_moments_ = Eigen::VectorXd::Zero(arm + 1);
     std::vector<Eigen::VectorXd> loads;
     for (Eigen::Index r = 0; r <= arm; ++r) {
-        const bool bends =
-            r == arm ? arm_used
-                     : bending_ && (data_.moment_load.uses(r) || data_.curvature_initial.uses(r));
+        const bool bends = r == arm ? arm_used : bending_ && is_bending(r);
         const bool heats = r < arm && heat_ && data_.heat_source.uses(r);
         if (!bends && !heats)
             continue;
@@ -104,10 +111,11 @@ void MomentForm::eliminate(double c) {
     leading_ = c;
     kappa_ = 1.0 / (1.0 + beam_.zeta * leading_);
     if (heat_) {
+        factor_ = {};
         Tridiagonal matrix = thermal_mass_matrix(mesh_, mass_) * leading_ + stiffness_matrix(mesh_);
         if (coupled_)
-            matrix = matrix + thermal_mass_matrix(mesh_, ThermalMass::consistent) *
-                                  (beam_.alpha * beam_.alpha * leading_ * kappa_);
+            matrix = std::move(matrix) + thermal_mass_matrix(mesh_, ThermalMass::consistent) *
+                                             (beam_.alpha * beam_.alpha * leading_ * kappa_);
         factor_ = TridiagonalFactor(matrix);
     }
     if (stops_)
@@ -240,15 +248,20 @@ DiscontinuousLinear MomentForm::curvature() const {
     DiscontinuousLinear w = DiscontinuousLinear::Zero(2, s);
     if (w_.rest.size() > 0)
         w = w_.rest;
-    for (std::size_t r = 0; r < data_.profiles.size(); ++r)
-        if (const double weight = w_.weights(static_cast<Eigen::Index>(r)); weight != 0.0)
-            w += weight *
-                 (projections_.empty() ? project(mesh_, data_.profiles[r]) : projections_[r]);
-    Eigen::VectorXd continuous = w_.weights.tail<1>()(0) * (1.0 - mesh_.nodes).matrix();
-    if (coupled_)
-        continuous += w_.nodal;
-    w.row(0) += continuous.head(s).transpose().array();
-    w.row(1) += continuous.tail(s).transpose().array();
+    for (std::size_t r = 0; r < data_.profiles.size(); ++r) {
+        const double weight = w_.weights(static_cast<Eigen::Index>(r));
+        if (weight != 0.0 && projections_.empty())
+            w += weight * project(mesh_, data_.profiles[r]);
+        else if (weight != 0.0)
+            w += weight * projections_[r];
+    }
+    for (const Eigen::Index end : {Eigen::Index{0}, Eigen::Index{1}}) { // of every element
+        const auto moment = w_.weights.tail<1>()(0) * (1.0 - mesh_.nodes.segment(end, s));
+        if (coupled_) // one may be nearly minus the other
+            w.row(end) += (moment + w_.nodal.segment(end, s).array()).transpose();
+        else
+            w.row(end) += moment.transpose();
+    }
     return w;
 }
 

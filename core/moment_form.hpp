@@ -40,8 +40,9 @@ struct SplitCurvature {
 /// added. This solves the variational inequality of the coupled step exactly.
 class MomentForm final : public Solver {
 public:
-    /// data must outlive the solver. Throws std::domain_error when the matrix of the first solve is
-    /// not positive definite in floating point; that of a later one ends the step with that reason.
+    /// data and mesh must outlive the solver. Throws std::domain_error when the matrix of the first
+    /// solve is not positive definite in floating point; that of a later one ends the step with
+    /// that reason.
     MomentForm(const Beam& beam, const ProblemData& data, const Mesh& mesh, const Scheme& scheme,
                double dt, const Needs& needs);
 
@@ -59,6 +60,8 @@ private:
     void lay_out_state();
     void load_initial_state();
     void load_profiles();
+    [[nodiscard]] bool
+    is_bending(Eigen::Index profile) const; // its weight in w is not zero for ever
     void eliminate(double c);
     void find_contact_response();
     void solve_heat(double t, const Eigen::Ref<const Eigen::VectorXd>& amplitudes,
@@ -67,7 +70,7 @@ private:
 
     Beam beam_;
     const ProblemData& data_;
-    Mesh mesh_;
+    const Mesh& mesh_;
     bool heat_;    // the temperature is solved for
     bool bending_; // the curvature is solved for
     bool coupled_; // alpha ≠ 0: each acts on the other
@@ -94,7 +97,7 @@ private:
     Eigen::VectorXd weight_changes_; // −κ (c_r + μ_r)
     Eigen::VectorXd load_weights_;   // what each profile adds to the heat equation
     std::vector<DiscontinuousLinear>
-        projections_; // Πφ_r, where the curvature is read in every step
+        projections_; // Πφ_r of those that bend, where the curvature is read in every step
 };
 
 } // namespace tvbeam

@@ -45,8 +45,8 @@ struct RunResult {
     Counters counters = {};
 };
 
-/// The solver for a scheme, at t = 0. Throws std::domain_error when it cannot start, and where the
-/// contraction that is predicted for the fixed point is 1 or more.
+/// The solver for a scheme, at t = 0; data and mesh must outlive it. Throws std::domain_error when
+/// it cannot start, and where the contraction that is predicted for the fixed point is 1 or more.
 std::unique_ptr<Solver> make_solver(const Beam& beam, const ProblemData& data, const Mesh& mesh,
                                     const Scheme& scheme, double dt, const Needs& needs);
 

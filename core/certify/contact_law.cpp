@@ -7,7 +7,7 @@ namespace tvbeam {
 
 ContactDefects contact_defects(const Beam& beam, const Mesh& mesh, const SolveRecord& record) {
     const double kappa = 1.0 / (1.0 + beam.zeta * record.leading);
-    const double tip = certify::product(mesh, certify::moment_arm(mesh), record.now.w);
+    const double tip = certify::tip_moment(mesh, record.now.w);
     const double reaction = record.stress * kappa / 3.0;
     const double scale = record.now.curvature_size / 2.0; // ∫ (1 − x) dx = 1/2
     if (scale == 0.0)

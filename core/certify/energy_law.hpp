@@ -22,7 +22,8 @@ namespace tvbeam {
 ///   N = ¼‖y^n − 2y^{n−1} + y^{n−2}‖².
 class EnergyLaw {
 public:
-    /// underflow: in the units of the records, below which floating point is absolute; 0: never.
+    /// mesh must outlive the object. underflow: in the units of the records, below which floating
+    /// point is absolute; 0: never.
     EnergyLaw(const Beam& beam, const Mesh& mesh, ThermalMass mass, double underflow = 0.0);
 
     /// Adds the power of a solve.
@@ -38,20 +39,19 @@ public:
     [[nodiscard]] double energy() const { return energy_; }
 
 private:
-    struct Rate { // ẏ
-        Eigen::VectorXd theta;
-        certify::BrokenLinear w;
+    /// N of a one-step scheme, and the sizes of its terms.
+    struct Dissipation {
+        double sum = 0.0;
+        double size = 0.0;
     };
-    [[nodiscard]] double product(const Eigen::VectorXd& theta, const certify::BrokenLinear& w,
-                                 const Eigen::VectorXd& other_theta,
-                                 const certify::BrokenLinear& other_w) const;
+    [[nodiscard]] Dissipation dissipation(const SolveRecorder& recorder,
+                                          const StatedStep& step) const;
     [[nodiscard]] double square(const RecordedState& y) const;
 
     Beam beam_;
-    Mesh mesh_;
+    const Mesh& mesh_;
     ThermalMass mass_;
     double underflow_;
-    std::vector<Rate> rates_;      // of the stages of this step
     std::vector<double> balances_; // D − W of each
     std::vector<double> sizes_;
     double energy_ = 0.0;

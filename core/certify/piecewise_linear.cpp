@@ -2,48 +2,21 @@
 
 #include <gsl/gsl_integration.h>
 
+#include <algorithm>
 #include <memory>
 #include <new>
 
 namespace tvbeam::certify {
 
-double product(const Mesh& mesh, const BrokenLinear& p, const BrokenLinear& q) {
-    // ∫ over an element of length h: h/6 (2 p0 q0 + p0 q1 + p1 q0 + 2 p1 q1).
-    // Without copies of the rows: on the largest meshes memory is what takes time.
-    const auto row = [](const BrokenLinear& of, Eigen::Index side) {
-        return of.row(side).transpose();
-    };
-    return (mesh.lengths / 6.0 *
-            (row(p, 0) * (2.0 * row(q, 0) + row(q, 1)) + row(p, 1) * (row(q, 0) + 2.0 * row(q, 1))))
-        .sum();
-}
-
-BrokenLinear broken(const Eigen::VectorXd& nodal) {
-    const Eigen::Index s = nodal.size() - 1;
-    BrokenLinear p(2, s);
-    p.row(0) = nodal.head(s).transpose().array();
-    p.row(1) = nodal.tail(s).transpose().array();
-    return p;
-}
-
-BrokenLinear moment_arm(const Mesh& mesh) {
-    return broken((1.0 - mesh.nodes).matrix());
-}
-
-Eigen::VectorXd hat_loads(const Mesh& mesh, const BrokenLinear& p) {
-    const Eigen::Index s = mesh.elements();
-    Eigen::VectorXd loads = Eigen::VectorXd::Zero(s + 1);
-    const auto p0 = p.row(0).transpose();
-    const auto p1 = p.row(1).transpose();
-    loads.head(s).array() += mesh.lengths / 6.0 * (2.0 * p0 + p1);
-    loads.tail(s).array() += mesh.lengths / 6.0 * (p0 + 2.0 * p1);
-    return loads;
-}
-
 Eigen::VectorXd mass_times(const Mesh& mesh, ThermalMass mass, const Eigen::VectorXd& theta) {
-    if (mass == ThermalMass::consistent)
-        return hat_loads(mesh, broken(theta));
     const Eigen::Index s = mesh.elements();
+    if (mass == ThermalMass::consistent) {
+        const auto v = theta.array();
+        Eigen::VectorXd product = Eigen::VectorXd::Zero(s + 1);
+        product.head(s).array() += mesh.lengths / 6.0 * (2.0 * v.head(s) + v.tail(s));
+        product.tail(s).array() += mesh.lengths / 6.0 * (v.head(s) + 2.0 * v.tail(s));
+        return product;
+    }
     Eigen::ArrayXd row_sums = Eigen::ArrayXd::Zero(s + 1);
     row_sums.head(s) += mesh.lengths / 2.0;
     row_sums.tail(s) += mesh.lengths / 2.0;
@@ -58,21 +31,27 @@ Load load_of(const Mesh& mesh, const SpaceFunction& g) {
     if (!rule)
         throw std::bad_alloc();
     const Eigen::Index s = mesh.elements();
-    Eigen::ArrayXd left = Eigen::ArrayXd::Zero(s); // moments with 1 − ξ and ξ, over h
-    Eigen::ArrayXd right = Eigen::ArrayXd::Zero(s);
-    for (std::size_t q = 0; q < points; ++q) {
-        double xi = 0.0;
-        double weight = 0.0;
-        gsl_integration_glfixed_point(0.0, 1.0, q, &xi, &weight, rule.get());
-        const Eigen::ArrayXd value = g(mesh.nodes.head(s) + xi * mesh.lengths);
-        left += weight * (1.0 - xi) * value;
-        right += weight * xi * value;
-    }
     Load load{Eigen::VectorXd::Zero(s + 1), BrokenLinear(2, s)};
-    load.hat.head(s) += (mesh.lengths * left).matrix();
-    load.hat.tail(s) += (mesh.lengths * right).matrix();
-    load.projection.row(0) = (4.0 * left - 2.0 * right).transpose();
-    load.projection.row(1) = (4.0 * right - 2.0 * left).transpose();
+    constexpr Eigen::Index block = 1024; // elements, whose values a processor keeps at hand
+    for (Eigen::Index first = 0; first < s; first += block) {
+        const Eigen::Index n = std::min(block, s - first);
+        const auto nodes = mesh.nodes.segment(first, n);
+        const auto lengths = mesh.lengths.segment(first, n);
+        Eigen::ArrayXd left = Eigen::ArrayXd::Zero(n); // moments with 1 − ξ and ξ, over h
+        Eigen::ArrayXd right = Eigen::ArrayXd::Zero(n);
+        for (std::size_t q = 0; q < points; ++q) {
+            double xi = 0.0;
+            double weight = 0.0;
+            gsl_integration_glfixed_point(0.0, 1.0, q, &xi, &weight, rule.get());
+            const Eigen::ArrayXd value = g(nodes + xi * lengths);
+            left += weight * (1.0 - xi) * value;
+            right += weight * xi * value;
+        }
+        load.hat.segment(first, n) += (lengths * left).matrix();
+        load.hat.segment(first + 1, n) += (lengths * right).matrix();
+        load.projection.row(0).segment(first, n) = (4.0 * left - 2.0 * right).transpose();
+        load.projection.row(1).segment(first, n) = (4.0 * right - 2.0 * left).transpose();
+    }
     return load;
 }
 

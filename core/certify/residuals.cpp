@@ -24,34 +24,40 @@ double heat_residual(const Beam& beam, const Mesh& mesh, ThermalMass mass,
     const Eigen::VectorXd& theta = record.now.theta;
     if (theta(0) != 0.0 || theta(s) != 0.0) // (9), (10)
         return std::numeric_limits<double>::infinity();
-    const Eigen::VectorXd flux =
-        ((theta.tail(s) - theta.head(s)).array() / mesh.lengths).matrix(); // Θ_x
     const Eigen::VectorXd storage = certify::mass_times(mesh, mass, theta - record.star.theta);
     const Eigen::VectorXd coupling = certify::hat_loads(mesh, record.now.w - record.star.w);
-    const Eigen::VectorXd residual =
-        c * storage.segment(1, inner) + flux.head(inner) - flux.tail(inner) -
-        (beam.alpha * c) * coupling.segment(1, inner) - record.heat_load.segment(1, inner);
+    const auto flux = (theta.tail(s) - theta.head(s)).array() / mesh.lengths; // Θ_x
+    const auto residual = c * storage.segment(1, inner).array() + flux.head(inner) -
+                          flux.tail(inner) - (beam.alpha * c) * coupling.segment(1, inner).array() -
+                          record.heat_load.segment(1, inner).array();
     const double temperature = record.now.temperature_size + underflow;
     const double h = mesh.lengths.maxCoeff();
     const double size =
         c * h * temperature + 4.0 / mesh.lengths.minCoeff() * temperature +
         beam.alpha * c * h * (record.now.curvature_size + record.star.curvature_size + underflow) +
         record.heat_load.cwiseAbs().maxCoeff() + underflow;
-    return in_round_off(residual.cwiseAbs().maxCoeff<Eigen::PropagateNaN>(), size);
+    return in_round_off(residual.abs().maxCoeff<Eigen::PropagateNaN>(), size);
 }
 
 double beam_residual(const Beam& beam, const Mesh& mesh, const SolveRecord& record,
                      double underflow, double unit_theta_A) {
     const double viscous = beam.zeta * record.leading;
-    const certify::BrokenLinear residual =
-        record.now.w + viscous * (record.now.w - record.star.w) + record.moment +
-        beam.alpha * certify::broken(record.now.theta) +
-        (beam.alpha * unit_theta_A - record.stress) * certify::moment_arm(mesh);
+    const double force = beam.alpha * unit_theta_A - record.stress;
+    const Eigen::Index s = mesh.elements();
+    Eigen::Array2d largest;
+    for (const Eigen::Index end : {Eigen::Index{0}, Eigen::Index{1}}) { // of every element
+        const auto w = record.now.w.row(end);
+        const auto theta = record.now.theta.segment(end, s).transpose().array();
+        const auto arm = (1.0 - mesh.nodes.segment(end, s)).transpose();
+        const auto residual = w + viscous * (w - record.star.w.row(end)) + record.moment.row(end) +
+                              beam.alpha * theta + force * arm;
+        largest(end) = residual.abs().maxCoeff<Eigen::PropagateNaN>();
+    }
     const double now = record.now.curvature_size + underflow;
     const double size = now + viscous * (now + record.star.curvature_size + underflow) +
                         beam.alpha * (record.now.temperature_size + std::abs(unit_theta_A)) +
                         record.moment.abs().maxCoeff() + std::abs(record.stress) + underflow;
-    return in_round_off(residual.abs().maxCoeff<Eigen::PropagateNaN>(), size);
+    return in_round_off(largest.maxCoeff<Eigen::PropagateNaN>(), size);
 }
 
 } // namespace

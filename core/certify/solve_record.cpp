@@ -27,25 +27,38 @@ void add_increment(RecordedState& to, double factor, const RecordedState& later,
 
 SolveRecorder::SolveRecorder(const Beam& beam, const ProblemData& data, const Mesh& mesh,
                              std::string scheme, double dt, const RecordOptions& options,
-                             const SolverState& initial)
+                             SolverState initial)
     : beam_(beam), data_(data), mesh_(mesh), scheme_(std::move(scheme)), options_(options) {
     record_.dt = dt;
     record_.unit = options.unit;
-    for (const auto& profile : data_.profiles)
-        loads_.push_back(certify::load_of(mesh_, profile));
-    RecordedState state = in_units(initial);
+    for (std::size_t r = 0; r < data_.profiles.size(); ++r) {
+        const bool heats = data_.heat_source.uses(static_cast<Eigen::Index>(r));
+        const bool bends = data_.moment_load.uses(static_cast<Eigen::Index>(r));
+        certify::Load load;
+        if (heats || bends)
+            load = certify::load_of(mesh_, data_.profiles[r]);
+        heat_loads_.push_back(heats ? std::move(load.hat) : Eigen::VectorXd());
+        moments_.push_back(bends ? std::move(load.projection) : certify::BrokenLinear(2, 0));
+    }
+    RecordedState state = in_units(std::move(initial));
     state.temperature_size = state.theta.cwiseAbs().maxCoeff();
     state.terms_size = largest(state.w) * options_.amplification + options_.iteration_size;
     state.curvature_size = state.terms_size;
     levels_.push_back(std::move(state));
 }
 
-RecordedState SolveRecorder::in_units(const SolverState& state) const {
-    return {state.theta / options_.unit, state.w / options_.unit};
+RecordedState SolveRecorder::in_units(SolverState state) const {
+    state.theta /= options_.unit;
+    state.w /= options_.unit;
+    return {std::move(state.theta), std::move(state.w)};
 }
 
 const RecordedState& SolveRecorder::before(std::size_t steps) const {
     return levels_[steps - 1];
+}
+
+const RecordedState& SolveRecorder::stage(Eigen::Index i) const {
+    return i + 1 < made_ ? stages_[static_cast<std::size_t>(i)] : record_.now;
 }
 
 void SolveRecorder::read_loads(double t) {
@@ -54,13 +67,12 @@ void SolveRecorder::read_loads(double t) {
     Eigen::ArrayXXd amplitudes;
     if (data_.amplitudes)
         amplitudes = data_.amplitudes(Eigen::ArrayXd::Constant(1, t)) / options_.unit;
-    const auto load = [&](const Field::Term& term) -> const certify::Load& {
-        return loads_[static_cast<std::size_t>(term.profile)];
-    };
     for (const auto& term : data_.heat_source.terms)
-        record_.heat_load += amplitudes(term.amplitude, 0) * load(term).hat;
+        record_.heat_load +=
+            amplitudes(term.amplitude, 0) * heat_loads_[static_cast<std::size_t>(term.profile)];
     for (const auto& term : data_.moment_load.terms)
-        record_.moment += amplitudes(term.amplitude, 0) * load(term).projection;
+        record_.moment +=
+            amplitudes(term.amplitude, 0) * moments_[static_cast<std::size_t>(term.profile)];
     const auto load_of_rest = [&](const SpaceTimeFunction& rest) {
         return certify::load_of(mesh_, [&](const Eigen::ArrayXd& x) -> Eigen::ArrayXd {
             return rest(x, t) / options_.unit;
@@ -94,14 +106,22 @@ void SolveRecorder::read_star() {
     }
 }
 
-const SolveRecord& SolveRecorder::record(const SolverState& state) {
+/// That of the last record, as later solves and steps read it.
+RecordedState SolveRecorder::last_state() {
+    record_.now.temperature_size = record_.now.theta.cwiseAbs().maxCoeff();
+    return std::move(record_.now);
+}
+
+const SolveRecord& SolveRecorder::record(SolverState state) {
+    if (made_ > 0)
+        stages_.push_back(last_state());
     record_.step = stated_step(scheme_, n_);
-    record_.stage = std::min(static_cast<Eigen::Index>(stages_.size()), record_.step.solves() - 1);
+    record_.stage = std::min(made_++, record_.step.solves() - 1);
     record_.leading = record_.step.leading(record_.stage) / record_.dt;
     record_.stress = state.stress / options_.unit;
     read_star();
     read_loads((static_cast<double>(n_ - 1) + record_.step.fraction(record_.stage)) * record_.dt);
-    record_.now = in_units(state);
+    record_.now = in_units(std::move(state));
     const RecordedState& star = record_.star;
     RecordedState& now = record_.now;
     const double kappa = 1.0 / (1.0 + beam_.zeta * record_.leading);
@@ -117,25 +137,22 @@ const SolveRecord& SolveRecorder::record(const SolverState& state) {
                               largest(now.w) * options_.amplification + options_.iteration_size);
     now.curvature_size =
         (1.0 - kappa) * star.curvature_size + star.terms_size + kappa * forces + now.terms_size;
-    stages_.push_back(now);
-    stages_.back().temperature_size = now.theta.cwiseAbs().maxCoeff();
     return record_;
 }
 
 std::string SolveRecorder::end_step() {
-    constexpr std::size_t history = 2; // what BDF2 reads, which reads most
-    const auto made = static_cast<Eigen::Index>(stages_.size());
     const Eigen::Index stated = stated_step(scheme_, n_).solves();
     std::string difference;
-    if (made != stated)
-        difference = "step " + std::to_string(n_) + " made " + std::to_string(made) + " solves; " +
+    if (made_ != stated)
+        difference = "step " + std::to_string(n_) + " made " + std::to_string(made_) + " solves; " +
                      scheme_ + " has " + std::to_string(stated) + " there";
-    if (made > 0)
-        levels_.insert(levels_.begin(), std::move(stages_.back()));
-    if (levels_.size() > history)
-        levels_.resize(history);
-    stages_.clear();
     ++n_;
+    if (made_ > 0) {
+        levels_.insert(levels_.begin(), last_state());
+        levels_.resize(stated_step(scheme_, n_).two_step ? 2 : 1);
+    }
+    stages_.clear();
+    made_ = 0;
     return difference;
 }
 

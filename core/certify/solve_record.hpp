@@ -68,34 +68,41 @@ struct RecordOptions {
 /// Records the solves of a run by the results alone: record() each of them.
 class SolveRecorder {
 public:
-    /// data must outlive the object. scheme: a name of stated_step.
+    /// data and mesh must outlive the object. scheme: a name of stated_step.
     SolveRecorder(const Beam& beam, const ProblemData& data, const Mesh& mesh, std::string scheme,
-                  double dt, const RecordOptions& options, const SolverState& initial);
+                  double dt, const RecordOptions& options, SolverState initial);
 
     /// The next solve of the step. One that the scheme does not have is recorded as its last.
-    const SolveRecord& record(const SolverState& state);
+    const SolveRecord& record(SolverState state);
 
     /// y^{n−1}, y^{n−2}, … of the step that the last record belongs to.
     [[nodiscard]] const RecordedState& before(std::size_t steps = 1) const;
+
+    /// Y_i of the step that the last record belongs to, i < its solves.
+    [[nodiscard]] const RecordedState& stage(Eigen::Index i) const;
 
     /// Call when the step has ended. Returns an empty text, or how its solves differ in number from
     /// those of the scheme.
     std::string end_step();
 
 private:
-    [[nodiscard]] RecordedState in_units(const SolverState& state) const;
+    [[nodiscard]] RecordedState in_units(SolverState state) const;
     void read_loads(double t);
     void read_star();
+    [[nodiscard]] RecordedState last_state();
 
     const Beam beam_;
     const ProblemData& data_;
-    const Mesh mesh_;
+    const Mesh& mesh_;
     const std::string scheme_;
     RecordOptions options_;
-    std::vector<certify::Load> loads_;  // of the profiles
+    // By profile; of one that no source has, empty.
+    std::vector<Eigen::VectorXd> heat_loads_;
+    std::vector<certify::BrokenLinear> moments_;
     std::vector<RecordedState> levels_; // y^{n−1}, y^{n−2}, …
-    std::vector<RecordedState> stages_; // of this step
+    std::vector<RecordedState> stages_; // of this step, without the last, which is record_.now
     std::int64_t n_ = 1;
+    Eigen::Index made_ = 0; // solves of this step
     SolveRecord record_;
 };
 

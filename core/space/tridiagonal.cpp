@@ -6,12 +6,18 @@
 
 namespace tvbeam {
 
-Tridiagonal Tridiagonal::operator+(const Tridiagonal& other) const {
-    return {diagonal + other.diagonal, coupling + other.coupling, row_sums + other.row_sums};
+Tridiagonal operator+(Tridiagonal a, const Tridiagonal& b) {
+    a.diagonal += b.diagonal;
+    a.coupling += b.coupling;
+    a.row_sums += b.row_sums;
+    return a;
 }
 
-Tridiagonal Tridiagonal::operator*(double factor) const {
-    return {diagonal * factor, coupling * factor, row_sums * factor};
+Tridiagonal operator*(Tridiagonal a, double factor) {
+    a.diagonal *= factor;
+    a.coupling *= factor;
+    a.row_sums *= factor;
+    return a;
 }
 
 Eigen::VectorXd Tridiagonal::operator*(const Eigen::VectorXd& x) const {

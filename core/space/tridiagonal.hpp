@@ -12,8 +12,8 @@ struct Tridiagonal {
     /// stiffness matrix cancel: what is left of them by subtraction is wrong by ε/h² of the mass.
     Eigen::VectorXd row_sums;
 
-    Tridiagonal operator+(const Tridiagonal& other) const;
-    Tridiagonal operator*(double factor) const;
+    friend Tridiagonal operator+(Tridiagonal a, const Tridiagonal& b); // in place, where it can be
+    friend Tridiagonal operator*(Tridiagonal a, double factor);
     Eigen::VectorXd operator*(const Eigen::VectorXd& x) const;
 };
 

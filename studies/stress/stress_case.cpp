@@ -5,6 +5,7 @@
 #include "core/certify/residuals.hpp"
 #include "core/round_off.hpp"
 #include "core/run.hpp"
+#include "core/sine/sine_run.hpp"
 #include "core/time/time_levels.hpp"
 #include "core/worse.hpp"
 #include "mms/text/number_text.hpp"
@@ -56,6 +57,9 @@ Scheme scheme_of(const StressParameters& parameters) {
 Beam beam_of(const StressParameters& parameters) {
     return {parameters.alpha, parameters.zeta, parameters.theta_A, parameters.stops};
 }
+
+/// Of temperature, curvature and contact stress.
+const std::vector<std::string> path_norms{"theta_LinfL2", "u_LinfH2semi", "sigma_L2"};
 
 /// The largest values of a run, for the scales of its norms.
 struct Sizes {
@@ -112,6 +116,7 @@ public:
                 return reason + " in step " + std::to_string(n) + " of " +
                        std::to_string(parameters_.steps);
             take(checks_.energy, energy.end_step(recorder, *last));
+            add_norms(*last);
             if (other_steps_ = recorder.end_step(); !other_steps_.empty())
                 return {};
         }
@@ -120,6 +125,10 @@ public:
 
     [[nodiscard]] const StressChecks& checks() const { return checks_; }
     [[nodiscard]] const Sizes& sizes() const { return sizes_; }
+    /// In the order of path_norms.
+    [[nodiscard]] std::vector<double> norms() const {
+        return {norms_[0] * unit_, norms_[1] * unit_, std::sqrt(norms_[2]) * unit_};
+    }
     [[nodiscard]] Eigen::VectorXd temperature() const { return solver_->temperature(); }
     /// How the steps differ from those of the scheme; empty: not at all.
     [[nodiscard]] const std::string& other_steps() const { return other_steps_; }
@@ -149,6 +158,16 @@ private:
         take(sizes_.leading, record.leading);
     }
 
+    /// At the end of a step.
+    void add_norms(const SolveRecord& record) {
+        const Eigen::VectorXd theta =
+            record.now.theta + parameters_.theta_A / unit_ * (1.0 - mesh_.nodes).matrix();
+        take(norms_[0],
+             std::sqrt(theta.dot(certify::mass_times(mesh_, ThermalMass::consistent, theta))));
+        take(norms_[1], std::sqrt(certify::product(mesh_, record.now.w, record.now.w)));
+        norms_[2] += record.dt * record.stress * record.stress;
+    }
+
     const StressParameters& parameters_;
     const Mesh& mesh_;
     const ProblemData& data_;
@@ -159,11 +178,32 @@ private:
     std::unique_ptr<Solver> solver_;
     StressChecks checks_;
     Sizes sizes_;
+    std::array<double, 3> norms_{}; // in units; the last squared
     std::string other_steps_;
 };
 
-/// Of temperature, curvature and contact stress.
-const std::vector<std::string> path_norms{"theta_LinfL2", "u_LinfH2semi", "sigma_L2"};
+/// What is left of a march: a large one takes far more memory.
+struct Marched {
+    std::string stopped; ///< why it stopped; empty: it did not
+    std::string other_steps;
+    StressChecks checks;
+    Sizes sizes;
+    std::vector<double> norms; ///< of path_norms
+    Eigen::VectorXd temperature;
+};
+
+Marched march(const StressParameters& parameters, const Mesh& mesh, const ProblemData& data,
+              double underflow) {
+    Marcher marcher(parameters, mesh, data);
+    Marched marched{.stopped = marcher.march(underflow),
+                    .other_steps = marcher.other_steps(),
+                    .checks = marcher.checks(),
+                    .sizes = marcher.sizes(),
+                    .norms = marcher.norms(),
+                    .temperature = {}};
+    marched.temperature = marcher.temperature();
+    return marched;
+}
 
 /// What the round-off of the path_norms is measured in.
 std::array<double, 3> path_scales(const StressParameters& parameters, const Sizes& sizes,
@@ -183,9 +223,10 @@ std::array<double, 3> path_scales(const StressParameters& parameters, const Size
             std::sqrt(final_time) * (sizes.stress + reaction)};
 }
 
-/// Runs the case in both bases and compares the norms of the solution.
+/// Runs the case in the sine basis and compares the norms of the solution with those of the march
+/// in nodal values, which its certifier has integrated.
 void compare_paths(const StressParameters& parameters, const Mesh& mesh, const ProblemData& data,
-                   const Sizes& sizes, StressChecks& checks) {
+                   const Marched& nodal, StressChecks& checks) {
     if (parameters.algorithm != Algorithm::direct) {
         checks.path_skipped = "the paper's algorithm has one path";
         return;
@@ -201,20 +242,15 @@ void compare_paths(const StressParameters& parameters, const Mesh& mesh, const P
     for (const auto& name : path_norms)
         request.norms.push_back(*Norm::named(name));
     request.scheme.basis = Basis::automatic;
-    const RunResult sine = run(request, data);
-    if (sine.status == RunStatus::ok && sine.counters.sine_steps == 0) {
-        checks.path_skipped = "the sine basis does not suit mesh or data";
+    const auto sine = run_in_sines(request, data, mesh, Needs());
+    if (!sine) {
+        checks.path_skipped = "the sine basis does not suit mesh or data, or its norms are beyond "
+                              "the range of floating point";
         return;
     }
-    request.scheme.basis = Basis::nodal;
-    const RunResult nodal = run(request, data);
-    if (nodal.status != RunStatus::ok || sine.status != RunStatus::ok) {
-        checks.path_skipped = "a norm is beyond the range of floating point";
-        return;
-    }
-    checks.path_limit = path_limit(parameters.elements, sizes.roughness, sizes.slowest);
-    checks.path = path_difference(nodal.errors, sine.errors,
-                                  path_scales(parameters, sizes, request.final_time));
+    checks.path_limit = path_limit(parameters.elements, nodal.sizes.roughness, nodal.sizes.slowest);
+    checks.path = path_difference(nodal.norms, sine->errors,
+                                  path_scales(parameters, nodal.sizes, request.final_time));
 }
 
 /// The error of the temperature at the end over the one that the scheme's recurrence for the mode
@@ -277,7 +313,7 @@ void compare_order(const StressParameters& parameters, const Mesh& mesh, const P
         const Scheme scheme = scheme_of(parameters);
         const std::int64_t steps = parameters.steps << k;
         const double dt = std::ldexp(parameters.dt, -k);
-        const auto solver = make_solver(beam, data, mesh, scheme, dt, Needs{true, true, true});
+        const auto solver = make_solver(beam, data, mesh, scheme, dt, Needs());
         TimeLevels levels(data, scheme.time, dt * static_cast<double>(steps), steps);
         for (std::int64_t n = 1; n <= steps; ++n)
             if (!solver->step(levels.at(n)).empty())
@@ -316,27 +352,6 @@ std::string violation(const StressChecks& checks) {
     return {};
 }
 
-/// What is left of a march: a large one takes far more memory.
-struct Marched {
-    std::string stopped; ///< why it stopped; empty: it did not
-    std::string other_steps;
-    StressChecks checks;
-    Sizes sizes;
-    Eigen::VectorXd temperature;
-};
-
-Marched march(const StressParameters& parameters, const Mesh& mesh, const ProblemData& data,
-              double underflow) {
-    Marcher marcher(parameters, mesh, data);
-    Marched marched{.stopped = marcher.march(underflow),
-                    .other_steps = marcher.other_steps(),
-                    .checks = marcher.checks(),
-                    .sizes = marcher.sizes(),
-                    .temperature = {}};
-    marched.temperature = marcher.temperature();
-    return marched;
-}
-
 void run_case(StressCase& result) {
     const StressParameters& parameters = result.parameters;
     constexpr double least = std::numeric_limits<double>::min();
@@ -362,7 +377,7 @@ void run_case(StressCase& result) {
             return;
         }
         if (floor == 0.0) {
-            compare_paths(parameters, mesh, data, marched.sizes, *result.checks);
+            compare_paths(parameters, mesh, data, marched, *result.checks);
             if (parameters.algorithm == Algorithm::direct) {
                 compare_error(parameters, mesh, marched.temperature, *result.checks);
                 if (result.checks->error)

@@ -28,6 +28,19 @@ SpaceFunction piecewise_linear(const Eigen::Array2Xd& ends) {
     };
 }
 
+/// The one with these values at the nodes.
+SpaceFunction hats(const Eigen::ArrayXd& nodal) {
+    return [nodal](const Eigen::ArrayXd& x) -> Eigen::ArrayXd {
+        const auto s = static_cast<double>(nodal.size() - 1);
+        return x.unaryExpr([&](double at) {
+            const double element = std::min(std::floor(at * s), s - 1.0);
+            const double xi = at * s - element;
+            const auto j = static_cast<Eigen::Index>(element);
+            return (1.0 - xi) * nodal(j) + xi * nodal(j + 1);
+        });
+    };
+}
+
 /// +1, −1, +1, … at the nodes, without the ends; and from side to side of every element.
 SpaceFunction sawtooth(Eigen::Index elements, bool continuous) {
     return [elements, continuous](const Eigen::ArrayXd& x) -> Eigen::ArrayXd {
@@ -57,17 +70,15 @@ void set_random(ProblemData& data, const Mesh& mesh, unsigned seed, double theta
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> uniform(-1.0, 1.0);
     const Eigen::Index s = mesh.elements();
-    Eigen::Array2Xd theta = Eigen::Array2Xd::Zero(2, s);
+    Eigen::ArrayXd theta = Eigen::ArrayXd::Zero(s + 1);
     Eigen::Array2Xd w(2, s);
     for (Eigen::Index j = 0; j < s; ++j) {
-        if (j + 1 < s) {
-            theta(1, j) = uniform(random);
-            theta(0, j + 1) = theta(1, j);
-        }
+        if (j + 1 < s)
+            theta(j + 1) = uniform(random);
         w(0, j) = uniform(random);
         w(1, j) = uniform(random);
     }
-    data.theta_initial.rest = over_steady(piecewise_linear(theta), theta_A);
+    data.theta_initial.rest = over_steady(hats(theta), theta_A);
     data.curvature_initial.rest = over_steady(piecewise_linear(w), 0.0);
 }
 

@@ -97,7 +97,8 @@ BOOST_DATA_TEST_CASE(a_penalised_stop_yields_by_the_closed_static_law,
     for (int decade = 1; decade <= 12; ++decade) {
         const double epsilon = std::pow(10.0, -decade);
         const Beam beam{.stops = {-0.02, stop, epsilon}};
-        const auto solver = make_solver(beam, data, Mesh::uniform(elements), scheme, 0.1, Needs{});
+        const Mesh mesh = Mesh::uniform(elements);
+        const auto solver = make_solver(beam, data, mesh, scheme, 0.1, Needs{});
         const double beyond = (load / 3.0 - stop) / (1.0 + 1.0 / (3.0 * epsilon));
         march(*solver, data, scheme.time, 0.1, 1, [&](double) {
             BOOST_TEST(std::abs(solver->tip_displacement() - stop - beyond) <= 1e-12);

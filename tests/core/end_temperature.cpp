@@ -148,9 +148,10 @@ BOOST_AUTO_TEST_CASE(without_the_constant_load_the_problems_are_different) {
     const ProblemData heated = problem(beam, false);
     ProblemData wrong = problem(beam, true);
     wrong.moment_load.terms.pop_back();
-    const auto with = make_solver(beam, heated, Mesh::uniform(9), scheme, dt, Needs{});
+    const Mesh mesh = Mesh::uniform(9);
+    const auto with = make_solver(beam, heated, mesh, scheme, dt, Needs{});
     const auto without =
-        make_solver(without_end_temperature(beam), wrong, Mesh::uniform(9), scheme, dt, Needs{});
+        make_solver(without_end_temperature(beam), wrong, mesh, scheme, dt, Needs{});
     march(*with, heated, scheme.time, dt, steps, [](double) {});
     march(*without, wrong, scheme.time, dt, steps, [](double) {});
     // u(1) = −∫ (1 − x) α θ_A (1 − x) dx = −α θ_A/3, once viscosity has yielded.

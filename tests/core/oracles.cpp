@@ -154,7 +154,8 @@ BOOST_DATA_TEST_CASE(contact_begins_and_ends_when_the_scalar_problem_says,
     const Beam beam{.zeta = zeta, .stops = {-10.0, g2}};
     const ProblemData problem = forced_problem({{[=](double t) { return -a + b * t; }, {}}});
     const double dt = 1.5 / steps;
-    const auto solver = make_solver(beam, problem, Mesh::uniform(3), scheme, dt, Needs{});
+    const Mesh mesh = Mesh::uniform(3);
+    const auto solver = make_solver(beam, problem, mesh, scheme, dt, Needs{});
     int switches = 0;
     bool touching = false;
     double first = 0.0;
@@ -189,7 +190,8 @@ BOOST_DATA_TEST_CASE(a_tip_that_rests_on_a_stop_stays_there,
     const ProblemData problem = constant_loads(1.0, -3.0);
     const Scheme scheme{Algorithm::direct, mass, 0.0, TimeScheme::named(time)};
     const double dt = 0.01;
-    const auto solver = make_solver(beam, problem, Mesh::uniform(6), scheme, dt, Needs{});
+    const Mesh mesh = Mesh::uniform(6);
+    const auto solver = make_solver(beam, problem, mesh, scheme, dt, Needs{});
     int switches = 0;
     bool touching = false;
     march(*solver, problem, scheme.time, dt, steps, [&](double) {
