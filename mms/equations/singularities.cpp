@@ -253,10 +253,13 @@ private:
     /// The point between two, at which the margins have different signs, where it is 0.
     [[nodiscard]] DomainPoint crossing(const Critical& critical, DomainPoint below,
                                        DomainPoint above) const {
-        for (int i = 0; i < 60; ++i) {
+        constexpr int most = 2200; // from the largest double to the smallest
+        for (int i = 0; i < most; ++i) {
             DomainPoint middle;
             for (const auto& [name, value] : below)
-                middle[name] = 0.5 * (value + above.at(name));
+                middle[name] = 0.5 * value + 0.5 * above.at(name);
+            if (middle == below || middle == above)
+                break;
             (margin_at(critical, middle) < 0.0L ? below : above) = middle;
         }
         return above;

@@ -7,7 +7,6 @@
 #include <functional>
 #include <iterator>
 #include <map>
-#include <ranges>
 #include <set>
 #include <utility>
 
@@ -47,8 +46,8 @@ private:
     static LimitEstimate along(const std::set<double>& widths,
                                const std::function<double(double)>& value) {
         std::vector<ValueRow> rows;
-        for (const double width : std::ranges::reverse_view(widths))
-            rows.push_back({width, value(width)});
+        for (auto width = widths.rbegin(); width != widths.rend(); ++width)
+            rows.push_back({*width, value(*width)});
         return estimate_limit(rows);
     }
 

@@ -89,6 +89,9 @@ BOOST_AUTO_TEST_CASE(a_pole_of_a_source_alone_is_said_of_it) {
     const std::string said = remark_of("exp(x)*(2 + t)", "diff(u, t) - u/(x - 1/2)");
     BOOST_TEST(said.starts_with("my.toml:4:6: f has a pole: the divisor 2*x - 1 is 0 at "), said);
     BOOST_TEST(said.find("x = 0.5") != std::string::npos, said);
+    const std::string wide =
+        remark_of("x*(2 + t)", "diff(u, t) - u/(x - 1/2)", "[domain]\nx = [0, 1e300]\n");
+    BOOST_TEST(wide.ends_with("is 0 at t = 0, x = 0.5"), wide);
 }
 
 BOOST_AUTO_TEST_CASE(a_narrow_pole_between_the_points_is_not_overlooked) {

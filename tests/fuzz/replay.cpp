@@ -16,11 +16,9 @@ int main(int argc, char** argv) {
         return 2;
     }
     using Target = void (*)(std::span<const std::uint8_t>);
-    const std::vector<std::pair<std::string, Target>> targets = {{"solution", solution},
-                                                                 {"scene", scene},
-                                                                 {"table", table},
-                                                                 {"kept", kept},
-                                                                 {"grammar", grammar}};
+    const std::vector<std::pair<std::string, Target>> targets = {
+        {"solution", solution}, {"scene", scene},     {"table", table},
+        {"kept", kept},         {"grammar", grammar}, {"equations", equations}};
     for (const auto& [name, target] : targets) {
         std::vector<std::filesystem::path> files;
         for (const auto& entry :

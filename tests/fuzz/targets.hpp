@@ -14,6 +14,9 @@ namespace tvbeam::fuzz {
 /// A solution on one of several beams, as the first byte says: parsed, derived, checked.
 void solution(std::span<const std::uint8_t> data);
 
+/// Equations of one's own, derived, checked, and written in the language that the first byte says.
+void equations(std::span<const std::uint8_t> data);
+
 /// A scene, read with its expectations, and what is predicted of it.
 void scene(std::span<const std::uint8_t> data);
 
