@@ -4,6 +4,7 @@
 #include "mms/expression/algebra.hpp"
 #include "mms/expression/grammar.hpp"
 
+#include <algorithm>
 #include <functional>
 #include <optional>
 #include <vector>
@@ -41,7 +42,7 @@ public:
         if (word == "identity")
             return identity(dimension_);
         const auto found = names_.find(word);
-        return found == names_.end() ? std::nullopt : std::optional(found->second);
+        return found == names_.end() ? component(word) : std::optional(found->second);
     }
     [[nodiscard]] std::vector<std::string> names() const {
         std::vector<std::string> result = {"pi", "identity"};
@@ -93,6 +94,20 @@ public:
     }
 
 private:
+    /// v2 of a vector v.
+    [[nodiscard]] std::optional<Tensor> component(const std::string& word) const {
+        const std::size_t digits = word.find_last_not_of("0123456789") + 1;
+        const auto vector = names_.find(word.substr(0, digits));
+        if (vector == names_.end() || vector->second.rank != Tensor::Rank::vector)
+            return std::nullopt;
+        const auto names = component_names(vector->first, vector->second.rows);
+        const auto found = std::find(names.begin(), names.end(), word);
+        if (found == names.end())
+            return std::nullopt;
+        return Tensor::scalar(
+            vector->second.entries[static_cast<std::size_t>(found - names.begin())]);
+    }
+
     static Tensor transposed(const Tensor& a) {
         if (a.rank != Tensor::Rank::matrix)
             throw AlgebraError("transpose is for matrices; this is " + shape_text(a));

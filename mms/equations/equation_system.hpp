@@ -54,7 +54,8 @@ struct DomainInterval {
 /// Expressions are those of solutions (expression_parser.hpp) with x, y, z, t, the parameters, the
 /// unknowns and definitions, and besides
 ///
-///     [a, b, c]                        vectors; of vectors: matrices by rows; identity
+///     [a, b, c]                        vectors, whose components are v1, v2; of vectors: matrices
+///                                      by rows; identity
 ///     diff(e, x), diff(e, x, 2), diff(e, x, 2, t)
 ///     grad(e): (grad v)_ij = ∂_j v_i;  div(v);  div(A)_i = Σ_j ∂_j A_ij;  laplace(e)
 ///     curl(v): in space a vector; of a vector in the plane ∂_x v2 − ∂_y v1, of a scalar (∂_y,

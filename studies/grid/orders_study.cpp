@@ -107,7 +107,8 @@ void expect_limit(TableReader& table, const OrdersBlock& block, std::size_t k,
     };
     for (const auto& [key, interval] :
          {std::pair("limit", &GridLimit::limit), {"p", &GridLimit::p}, {"q", &GridLimit::q}}) {
-        const auto found = [limit, interval = interval](const StudyResult& result) -> const OrderInterval& {
+        const auto found =
+            [limit, interval = interval](const StudyResult& result) -> const OrderInterval& {
             return limit(result).*interval;
         };
         const std::string what = name + key;
