@@ -19,7 +19,7 @@ std::string ratio_text(double ratio) {
 
 /// Too long for more than one run.
 bool ran_once(const std::optional<Timing>& timing, const WorkPrecisionBlock& block) {
-    return timing && timing->runs < block.runs;
+    return timing && timing->runs == 1 && block.runs > 1;
 }
 
 /// Marked where it is of one run; blank where there is none.
@@ -45,7 +45,10 @@ Table::Group time_group(const SchemeRuns& scheme, const WorkPrecisionBlock& bloc
     return {"seconds",
             {column(scheme, "median",
                     [&](std::size_t i) { return median_text(scheme.timings[i], block); }),
-             quartile("q1", &Timing::q1), quartile("q3", &Timing::q3)}};
+             quartile("q1", &Timing::q1), quartile("q3", &Timing::q3),
+             column(scheme, "runs", [&](std::size_t i) {
+                 return scheme.timings[i] ? std::to_string(scheme.timings[i]->runs) : std::string();
+             })}};
 }
 
 std::vector<Table::Group> counter_groups(const SchemeRuns& scheme, const Method& method) {
@@ -106,7 +109,8 @@ std::vector<Block> rows_blocks(const SchemeRuns& scheme, const TimedScheme& time
         groups.push_back(std::move(group));
     std::vector<Block> blocks{
         Paragraph{timed.name + ": " + timed.method.words},
-        Table{timed.name + ": errors, seconds of a run and their quartiles, and counters.",
+        Table{timed.name +
+                  ": errors, seconds of a run, their quartiles and of how many runs, and counters.",
               std::move(key), std::move(groups)}};
     for (const auto& run : scheme.runs)
         if (run.status != RungStatus::ok)

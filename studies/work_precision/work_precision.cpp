@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include <sys/resource.h>
 
@@ -16,6 +17,11 @@ namespace {
 /// A run shorter than this finds the caches as other runs left them: one that does not count goes
 /// before each that does. Unit: s.
 constexpr double quick = 1e-3;
+/// A run is timed no more than it needs: when these seconds have gone into it, and so many of its
+/// times show quartiles that are this near to each other, over the median.
+constexpr double enough_seconds = 0.25;
+constexpr std::size_t enough_runs = 5;
+constexpr double narrow_quartiles = 0.02;
 /// Of a core, for times that can be compared.
 constexpr double least_share = 0.9;
 constexpr int first_decade = 2; // 1e-2
@@ -43,6 +49,14 @@ struct Contestant {
     std::size_t run;
     double warm_up;
     std::vector<double> seconds;
+
+    [[nodiscard]] bool is_known() const {
+        if (seconds.size() < enough_runs ||
+            std::accumulate(seconds.begin(), seconds.end(), 0.0) < enough_seconds)
+            return false;
+        const Timing timing = timing_of(seconds);
+        return timing.q3 - timing.q1 <= narrow_quartiles * timing.median;
+    }
 };
 
 class Race {
@@ -65,7 +79,7 @@ public:
             enter(k);
         for (int round = 0; round < block_.runs; ++round)
             for (auto& contestant : contestants_)
-                if (contestant.warm_up <= one_run_above_)
+                if (contestant.warm_up <= one_run_above_ && !contestant.is_known())
                     time(contestant);
         for (const auto& contestant : contestants_)
             if (result_[contestant.scheme].runs[contestant.run].status == RungStatus::ok)

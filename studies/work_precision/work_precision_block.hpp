@@ -21,7 +21,7 @@ struct TimedScheme {
 struct WorkPrecisionBlock {
     double final_time = 0.0;
     std::vector<Measure> norms; ///< at least one
-    int runs = 20;              ///< timed ones of each rung
+    int runs = 20;              ///< timed ones of each rung, at most
     /// By norm: errors that the schemes are compared at, besides powers of ten.
     std::map<std::string, std::vector<double>> targets;
     std::vector<TimedScheme> schemes; ///< at least one

@@ -262,6 +262,26 @@ BOOST_AUTO_TEST_CASE(a_run_longer_than_the_limit_is_timed_once) {
                 BOOST_TEST(timing->runs == runs);
 }
 
+// 5 runs of 0.1 s are more than 0.25 s; 20 of 1 ms are not; and a tenth is no scatter of 2 %.
+BOOST_AUTO_TEST_CASE(long_runs_that_scatter_little_are_timed_five_times) {
+    const Scene scene = scene_of(good, {"work_precision.runs=20"});
+    for (const auto& [first, second, runs] : std::vector<std::tuple<double, double, int>>{
+             {0.1, 0.1, 5}, {1e-3, 1e-3, 20}, {0.1, 0.11, 20}}) {
+        int calls = 0;
+        const auto result =
+            run_work_precision(*scene.get<WorkPrecisionBlock>(), [&](const RunTask& task) {
+                RungResult made;
+                made.rung = task.rung;
+                made.errors.assign(task.measures.size(), 0.5);
+                made.seconds = ++calls % 2 == 0 ? first : second;
+                return made;
+            });
+        for (const auto& scheme : result.schemes)
+            for (const auto& timing : scheme.timings)
+                BOOST_TEST(timing->runs == runs);
+    }
+}
+
 BOOST_AUTO_TEST_CASE(a_run_that_failed_stays_with_its_reason_and_without_a_time) {
     // At α = 5 the fixed point contracts for Δt = 1e-3 (factor 25e-3/0.1), not for Δt = 1 (factor
     // 25/1.1/10.9).
