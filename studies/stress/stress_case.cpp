@@ -323,35 +323,6 @@ void compare_order(const StressParameters& parameters, const Mesh& mesh, const P
     checks.order_defect = order_of(found[0], found[1], found[2]) - claimed;
 }
 
-/// The first check that does not hold, in words.
-std::string violation(const StressChecks& checks) {
-    const auto exceeds = [](double value, double limit) { return !(value <= limit); };
-    if (exceeds(checks.heat_residual, StressLimits::residual))
-        return "the heat equation is left with a residual of " + text_of(checks.heat_residual) +
-               " units of round-off";
-    if (exceeds(checks.beam_residual, StressLimits::residual))
-        return "the beam equation is left with a residual of " + text_of(checks.beam_residual) +
-               " units of round-off";
-    if (exceeds(checks.energy, StressLimits::energy))
-        return "the energy law is missed by " + text_of(checks.energy) + " of its terms";
-    if (exceeds(checks.penetration, StressLimits::contact))
-        return "the tip is beyond a stop by " + text_of(checks.penetration) + " of its scale";
-    if (exceeds(checks.wrong_sign, StressLimits::contact))
-        return "the reaction has the wrong sign, " + text_of(checks.wrong_sign) + " of the scale";
-    if (exceeds(checks.complementarity, StressLimits::contact))
-        return "there is a reaction without contact, " + text_of(checks.complementarity) +
-               " of the scale";
-    if (checks.path && exceeds(*checks.path, checks.path_limit))
-        return "sine basis and nodal values differ by " + text_of(*checks.path) +
-               " ulp of the scale";
-    if (checks.order_defect && exceeds(std::abs(*checks.order_defect), StressLimits::order))
-        return "the order in dt is " + text_of(*checks.order_defect) +
-               " beside the one that the scheme is known for";
-    if (checks.error && exceeds(std::abs(std::log(*checks.error)), std::log(1.1)))
-        return "the error is " + text_of(*checks.error) + " of the predicted one";
-    return {};
-}
-
 void run_case(StressCase& result) {
     const StressParameters& parameters = result.parameters;
     constexpr double least = std::numeric_limits<double>::min();
@@ -431,6 +402,34 @@ double StressChecks::closeness(bool has_stops) const {
             std::max({greatest, penetration / StressLimits::contact,
                       wrong_sign / StressLimits::contact, complementarity / StressLimits::contact});
     return greatest;
+}
+
+std::string violation(const StressChecks& checks) {
+    const auto exceeds = [](double value, double limit) { return !(value <= limit); };
+    if (exceeds(checks.heat_residual, StressLimits::residual))
+        return "the heat equation is left with a residual of " + text_of(checks.heat_residual) +
+               " units of round-off";
+    if (exceeds(checks.beam_residual, StressLimits::residual))
+        return "the beam equation is left with a residual of " + text_of(checks.beam_residual) +
+               " units of round-off";
+    if (exceeds(checks.energy, StressLimits::energy))
+        return "the energy law is missed by " + text_of(checks.energy) + " of its terms";
+    if (exceeds(checks.penetration, StressLimits::contact))
+        return "the tip is beyond a stop by " + text_of(checks.penetration) + " of its scale";
+    if (exceeds(checks.wrong_sign, StressLimits::contact))
+        return "the reaction has the wrong sign, " + text_of(checks.wrong_sign) + " of the scale";
+    if (exceeds(checks.complementarity, StressLimits::contact))
+        return "there is a reaction without contact, " + text_of(checks.complementarity) +
+               " of the scale";
+    if (checks.path && exceeds(*checks.path, checks.path_limit))
+        return "sine basis and nodal values differ by " + text_of(*checks.path) +
+               " ulp of the scale";
+    if (checks.order_defect && exceeds(std::abs(*checks.order_defect), StressLimits::order))
+        return "the order in dt is " + text_of(*checks.order_defect) +
+               " beside the one that the scheme is known for";
+    if (checks.error && exceeds(std::abs(std::log(*checks.error)), std::log(1.1)))
+        return "the error is " + text_of(*checks.error) + " of the predicted one";
+    return {};
 }
 
 double path_difference(const std::vector<double>& nodal, const std::vector<double>& sine,

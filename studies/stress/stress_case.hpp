@@ -64,6 +64,9 @@ struct StressCase {
 /// Runs a case and judges it. Never throws for what its parameters are.
 StressCase judge(const StressParameters& parameters);
 
+/// The first check that does not hold, in words; empty: all do.
+std::string violation(const StressChecks& checks);
+
 /// The greatest difference of temperature, curvature and contact stress (their norms) between nodal
 /// values and the sine basis, in ulp of the scale; NaN where one is.
 double path_difference(const std::vector<double>& nodal, const std::vector<double>& sine,

@@ -359,6 +359,21 @@ BOOST_AUTO_TEST_CASE(reserved_names_are_changed_also_where_they_are_used) {
     BOOST_TEST(c.find("double lambda = 0.6;") != std::string::npos);
 }
 
+BOOST_AUTO_TEST_CASE(a_negative_parameter_is_negative_in_every_language) {
+    const auto derived = derive_system(parse_equation_system(
+        "[parameters]\nk = -2.5\n[unknowns]\nu = \"sin(x)\"\n[equations]\nf = \"k*diff(u, x)\"\n",
+        "my.toml"));
+    const auto function = derived.of_role(DerivedFunction::Role::source).front();
+    for (const auto& name : code_language_names()) {
+        const CodeLanguage language = *code_language(name);
+        for (const std::string& code :
+             {system_code(derived, language), inline_code(derived, *function, language)})
+            BOOST_TEST(
+                (code.find("-2.5") != std::string::npos || code.find("- 2.5") != std::string::npos),
+                name << code);
+    }
+}
+
 // Macros, functions with their endings, and what a compiler predefines.
 BOOST_AUTO_TEST_CASE(names_that_headers_take_are_changed_so_that_the_code_compiles) {
     for (const std::string name : {"M_PI", "NAN", "INFINITY", "linux", "unix", "typeof", "isnan",

@@ -107,6 +107,17 @@ BOOST_DATA_TEST_CASE(an_interval_is_no_narrower_than_what_known_scatter_makes_of
     }
 }
 
+// With three levels a next term cannot be told from scatter: what is known is at best the
+// difference of the two finest rows, with the deviation σ √2/ln 2.
+BOOST_DATA_TEST_CASE(of_three_levels_an_interval_is_no_narrower_than_that_of_the_two_finest_rows,
+                     data::make({0.01, 0.05}), sigma) {
+    auto rows = sequence(3, [](double h) { return h * h; });
+    for (auto& row : rows)
+        row.sigma = sigma;
+    BOOST_TEST(estimate_orders(rows).front().half_width() >=
+               1.96 * sigma * std::sqrt(2.0) / std::log(2.0));
+}
+
 BOOST_DATA_TEST_CASE(both_orders_of_a_grid_are_held_with_next_terms_and_correlation,
                      data::make({-0.9, 0.0, 0.5, 1.0}) * data::make({-0.5, 0.0, 1.0}), rho, next) {
     const auto orders = estimate_orders(grid([rho = rho, next = next](double h, double dt) {

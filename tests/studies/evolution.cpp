@@ -22,6 +22,7 @@
 #include <limits>
 #include <numbers>
 #include <random>
+#include <regex>
 
 using namespace tvbeam;
 namespace data = boost::unit_test::data;
@@ -469,7 +470,7 @@ BOOST_AUTO_TEST_CASE(samples_are_thinned_and_events_are_not) {
 // θ = e^{−π²t} sin πx decays with the rate of the mode; a period of 1/4 changes it by its own size
 // a period before, less what is left.
 BOOST_AUTO_TEST_CASE(changes_from_period_to_period_are_the_greatest_of_each_probe) {
-    const EvolutionResult result = evolution_of(R"toml(
+    const std::string decay = R"toml(
 [beam]
 alpha = 0.0
 zeta  = 0.1
@@ -484,7 +485,8 @@ dt         = 0.01
 every      = 5
 period     = 0.25
 probes     = ["theta@0.5"]
-)toml");
+)toml";
+    const EvolutionResult result = evolution_of(decay);
     BOOST_REQUIRE(result.periods.size() == 3U);
     const auto& theta = result.probes[0].values;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -492,6 +494,13 @@ probes     = ["theta@0.5"]
         // It falls: the change is greatest in the first sample of the period.
         BOOST_TEST(result.periods[k].changes[0] == theta[5 * k + 1] - theta[5 * k + 6]);
     }
+    // A sample a period: its end is all of it.
+    const EvolutionResult single =
+        evolution_of(std::regex_replace(decay, std::regex("every      = 5"), "every      = 25"));
+    BOOST_REQUIRE(single.periods.size() == 3U);
+    for (std::size_t k = 0; k < 3; ++k)
+        BOOST_TEST(single.periods[k].changes[0] ==
+                   single.probes[0].values[k + 1] - single.probes[0].values[k + 2]);
 }
 
 BOOST_AUTO_TEST_CASE(what_no_probe_reads_is_not_computed) {

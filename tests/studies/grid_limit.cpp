@@ -16,9 +16,9 @@ namespace {
 
 using Value = std::function<double(double h, double dt)>;
 
-std::vector<RungResult> grid_of(const Value& value) {
+std::vector<RungResult> grid_of(const Value& value, double ratio_of_steps = 2.0) {
     std::vector<RungResult> runs;
-    for (const double dt : {0.2, 0.1, 0.05, 0.025, 0.0125})
+    for (double dt = 0.2; dt > 0.19 * std::pow(ratio_of_steps, -4.0); dt /= ratio_of_steps)
         for (const std::int64_t s : {4, 8, 16, 32, 64}) {
             const Rung rung{s, 0, dt};
             runs.push_back({.rung = rung, .errors = {value(rung.h(), dt)}});
@@ -56,6 +56,22 @@ BOOST_AUTO_TEST_CASE(what_both_widths_do_together_is_in_the_interval) {
         BOOST_TEST(found.limit.half_width() >= std::abs(mixed) / 64 / 64 * 0.0125);
         BOOST_TEST(std::abs(found.limit.value - 3.0) > 0.5 * std::abs(mixed) / 64 / 64 * 0.0125);
     }
+}
+
+// Of m h² Δt, where h is halved and Δt a third, (2² − 1)(3 − 1) m h² Δt is what four runs show;
+// each order belongs to its own width.
+BOOST_AUTO_TEST_CASE(what_both_widths_do_together_is_sized_by_their_own_orders) {
+    const double mixed = 3000.0;
+    const double dt = 0.2 / 625.0;
+    const GridLimit found = limit_of(
+        "drag",
+        grid_of(
+            [&](double h, double step) { return 3.0 + h * h - 0.5 * step + mixed * h * h * step; },
+            5.0),
+        0);
+    const double both = mixed / 64 / 64 * dt;
+    BOOST_TEST(found.limit.half_width() >= 0.99 * both);
+    BOOST_TEST(found.limit.half_width() <= 1.3 * both);
 }
 
 BOOST_AUTO_TEST_CASE(of_many_grids_the_intervals_hold_the_limit) {

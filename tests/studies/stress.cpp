@@ -217,6 +217,52 @@ BOOST_AUTO_TEST_CASE(every_norm_of_the_two_paths_is_compared) {
     BOOST_TEST(std::isnan(path_difference({std::nan(""), 0.5, 0.5}, {0.5, 0.4, 0.3}, scales)));
 }
 
+// Each by itself, at both sides where it has two; what is no number holds nothing.
+BOOST_AUTO_TEST_CASE(every_check_beyond_its_limit_is_named) {
+    BOOST_TEST(violation({}) == "");
+    const double nan = std::nan("");
+    const auto named = [](const std::string& word, const auto& set,
+                          std::initializer_list<double> bad, double good) {
+        for (const double value : bad) {
+            StressChecks checks;
+            checks.path_limit = 30.0;
+            set(checks, value);
+            BOOST_TEST(violation(checks).find(word) != std::string::npos, word << value);
+        }
+        StressChecks checks;
+        checks.path_limit = 30.0;
+        set(checks, good);
+        BOOST_TEST(violation(checks) == "", word);
+    };
+    const double over = 1.01;
+    named(
+        "heat equation", [](StressChecks& c, double v) { c.heat_residual = v; },
+        {over * StressLimits::residual, nan}, StressLimits::residual);
+    named(
+        "beam equation", [](StressChecks& c, double v) { c.beam_residual = v; },
+        {over * StressLimits::residual, nan}, StressLimits::residual);
+    named(
+        "energy law", [](StressChecks& c, double v) { c.energy = v; },
+        {over * StressLimits::energy, nan}, StressLimits::energy);
+    named(
+        "beyond a stop", [](StressChecks& c, double v) { c.penetration = v; },
+        {over * StressLimits::contact, nan}, StressLimits::contact);
+    named(
+        "wrong sign", [](StressChecks& c, double v) { c.wrong_sign = v; },
+        {over * StressLimits::contact, nan}, StressLimits::contact);
+    named(
+        "without contact", [](StressChecks& c, double v) { c.complementarity = v; },
+        {over * StressLimits::contact, nan}, StressLimits::contact);
+    named(
+        "sine basis", [](StressChecks& c, double v) { c.path = v; }, {30.3, nan}, 30.0);
+    named(
+        "order in dt", [](StressChecks& c, double v) { c.order_defect = v; },
+        {over * StressLimits::order, -over * StressLimits::order, nan}, -StressLimits::order);
+    named(
+        "of the predicted one", [](StressChecks& c, double v) { c.error = v; },
+        {1.11, 0.9, 0.0, nan}, 0.92);
+}
+
 BOOST_AUTO_TEST_CASE(error_of_the_mode_is_the_predicted_one) {
     StressParameters mode;
     mode.alpha = 0.5;
