@@ -38,17 +38,37 @@ std::string unquoted(const std::string& text) {
     return quoted ? text.substr(1, text.size() - 2) : text;
 }
 
-/// Parts between commas; empty where it is not a list of words.
-std::vector<std::string> words_in(const std::string& text) {
-    std::vector<std::string> words;
+/// Where a value that begins at `begin` ends: at a comma outside quotes and brackets, or the end.
+std::size_t end_of_value(const std::string& text, std::size_t begin) {
+    int depth = 0;
+    char quote = 0;
+    for (std::size_t i = begin; i < text.size(); ++i) {
+        const char c = text[i];
+        if (quote != 0)
+            quote = c == quote ? '\0' : quote;
+        else if (c == '"' || c == '\'')
+            quote = c;
+        else if (c == '[' || c == ']')
+            depth += c == '[' ? 1 : -1;
+        else if (c == ',' && depth == 0)
+            return i;
+    }
+    return text.size();
+}
+
+/// Parts between commas; empty where they are no words, texts in quotes and lists in brackets.
+std::vector<std::string> values_in(const std::string& text) {
+    std::vector<std::string> values;
     for (std::size_t begin = 0; begin <= text.size();) {
-        const std::size_t end = std::min(text.find(',', begin), text.size());
-        words.push_back(unquoted(text.substr(begin, end - begin)));
-        if (!is_word(words.back()))
+        const std::size_t end = end_of_value(text, begin);
+        const std::string part = text.substr(begin, end - begin);
+        values.push_back(unquoted(part));
+        const bool is_list = part.size() > 1 && part.front() == '[' && part.back() == ']';
+        if (!is_word(part) && !is_list && values.back() == part)
             return {};
         begin = end + 1;
     }
-    return words;
+    return values;
 }
 
 std::optional<double> number(const std::string& text) {
@@ -248,15 +268,19 @@ std::vector<std::string> Sweep::overrides(const std::string& value) const {
     return all;
 }
 
+std::string Sweep::directory(std::size_t i) const {
+    return is_word(values[i]) ? values[i] : fmt::format("{}-of-{}", i + 1, values.size());
+}
+
 std::optional<Sweep> sweep_in(const std::vector<std::string>& overrides) {
     std::optional<Sweep> sweep;
     std::vector<std::string> others;
     for (const auto& assignment : overrides) {
         const auto equals = std::min(assignment.find('='), assignment.size());
-        const auto words = equals < assignment.size() ? words_in(assignment.substr(equals + 1))
+        const auto given = equals < assignment.size() ? values_in(assignment.substr(equals + 1))
                                                       : std::vector<std::string>();
         const std::string key = assignment.substr(0, equals);
-        if (words.size() < 2 || key == "title") {
+        if (given.size() < 2 || key == "title") {
             others.push_back(assignment);
             continue;
         }
@@ -264,13 +288,13 @@ std::optional<Sweep> sweep_in(const std::vector<std::string>& overrides) {
             throw InputError({"--set " + assignment},
                              "one key is swept at a time, and " + sweep->key + " is already");
         std::set<std::string> values;
-        for (const auto& word : words) {
+        for (const auto& word : given) {
             const auto value = number(word);
             if (!values.insert(value ? fmt::format("{}", *value) : word).second)
                 throw InputError({"--set " + assignment},
                                  word + " is there twice; name each value once");
         }
-        sweep = Sweep{key, words, {}};
+        sweep = Sweep{key, given, {}};
     }
     for (const auto& other : others)
         if (sweep && other.substr(0, other.find('=')) == sweep->key)
@@ -293,7 +317,7 @@ std::string sweep_csv(const Sweep& sweep, const std::vector<StudyResult>& result
     }
     text += "\n";
     for (std::size_t i = 0; i < rows.size(); ++i) {
-        text += sweep.values[i];
+        text += is_word(sweep.values[i]) ? sweep.values[i] : quoted(sweep.values[i]);
         for (const auto& cell : rows[i])
             text += cell.value ? fmt::format(",{}", *cell.value) : comma;
         text += "\n";

@@ -17,10 +17,13 @@ struct Sweep {
     /// The overrides of the scene for a value: others, as they were given, and this one.
     std::vector<std::string> others;
     [[nodiscard]] std::vector<std::string> overrides(const std::string& value) const;
+    /// What the directory of value i is called: the value, or "2-of-3" where that is no word.
+    [[nodiscard]] std::string directory(std::size_t i) const;
 };
 
-/// The sweep among overrides: the value is two or more numbers or words without blanks, separated
-/// by commas. None: there is none. Throws InputError where there are two.
+/// The sweep among overrides: the value is two or more numbers, words without blanks, texts in
+/// quotes or lists in brackets, separated by commas. None: there is none. Throws InputError where
+/// there are two.
 std::optional<Sweep> sweep_in(const std::vector<std::string>& overrides);
 
 /// One table of all: a row a value, with the error of the finest level and its observed order for

@@ -179,6 +179,25 @@ BOOST_AUTO_TEST_CASE(a_row_of_a_sweep_that_failed_says_why) {
     BOOST_TEST(has(quoted.output, "\nbdf2,"), quoted.output);
 }
 
+BOOST_AUTO_TEST_CASE(lists_and_texts_are_swept_too) {
+    const TemporaryDirectory directory;
+    const std::string out = (directory.path() / "out").string();
+    const std::string sheared = "run sheared --quiet --out " + out + " --set ";
+    const Called lists = call(directory, sheared + "'beam.stops=[-0.02,0.1],[-1.0, 1.0]' --csv -");
+    BOOST_TEST(lists.exit == 0, lists.errors);
+    BOOST_TEST(has(lists.output, "\n\"[-0.02,0.1]\","), lists.output);
+    const auto second = nlohmann::json::parse(directory.read("out/2-of-2/result.json"));
+    BOOST_TEST(second.at("scene").at("beam").at("stops") == nlohmann::json({-1.0, 1.0}));
+    // One list is one value.
+    const Called one = call(directory, sheared + "'beam.stops=[-1.0,1.0]'");
+    BOOST_TEST(one.exit == 0, one.errors);
+    BOOST_TEST(nlohmann::json::parse(directory.read("out/result.json")).at("schema") ==
+               "tvbeam-result/1");
+    const Called check = call(directory, "check sheared --set beam.alpha=1,2");
+    BOOST_TEST(check.exit == 2);
+    BOOST_TEST(has(check.errors, "beam.alpha: has several values"), check.errors);
+}
+
 BOOST_AUTO_TEST_CASE(a_comparison_says_what_differs_and_by_how_much) {
     const TemporaryDirectory directory;
     for (const std::string alpha : {"1", "2"})

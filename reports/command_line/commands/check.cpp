@@ -1,3 +1,4 @@
+#include "mms/text/input_error.hpp"
 #include "reports/command_line/check_report.hpp"
 #include "reports/command_line/commands/command.hpp"
 #include "reports/command_line/commands/destination.hpp"
@@ -8,6 +9,7 @@
 #include "reports/document/visible_text.hpp"
 #include "reports/files/baseline.hpp"
 #include "reports/formats/report_format.hpp"
+#include "reports/sweep/sweep.hpp"
 
 #include <fmt/format.h>
 
@@ -55,6 +57,9 @@ std::string recorded_report(const std::vector<BaselineEntry>& entries, const std
 constexpr const char* interrupted_reason = "it was interrupted";
 
 int check_command(const CheckOptions& options) {
+    if (const auto sweep = sweep_in(options.overrides))
+        throw InputError({"--set " + sweep->key},
+                         "has several values, which tvbeam run puts into one table; name one here");
     // All scenes are read before any is run, so that a mistake in the last is not found after the
     // others' run.
     std::vector<Scene> scenes;

@@ -208,7 +208,7 @@ int sweep_command(const RunOptions& options, const Sweep& sweep) {
     if (out) {
         write(*out, all);
         for (std::size_t i = 0; i < results.size(); ++i) {
-            ReportDirectory one(std::filesystem::path(options.out) / sweep.values[i],
+            ReportDirectory one(std::filesystem::path(options.out) / sweep.directory(i),
                                 scenes[i].report);
             write(one, reported(results[i]));
         }
