@@ -29,7 +29,8 @@ namespace tvbeam {
 /// θ̃_x = θ_x − θ_A adds −αθ_A (1, η') to the loads.
 class HermiteForm final : public Solver {
 public:
-    /// data must outlive the solver. Throws std::domain_error when a matrix cannot be factored.
+    /// data and mesh must outlive the solver. Throws std::domain_error when a matrix cannot be
+    /// factored.
     HermiteForm(const Beam& beam, const ProblemData& data, const Mesh& mesh, const Scheme& scheme,
                 double dt);
 
@@ -63,7 +64,7 @@ private:
 
     Beam beam_;
     const ProblemData& data_;
-    Mesh mesh_;
+    const Mesh& mesh_;
     double tolerance_;
     double leading_ = 0.0; // c, of which the factors are now
     double dt_ = 0.0;      // 1/c

@@ -49,6 +49,8 @@ struct RunResult {
 /// it cannot start, and where the contraction that is predicted for the fixed point is 1 or more.
 std::unique_ptr<Solver> make_solver(const Beam& beam, const ProblemData& data, const Mesh& mesh,
                                     const Scheme& scheme, double dt, const Needs& needs);
+std::unique_ptr<Solver> make_solver(const Beam& beam, const ProblemData& data, Mesh&& mesh,
+                                    const Scheme& scheme, double dt, const Needs& needs) = delete;
 
 /// How finely the functions of a problem must be cut for runs by these algorithms with these norms:
 /// what such a run finds out by itself where ProblemData::resolution is not there.

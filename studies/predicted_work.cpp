@@ -123,8 +123,13 @@ PredictedWork predicted_work(const Scene& scene) {
     return predicted;
 }
 
+bool is_too_long(const Scene& scene, const PredictedWork& predicted) {
+    return !scene.is_long &&
+           !(predicted.seconds <= longest_work && predicted.bytes <= largest_work);
+}
+
 void require_short_enough(const Scene& scene, const PredictedWork& predicted) {
-    if (scene.is_long || (predicted.seconds <= longest_work && predicted.bytes <= largest_work))
+    if (!is_too_long(scene, predicted))
         return;
     throw InputError({scene.file},
                      fmt::format("asks for {}; beyond {} or {:.0f} MB it runs only with "

@@ -42,6 +42,9 @@ PredictedWork predicted_work(const Scene& scene);
 inline constexpr double longest_work = 6.0 * 3600.0; ///< s
 inline constexpr double largest_work = 4e9;          ///< bytes
 
+/// Whether a scene that does not say `long = true` is predicted to take more.
+bool is_too_long(const Scene& scene, const PredictedWork& predicted);
+
 /// Throws InputError, with the prediction, where a scene that does not say `long = true` is
 /// predicted to take more.
 void require_short_enough(const Scene& scene, const PredictedWork& predicted);

@@ -25,6 +25,7 @@ public:
     /// mesh must outlive the object. underflow: in the units of the records, below which floating
     /// point is absolute; 0: never.
     EnergyLaw(const Beam& beam, const Mesh& mesh, ThermalMass mass, double underflow = 0.0);
+    EnergyLaw(const Beam& beam, Mesh&& mesh, ThermalMass mass, double underflow = 0.0) = delete;
 
     /// Adds the power of a solve.
     void add(const SolveRecord& record);

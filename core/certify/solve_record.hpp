@@ -71,14 +71,16 @@ public:
     /// data and mesh must outlive the object. scheme: a name of stated_step.
     SolveRecorder(const Beam& beam, const ProblemData& data, const Mesh& mesh, std::string scheme,
                   double dt, const RecordOptions& options, SolverState initial);
+    SolveRecorder(const Beam& beam, const ProblemData& data, Mesh&& mesh, std::string scheme,
+                  double dt, const RecordOptions& options, SolverState initial) = delete;
 
     /// The next solve of the step. One that the scheme does not have is recorded as its last.
     const SolveRecord& record(SolverState state);
 
-    /// y^{n−1}, y^{n−2}, … of the step that the last record belongs to.
+    /// y^{n−1} of the step that the last record belongs to; of a two-step formula also y^{n−2}.
     [[nodiscard]] const RecordedState& before(std::size_t steps = 1) const;
 
-    /// Y_i of the step that the last record belongs to, i < its solves.
+    /// Y_i of the step that the last record belongs to, i < its solves, until it ends.
     [[nodiscard]] const RecordedState& stage(Eigen::Index i) const;
 
     /// Call when the step has ended. Returns an empty text, or how its solves differ in number from

@@ -27,8 +27,10 @@ public:
         for (const auto& parameter : system().parameters)
             add_parameter(parameter);
         add_unknowns();
-        for (const auto& definition : system().definitions)
+        for (const auto& definition : system().definitions) {
             names_[definition.name] = tensor_of(definition);
+            require_free_components(definition, names_[definition.name]);
+        }
         for (const auto& equation : system().equations)
             add_equation(equation);
         require_determined();
@@ -67,6 +69,19 @@ private:
                                  "; it must be a scalar or a vector");
     }
 
+    /// v1 is a component of a vector v, and nothing else.
+    void require_free_components(const NamedEntries& named, const Tensor& value) const {
+        if (value.rank != Tensor::Rank::vector)
+            return;
+        const auto components = component_names(named.name, value.rows);
+        for (const auto* block : {&system().parameters, &system().unknowns, &system().definitions})
+            for (const auto& other : *block)
+                if (value.rows > 1 &&
+                    std::find(components.begin(), components.end(), other.name) != components.end())
+                    throw InputError(other.place, "'" + other.name + "' is a component of " +
+                                                      named.name + "; call it something else");
+    }
+
     void add_parameter(const NamedEntries& named) {
         const SourceText& text = named.entries.front();
         const Tensor value = parse_tensor(text, {}, derived_.fields, 1);
@@ -87,6 +102,7 @@ private:
         for (const auto& unknown : system().unknowns) {
             Tensor exact = tensor_of(unknown);
             require_vector(unknown, exact);
+            require_free_components(unknown, exact);
             names_[unknown.name] = exact;
             const auto components = component_names(unknown.name, exact.entries.size());
             for (std::size_t i = 0; i < components.size(); ++i) {

@@ -46,8 +46,12 @@ public:
     }
     [[nodiscard]] std::vector<std::string> names() const {
         std::vector<std::string> result = {"pi", "identity"};
-        for (const auto& [name, value] : names_)
+        for (const auto& [name, value] : names_) {
             result.push_back(name);
+            if (value.rank == Tensor::Rank::vector && value.rows > 1)
+                for (const auto& part : component_names(name, value.rows))
+                    result.push_back(part);
+        }
         return result;
     }
 
@@ -96,8 +100,7 @@ public:
 private:
     /// v2 of a vector v.
     [[nodiscard]] std::optional<Tensor> component(const std::string& word) const {
-        const std::size_t digits = word.find_last_not_of("0123456789") + 1;
-        const auto vector = names_.find(word.substr(0, digits));
+        const auto vector = names_.find(word.substr(0, word.size() - 1));
         if (vector == names_.end() || vector->second.rank != Tensor::Rank::vector)
             return std::nullopt;
         const auto names = component_names(vector->first, vector->second.rows);

@@ -181,7 +181,7 @@ private:
             for (const auto& name : names) {
                 const DomainInterval range = derived_.system.domain.at(name);
                 const double part = double(rest % along) / double(along - 1);
-                point[name] = range.begin + part * (range.end - range.begin);
+                point[name] = (1.0 - part) * range.begin + part * range.end;
                 rest /= along;
             }
             look_at(point);
@@ -271,7 +271,7 @@ private:
             text.append(text.empty() ? "" : ", ")
                 .append(name)
                 .append(" = ")
-                .append(number_text(std::abs(value) < 1e-15 ? 0.0 : value));
+                .append(number_text(value));
         return text.empty() ? "everywhere" : "at " + text;
     }
 

@@ -42,7 +42,8 @@ GiNaC::ex substituted(const GiNaC::ex& expression, const GiNaC::exmap& values);
 GiNaC::ex derivative(const GiNaC::ex& expression, const GiNaC::symbol& s);
 
 /// The expression with products and powers of sums multiplied out, if about 500 terms at most come
-/// of it; otherwise the expression as it is.
+/// of it; otherwise, and where powers of it are beyond what can be counted, the expression as it
+/// is.
 GiNaC::ex moderately_expanded(const GiNaC::ex& expression);
 
 /// Whether the expression is zero after expansion of products and powers of sums; false if that

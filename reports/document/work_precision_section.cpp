@@ -200,12 +200,13 @@ std::vector<const ReachedError*> compared_errors(const NormCosts& costs) {
 
 Section work_precision_section(const WorkPrecisionResult& result, const WorkPrecisionBlock& block) {
     const bool has_end = block.final_time > 0.0;
-    Section section{"Work and precision",
-                    {Paragraph{fmt::format(
-                        "Work and precision{}; timed runs a row: {}, in turns, one at a time, "
-                        "without error norms{}",
-                        has_end ? " up to T = " + shortest(block.final_time) : "", block.runs,
-                        has_end ? "; node-steps: elements times steps" : "")}}};
+    Section section{
+        "Work and precision",
+        {Paragraph{fmt::format(
+            "Work and precision{}; timed runs a row: at most {}, in turns, one at a time, "
+            "without error norms{}",
+            has_end ? " up to T = " + shortest(block.final_time) : "", block.runs,
+            has_end ? "; node-steps: elements times steps" : "")}}};
     auto& blocks = section.blocks;
     const auto add = [&blocks](const std::vector<Block>& more) {
         blocks.emplace_back(BlankLine{});

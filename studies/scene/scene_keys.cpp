@@ -150,7 +150,8 @@ Entries of_ladders_and_grids() {
          "when the runs end, > 0"},
         {"work_precision.norms", KeyType::texts, required, "as in [ladder]"},
         {"work_precision.runs", KeyType::integer, "20",
-         "timed ones of each level, at most: five are enough of long ones that scatter little"},
+         "timed ones of each level; of those above 25 ms as many as fill half a second, five at "
+         "least"},
         {"work_precision.targets", KeyType::table, "powers of ten",
          "errors at which times are compared"},
         {"work_precision.targets.NORM", KeyType::numbers, "none", "errors of this norm"},

@@ -62,26 +62,27 @@ std::vector<std::vector<std::uint32_t>> dealt(const std::vector<WorkGroup>& grou
     return owners;
 }
 
-PredictedWork predicted_work(const Scene& scene, std::uint32_t shards) {
+std::vector<PredictedWork> predicted_shards(const Scene& scene, std::uint32_t shards) {
+    PredictedWork empty = predicted_work(scene);
+    empty.runs = 0.0;
+    empty.steps = scene.solver ? 0.0 : reference_work(scene);
+    empty.at_most = 0.0;
+    std::vector<PredictedWork> predicted(shards, empty);
     const auto groups = work_groups(scene);
     const auto owners = dealt(groups, shards);
-    std::vector<double> work(shards, 0.0);
-    std::vector<double> runs(shards, 0.0);
     for (std::size_t group = 0; group < groups.size(); ++group)
         for (std::size_t i = 0; i < owners[group].size(); ++i) {
-            work[owners[group][i] - 1] += groups[group].work(i);
-            ++runs[owners[group][i] - 1];
+            PredictedWork& one = predicted[owners[group][i] - 1];
+            ++one.runs;
+            if (!scene.solver) // what a program takes is known to nobody here
+                one.steps += groups[group].work(i);
         }
-    PredictedWork predicted = predicted_work(scene);
-    predicted.runs = *std::max_element(runs.begin(), runs.end());
-    predicted.steps = *std::max_element(work.begin(), work.end()) + reference_work(scene);
-    if (scene.solver) // what a program takes is known to nobody here
-        predicted.steps = 0.0;
-    predicted.seconds = predicted.steps / steps_a_second + predicted.runs * seconds_a_run;
-    predicted.at_most = 0.0;
-    if (scene.solver && scene.solver->timeout) {
-        predicted.at_most = predicted.runs * *scene.solver->timeout;
-        predicted.bounded_by = "by the time-out of each run";
+    for (PredictedWork& one : predicted) {
+        one.seconds = one.steps / steps_a_second + one.runs * seconds_a_run;
+        if (scene.solver && scene.solver->timeout) {
+            one.at_most = one.runs * *scene.solver->timeout;
+            one.bounded_by = "by the time-out of each run";
+        }
     }
     return predicted;
 }
@@ -89,9 +90,14 @@ PredictedWork predicted_work(const Scene& scene, std::uint32_t shards) {
 PredictedWork predicted_merge(const Scene& scene) {
     PredictedWork predicted = predicted_work(scene);
     for (const auto& group : work_groups(scene))
-        for (std::size_t i = 0; i < group.count(); ++i)
-            predicted.seconds -= group.work(i) / steps_a_second + seconds_a_run;
-    predicted.seconds = std::max(predicted.seconds, 0.0);
+        for (std::size_t i = 0; i < group.count(); ++i) {
+            predicted.steps -= group.work(i);
+            predicted.runs -= 1.0;
+        }
+    predicted.steps = std::max(predicted.steps, 0.0);
+    predicted.runs = std::max(predicted.runs, 0.0);
+    predicted.seconds = predicted.steps / steps_a_second + predicted.runs * seconds_a_run;
+    predicted.at_most = 0.0;
     return predicted;
 }
 

@@ -23,9 +23,9 @@ struct Shard {
 std::vector<std::vector<std::uint32_t>> dealt(const std::vector<WorkGroup>& groups,
                                               std::uint32_t shards);
 
-/// What the heaviest of so many shards takes: its own runs, and a reference, which every shard
-/// makes for itself.
-PredictedWork predicted_work(const Scene& scene, std::uint32_t shards);
+/// What each of so many shards takes: its own runs, and a reference, which every shard makes for
+/// itself.
+std::vector<PredictedWork> predicted_shards(const Scene& scene, std::uint32_t shards);
 
 /// What is left to the merge of all: a reference, an evolution, a sensitivity.
 PredictedWork predicted_merge(const Scene& scene);

@@ -20,6 +20,7 @@
 #include <memory>
 #include <new>
 #include <numbers>
+#include <optional>
 #include <stdexcept>
 
 namespace tvbeam {
@@ -231,26 +232,34 @@ void compare_paths(const StressParameters& parameters, const Mesh& mesh, const P
         checks.path_skipped = "the paper's algorithm has one path";
         return;
     }
-    // Norms are roots of squares, whose range is half that of the numbers.
-    if (parameters.load > 1e140 || (parameters.load != 0.0 && parameters.load < 1e-140)) {
-        checks.path_skipped = "the squares of the norms are beyond the range of floating point";
-        return;
-    }
     RunRequest request{beam_of(parameters),   mesh,
                        scheme_of(parameters), parameters.dt * static_cast<double>(parameters.steps),
                        parameters.steps,      {}};
     for (const auto& name : path_norms)
         request.norms.push_back(*Norm::named(name));
+    const auto scales = path_scales(parameters, nodal.sizes, request.final_time);
+    // Norms are roots of squares, whose range is half that of the numbers.
+    if (std::any_of(scales.begin(), scales.end(), [](double scale) {
+            return scale > 1e140 || (scale != 0.0 && scale < 1e-140);
+        })) {
+        checks.path_skipped = "the squares of the norms are beyond the range of floating point";
+        return;
+    }
     request.scheme.basis = Basis::automatic;
-    const auto sine = run_in_sines(request, data, mesh, Needs());
+    std::optional<RunResult> sine;
+    try {
+        sine = run_in_sines(request, data, mesh, Needs());
+    } catch (const std::domain_error& error) {
+        checks.path_skipped = error.what();
+        return;
+    }
     if (!sine) {
         checks.path_skipped = "the sine basis does not suit mesh or data, or its norms are beyond "
                               "the range of floating point";
         return;
     }
     checks.path_limit = path_limit(parameters.elements, nodal.sizes.roughness, nodal.sizes.slowest);
-    checks.path = path_difference(nodal.norms, sine->errors,
-                                  path_scales(parameters, nodal.sizes, request.final_time));
+    checks.path = path_difference(nodal.norms, sine->errors, scales);
 }
 
 /// The error of the temperature at the end over the one that the scheme's recurrence for the mode

@@ -6,7 +6,6 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 #include <sys/resource.h>
 
@@ -17,11 +16,10 @@ namespace {
 /// A run shorter than this finds the caches as other runs left them: one that does not count goes
 /// before each that does. Unit: s.
 constexpr double quick = 1e-3;
-/// A run is timed no more than it needs: when these seconds have gone into it, and so many of its
-/// times show quartiles that are this near to each other, over the median.
-constexpr double enough_seconds = 0.25;
-constexpr std::size_t enough_runs = 5;
-constexpr double narrow_quartiles = 0.02;
+/// A run is timed as often as it takes to fill so many seconds, by its warm-up, and so often at
+/// least. Its times have no say in that: to stop where they happen to agree makes quartiles narrow.
+constexpr double enough_seconds = 0.5;
+constexpr int least_runs = 5;
 /// Of a core, for times that can be compared.
 constexpr double least_share = 0.9;
 constexpr int first_decade = 2; // 1e-2
@@ -50,12 +48,13 @@ struct Contestant {
     double warm_up;
     std::vector<double> seconds;
 
-    [[nodiscard]] bool is_known() const {
-        if (seconds.size() < enough_runs ||
-            std::accumulate(seconds.begin(), seconds.end(), 0.0) < enough_seconds)
-            return false;
-        const Timing timing = timing_of(seconds);
-        return timing.q3 - timing.q1 <= narrow_quartiles * timing.median;
+    /// Of so many rounds, those that it takes part in lie evenly among them: a machine that slows
+    /// down slows all alike.
+    [[nodiscard]] bool takes_part(int round, int rounds) const {
+        const int runs = static_cast<int>(std::clamp(std::ceil(enough_seconds / warm_up),
+                                                     std::min<double>(least_runs, rounds),
+                                                     static_cast<double>(rounds)));
+        return (round + 1) * runs / rounds > round * runs / rounds;
     }
 };
 
@@ -79,7 +78,8 @@ public:
             enter(k);
         for (int round = 0; round < block_.runs; ++round)
             for (auto& contestant : contestants_)
-                if (contestant.warm_up <= one_run_above_ && !contestant.is_known())
+                if (contestant.warm_up <= one_run_above_ &&
+                    contestant.takes_part(round, block_.runs))
                     time(contestant);
         for (const auto& contestant : contestants_)
             if (result_[contestant.scheme].runs[contestant.run].status == RungStatus::ok)

@@ -63,7 +63,7 @@ std::uint64_t node_steps(const Rung& rung);
 
 /// Runs every rung of every scheme once for its errors, and then for its time: an untimed run, and
 /// block.runs timed ones, or one where a run takes longer than one_run_above seconds; fewer, 5 at
-/// least, where 0.25 s have shown quartiles within 2 % of the median. The runs of
+/// least, where fewer fill half a second. The runs of
 /// all rungs take turns, so that a machine that is busy for a while slows all alike, and nothing
 /// runs beside them, whatever execution.jobs says. Errors are kept as run_or_find does; times are
 /// not.

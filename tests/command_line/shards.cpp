@@ -166,8 +166,9 @@ BOOST_AUTO_TEST_CASE(a_run_of_a_program_that_failed_is_made_again) {
         "run " + scene + " --out " + (directory.path() / "parts").string() + " --shard 1/1";
     const Called failing = call(directory, shard);
     BOOST_TEST(failing.exit == 3);
-    BOOST_TEST(has(merge(directory, " --status").output,
-                   "all          3          3          0          1"));
+    const std::string status = merge(directory, " --status").output;
+    BOOST_TEST(has(status, "all          3          3          0          1"), status);
+    BOOST_TEST(has(status, "what failed is made again by\n  tvbeam run "), status);
     directory.write("mended", "");
     const Called mended = call(directory, shard);
     BOOST_TEST(mended.exit == 0, mended.errors);
@@ -175,6 +176,27 @@ BOOST_AUTO_TEST_CASE(a_run_of_a_program_that_failed_is_made_again) {
     BOOST_TEST(merge(directory, " --quiet").exit == 0);
     const Json rungs = result_in(directory, "parts").at("ladder").at("rungs");
     BOOST_TEST(rungs.at(1).at("errors").at("L2").get<double>() == 3.0 / 400.0);
+}
+
+// 1e6 elements in 1e7 steps are a day's work, which is one shard's.
+BOOST_AUTO_TEST_CASE(the_shard_that_takes_too_long_is_refused_and_no_other) {
+    const TemporaryDirectory directory;
+    const std::string scene =
+        directory.write("scene.toml", "title = \"heavy\"\nsolution = \"cubic-deflection\"\n"
+                                      "[beam]\nalpha = 0.3\nzeta = 0.1\nstops = [-0.02, 0.1]\n"
+                                      "[ladder]\nfinal_time = 1.0\nelements = [4, 8, 1000000]\n"
+                                      "dt = [0.1, 0.1, 1e-7]\nnorms = [\"theta_L2L2\"]\n");
+    run_shards(directory, scene, {2, 3}, 3);
+    const Called heavy = call(directory, "run " + scene + out(directory, "parts") + " --shard 1/3");
+    BOOST_TEST(heavy.exit == 2);
+    BOOST_TEST(has(heavy.errors, "--yes-really-long"), heavy.errors);
+    const Called status = merge(directory, " --status");
+    BOOST_TEST(has(status.output, "--shard 1/3 --yes-really-long\n"), status.output);
+    const Called part = merge(directory, " --quiet");
+    BOOST_TEST(part.exit == 3);
+    BOOST_TEST(has(part.errors, "of 3 shards 1 is not whole (1)"), part.errors);
+    BOOST_TEST(has(call(directory, "shard-script " + scene + " 3 --parallel").output,
+                   "--quiet --yes-really-long\n"));
 }
 
 BOOST_AUTO_TEST_CASE(a_file_without_a_whole_line_is_a_shard_that_is_to_be_made) {

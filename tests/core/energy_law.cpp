@@ -175,7 +175,8 @@ BOOST_AUTO_TEST_CASE(a_reaction_that_pulls_has_the_wrong_sign_at_either_stop) {
 BOOST_AUTO_TEST_CASE(a_step_of_too_few_or_too_many_solves_is_told) {
     const ProblemData problem;
     const SolverState rest{Eigen::VectorXd::Zero(3), certify::BrokenLinear::Zero(2, 2)};
-    SolveRecorder recorder({}, problem, Mesh::uniform(2), "sdirk2", 0.1, {}, rest);
+    const Mesh mesh = Mesh::uniform(2);
+    SolveRecorder recorder({}, problem, mesh, "sdirk2", 0.1, {}, rest);
     for (const int solves : {2, 1, 3}) {
         for (int i = 0; i < solves; ++i)
             recorder.record(rest);

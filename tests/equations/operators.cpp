@@ -44,6 +44,7 @@ const std::vector<Meaning> in_the_plane = {
     {"trace(grad(v))", "diff(w_1, x) + diff(w_2, y)"},
     {"dot(identity*u, v)", "u*v"},
     {"v1*diff(v2, x)", "w_1*diff(w_2, x)"},
+    {"last11*last12", "diff(u, x)*diff(u, y)"}, // of a vector called last1
     {"slope2 + 3*slope1", "diff(u, y) + 3*diff(u, x)"},
     {"diff(u, x, 2, y)", "diff(diff(diff(u, y), x), x)"},
     {"diff(sin(u*x), x)", "cos(u*x)*(u + x*diff(u, x))"},
@@ -58,7 +59,7 @@ BOOST_DATA_TEST_CASE(operators_are_what_they_are_by_components, data::make(in_th
         return derive_system(parse_equation_system(
             "[unknowns]\nu = \"exp(x*y)*sin(x + t)\"\nv = [\"x^2*cos(y)*t\", \"sin(x*y) + y^3\"]\n"
             "[definitions]\nw_1 = \"dot(v, [1, 0])\"\nw_2 = \"dot(v, [0, 1])\"\n"
-            "slope = \"grad(u)\"\n"
+            "slope = \"grad(u)\"\nlast1 = \"grad(u)\"\n"
             "[equations]\nf = \"" +
                 equation + "\"\ng = \"u\"\nh = \"v\"\n",
             "operators.toml"));

@@ -70,8 +70,12 @@ public:
             all.failed += state.failed;
         }
         add("all", all);
-        return text + (complete() ? "nothing is missing: tvbeam merge " + word(directory_) + "\n"
-                                  : "what is missing is made by\n  " + command() + "\n");
+        text += complete() ? "nothing is missing: tvbeam merge " + word(directory_) +
+                                 rest_of(is_too_long(scene_, predicted_merge(scene_))) + "\n"
+                           : "what is missing is made by\n  " + command(unfinished()) + "\n";
+        if (const auto numbers = with_failures(); scene_.solver && !numbers.empty())
+            text += "what failed is made again by\n  " + command(numbers) + "\n";
+        return text;
     }
 
     /// "of 7 shards 2 are not whole (3, 5): 12 of 80 runs are missing".
@@ -135,16 +139,28 @@ private:
         }
         return text;
     }
-    [[nodiscard]] std::string command() const {
-        const auto numbers = unfinished();
+    [[nodiscard]] std::vector<std::uint32_t> with_failures() const {
+        std::vector<std::uint32_t> numbers;
+        for (const auto& state : states_)
+            if (state.failed > 0)
+                numbers.push_back(state.shard.number);
+        return numbers;
+    }
+    static std::string rest_of(bool too_long) { return too_long ? " --yes-really-long" : ""; }
+    [[nodiscard]] std::string command(const std::vector<std::uint32_t>& numbers) const {
+        const auto predicted = predicted_shards(scene_, files_.of);
+        const std::string rest =
+            rest_of(std::any_of(numbers.begin(), numbers.end(), [&](std::uint32_t number) {
+                return is_too_long(scene_, predicted[number - 1]);
+            }));
         const std::string run = shard_command_line(name_, origin_.overrides, directory_);
         if (numbers.size() == 1)
-            return fmt::format("{}{}/{}", run, numbers.front(), files_.of);
+            return fmt::format("{}{}/{}{}", run, numbers.front(), files_.of, rest);
         std::string list;
         for (const auto number : numbers)
             list += " " + std::to_string(number);
-        return fmt::format("for I in{}; do {}$I/{}; done\n  (of an array of jobs: {})", list, run,
-                           files_.of, ranges(numbers));
+        return fmt::format("for I in{}; do {}$I/{}{}; done\n  (of an array of jobs: {})", list, run,
+                           files_.of, rest, ranges(numbers));
     }
 
     std::string directory_;
@@ -163,7 +179,7 @@ int merge_command(const MergeOptions& options) {
         return merged.complete() ? done : run_failed;
     }
     const bool complete = merged.complete();
-    if (!options.really_long)
+    if (complete && !options.really_long) // otherwise it makes nothing
         require_short_enough(merged.scene(), predicted_merge(merged.scene()));
     std::optional<ReportDirectory> out;
     opened([&] { out.emplace(options.directory, merged.scene().report); });

@@ -91,7 +91,7 @@ int shard_command(const ShardOptions& options) {
     const Scene scene = read_scene(options.scene, options.overrides);
     require_dealable(scene);
     if (!options.really_long)
-        require_short_enough(scene, predicted_work(scene, shard.of));
+        require_short_enough(scene, predicted_shards(scene, shard.of)[shard.number - 1]);
     require_runnable(scene);
     FinishedWork work(scene, {lasting_name(scene, options.scene), options.overrides, shard});
     const std::filesystem::path file = shard_file(options.out, shard);

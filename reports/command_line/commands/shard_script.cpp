@@ -41,16 +41,21 @@ struct Request {
 /// Ten times the predicted time, which is right within a factor of ten; of a program as long as its
 /// time-out allows. The predicted memory besides what any process takes.
 Request request_of(const Scene& scene, std::uint32_t shards) {
-    const PredictedWork predicted = predicted_work(scene, shards);
+    const auto all = predicted_shards(scene, shards);
+    const PredictedWork& predicted = *std::max_element(
+        all.begin(), all.end(), [](const PredictedWork& a, const PredictedWork& b) {
+            return std::max(a.seconds, a.at_most) < std::max(b.seconds, b.at_most);
+        });
     constexpr double margin = 10.0;
     constexpr double any_process = 200e6; // bytes
-    const auto rounded_up = [](double value) {
-        return static_cast<std::int64_t>(std::ceil(value));
+    const double most = 1e9;              // minutes, MB: beyond any scheduler
+    const auto rounded_up = [most](double value) {
+        return static_cast<std::int64_t>(std::ceil(std::min(value, most)));
     };
     const double seconds = scene.solver ? predicted.at_most : margin * predicted.seconds;
     Request request{.minutes = rounded_up(seconds / 60.0) + 1,
                     .megabytes = rounded_up((any_process + 2.0 * predicted.bytes) / 1e6),
-                    .really_long = !scene.is_long && predicted.seconds > longest_work};
+                    .really_long = is_too_long(scene, predicted)};
     if (scene.solver && !scene.solver->timeout)
         request.minutes.reset();
     return request;
@@ -106,7 +111,9 @@ int script_command(const ScriptOptions& options) {
     const Request request = request_of(scene, options.shards);
     const std::string run = shard_command_line(options.scene, options.overrides, out);
     const std::string rest = request.really_long ? " --quiet --yes-really-long" : " --quiet";
-    const std::string merge = "tvbeam merge " + word(out);
+    const std::string merge =
+        "tvbeam merge " + word(out) +
+        (is_too_long(scene, predicted_merge(scene)) ? " --yes-really-long" : "");
     if (options.slurm)
         write_standard_output(fmt::format(
             "#!/bin/sh\n#SBATCH --job-name={}\n#SBATCH --array=1-{}\n#SBATCH "
