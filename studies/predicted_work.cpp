@@ -1,7 +1,6 @@
 #include "studies/predicted_work.hpp"
 
 #include "studies/evolution/evolution_block.hpp"
-#include "studies/ladder/ladder_block.hpp"
 #include "studies/runs/beam_runs.hpp"
 #include "studies/sensitivity/sensitivity.hpp"
 #include "studies/stress/stress_block.hpp"
@@ -51,39 +50,44 @@ std::string time_text(double seconds) {
                          : fmt::format("{:.2g} years", seconds / (365.25 * 24.0 * 3600.0));
 }
 
-/// What the whole may take that is not predicted: levels that are added, programs.
-void bound(const Scene& scene, PredictedWork& predicted) {
-    const auto* ladder = scene.get<LadderBlock>();
-    const auto added =
-        ladder != nullptr && ladder->until ? added_levels(*ladder) : std::vector<Rung>();
-    const auto& solver = scene.solver;
-    if (solver ? !solver->timeout : added.empty())
-        return;
+/// Seconds that the runs which `until` adds to a study may take.
+double added_seconds(const Scene& scene, const ByKind::Entry& study) {
+    const Until& until = *study.kind->until(study.value);
+    const std::optional<double> timeout = scene.solver ? scene.solver->timeout : std::nullopt;
+    const auto cost = [&](const Rung& rung) {
+        return timeout ? *timeout : work_of(scene.method(), rung) / steps_a_second + seconds_a_run;
+    };
+    const auto added = study.kind->dearest_addition(study.value, cost);
     double seconds = 0.0;
     for (const Rung& rung : added)
-        seconds += solver ? *solver->timeout
-                          : work_of(scene.method(), rung) / steps_a_second + seconds_a_run;
-    // The last that is added may take longer than was thought.
-    if (!added.empty() && ladder->until->seconds)
-        seconds = std::min(seconds, *ladder->until->seconds + (solver ? *solver->timeout : 0.0));
-    predicted.at_most = seconds + (solver ? predicted.runs * *solver->timeout : predicted.seconds);
-    predicted.bounded_by =
-        solver ? "by the time-out of each run" : "with the levels that ladder.until may add";
+        seconds += cost(rung);
+    if (added.empty() || !until.seconds)
+        return seconds;
+    // What is added last may take longer than was thought: each of its runs as long as any.
+    const auto last = static_cast<double>(study.kind->most_at_a_time(study.value));
+    return std::min(seconds, *until.seconds + last * timeout.value_or(0.0));
+}
+
+/// What the whole may take that is not predicted: runs that are added, programs.
+void bound(const Scene& scene, PredictedWork& predicted) {
+    const auto& solver = scene.solver;
+    std::string adding;
+    double added = 0.0;
+    for (const auto& study : scene.blocks.entries())
+        if (study.kind->until(study.value) != nullptr) {
+            const double seconds = solver && !solver->timeout ? 0.0 : added_seconds(scene, study);
+            added += seconds;
+            if (seconds > 0.0)
+                adding += (adding.empty() ? "" : " and ") + study.kind->name() + ".until";
+        }
+    if (solver ? !solver->timeout : adding.empty())
+        return;
+    predicted.at_most = added + (solver ? predicted.runs * *solver->timeout : predicted.seconds);
+    predicted.bounded_by = solver ? "by the time-out of each run"
+                                  : fmt::format("with the runs that {} may add", adding);
 }
 
 } // namespace
-
-std::vector<Rung> added_levels(const LadderBlock& ladder) {
-    std::vector<Rung> rungs = ladder.rungs;
-    const auto most = static_cast<std::size_t>(ladder.until->levels.value_or(most_levels));
-    while (ladder.until->adds_levels && rungs.size() < most)
-        if (const auto next = ladder.next(rungs))
-            rungs.push_back(*next);
-        else
-            break;
-    rungs.erase(rungs.begin(), rungs.begin() + static_cast<std::ptrdiff_t>(ladder.rungs.size()));
-    return rungs;
-}
 
 std::string PredictedWork::text() const {
     return fmt::format(

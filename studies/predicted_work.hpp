@@ -3,11 +3,8 @@
 #include "studies/scene/scene.hpp"
 
 #include <string>
-#include <vector>
 
 namespace tvbeam {
-
-struct LadderBlock;
 
 /// A processor makes about so many steps of elements in a second, and so long takes a run besides.
 inline constexpr double steps_a_second = 1e8;
@@ -23,18 +20,15 @@ struct PredictedWork {
     double bytes = 0.0;   ///< 1 kB a run, 100 B a case of [stress], 400 a node of the largest mesh,
                           ///< and what an evolution keeps
 
-    /// At most, with the levels that `until` may add within its budget, or with as many seconds a
+    /// At most, with the runs that `until` may add within its budget, or with as many seconds a
     /// run as [solver] allows. 0: there is neither.
     double at_most = 0.0;
     std::string bounded_by = {}; ///< what that rests on, in words
 
     /// "3.1e+09 steps of elements in 12 runs, about 31 s on one core and 40 MB; at most 2 min with
-    /// the levels that ladder.until may add".
+    /// the runs that ladder.until may add".
     [[nodiscard]] std::string text() const;
 };
-
-/// The levels that `until` may add to a ladder.
-std::vector<Rung> added_levels(const LadderBlock& ladder);
 
 PredictedWork predicted_work(const Scene& scene);
 

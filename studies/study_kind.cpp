@@ -12,6 +12,24 @@ std::vector<Series> StudyKind::series(const std::any& /*block*/, const Method& /
     return {};
 }
 
+Until* StudyKind::until(std::any& /*block*/) const {
+    return nullptr;
+}
+
+const Until* StudyKind::until(const std::any& block) const {
+    return until(const_cast<std::any&>(block));
+}
+
+std::vector<Rung> StudyKind::addable(const std::any& /*block*/) const {
+    return {};
+}
+
+std::vector<Rung>
+StudyKind::dearest_addition(const std::any& block,
+                            const std::function<double(const Rung&)>& /*cost*/) const {
+    return addable(block);
+}
+
 std::vector<Parts> StudyKind::parts(const std::any& /*block*/) const {
     return {};
 }

@@ -4,9 +4,11 @@
 #include "studies/runs/execution.hpp"
 #include "studies/runs/studied_solver.hpp"
 #include "studies/scene/study_keys.hpp"
+#include "studies/scene/until.hpp"
 #include "studies/table_rows.hpp"
 
 #include <any>
+#include <functional>
 #include <map>
 #include <string>
 #include <typeindex>
@@ -71,6 +73,19 @@ public:
     [[nodiscard]] virtual std::vector<Series> series(const std::any& block,
                                                      const Method& own) const;
 
+    /// Until when its block adds runs to the series that it names; null where it adds none.
+    [[nodiscard]] virtual Until* until(std::any& block) const;
+    [[nodiscard]] const Until* until(const std::any& block) const;
+
+    /// Every run that `until` may add, in an order by which they are kept: behind those of the
+    /// series. And of all that it may add together what costs most.
+    [[nodiscard]] virtual std::vector<Rung> addable(const std::any& block) const;
+    [[nodiscard]] virtual std::vector<Rung>
+    dearest_addition(const std::any& block, const std::function<double(const Rung&)>& cost) const;
+
+    /// And how many of them together it adds at most before it looks again.
+    [[nodiscard]] virtual std::size_t most_at_a_time(const std::any& /*block*/) const { return 1; }
+
     /// Its work besides, where that can be done in parts. The block must outlive them.
     [[nodiscard]] virtual std::vector<Parts> parts(const std::any& block) const;
 
@@ -104,6 +119,10 @@ template <typename Block, typename Record>
 struct KindOf : StudyKind {
     static const Block& block_in(const std::any& block) {
         return std::any_cast<const Block&>(block);
+    }
+    static Until* until_in(std::any& block) {
+        auto& until = std::any_cast<Block&>(block).until;
+        return until ? &*until : nullptr;
     }
     static const Record& record_in(const std::any& record) {
         return std::any_cast<const Record&>(record);

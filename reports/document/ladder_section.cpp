@@ -1,9 +1,9 @@
 #include "reports/document/ladder_section.hpp"
 
+#include "reports/document/ending_text.hpp"
 #include "studies/text/number_text.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <cctype>
 #include <functional>
@@ -75,41 +75,6 @@ std::string what_is_shown(const LadderBlock& block) {
         (measure.is_value ? values : errors) = true;
     const std::string what = errors && values ? "Errors and values" : values ? "Values" : "Errors";
     return block.final_time > 0.0 ? what + " up to T = " + shortest(block.final_time) : what;
-}
-
-/// "order to ± 0.05 and limit to ± 2e-3".
-std::string wanted_text(const Until& until) {
-    std::string text;
-    for (const auto& [what, half] : {std::pair("order", until.order), {"limit", until.limit}})
-        if (half)
-            text += fmt::format("{}{} to ± {}", text.empty() ? "" : " and ", what, shortest(*half));
-    return text;
-}
-
-/// Why a ladder was refined no further.
-std::string ending_text(const Refined& refined, const LadderBlock& block, std::size_t levels) {
-    const Until& until = *block.until;
-    const std::string text = fmt::format("Refined to {} levels: ", levels);
-    const std::string open =
-        fmt::format("not known ({}): {}.", wanted_text(until), fmt::join(refined.open, ", "));
-    switch (refined.end) {
-    case RefiningEnd::known:
-        return text + "what was to be known is (" + wanted_text(until) + ").";
-    case RefiningEnd::levels:
-        return text +
-               (until.adds_levels ? "the budget of levels is spent; "
-                                  : "the short form adds none; ") +
-               open;
-    case RefiningEnd::seconds:
-        return text +
-               fmt::format("another would not fit into the budget of {} s; ",
-                           shortest(*until.seconds)) +
-               open;
-    case RefiningEnd::finest:
-        return text + "no run may be finer; " + open;
-    default:
-        return text + "a run did not end well.";
-    }
 }
 
 Table ladder_table(const LadderResult& ladder, const LadderBlock& block, const Method& method) {
@@ -193,7 +158,8 @@ Section ladder_section(const LadderResult& ladder, const LadderBlock& block, con
     if (!ladder.reference_remark.empty())
         add(Finding{ladder.reference_remark});
     if (ladder.refined)
-        add(Finding{ending_text(*ladder.refined, block, ladder.rungs.size())});
+        add(Finding{ending_text(*ladder.refined, *block.until,
+                                fmt::format("{} levels", ladder.rungs.size()))});
     for (const auto& norm : ladder.norms)
         for (std::size_t i = 0; i < norm.remarks.size(); ++i)
             if (i == 0)

@@ -1,11 +1,13 @@
 #include "reports/document/orders_section.hpp"
 
+#include "reports/document/ending_text.hpp"
 #include "studies/text/number_text.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 namespace tvbeam {
 
@@ -51,6 +53,15 @@ Finding finding(const std::string& norm, const TwoTermFit& fit) {
     return {fmt::format("{}: the error in space is {}; the error in time is {}.", norm,
                         order(fit.p), order(fit.q)),
             2, !fit.predicts()};
+}
+
+/// "6 meshes with 5 steps, 30 runs".
+std::string size_text(const std::vector<RungResult>& runs) {
+    std::set<std::int64_t> meshes;
+    for (const auto& run : runs)
+        meshes.insert(run.rung.elements);
+    return fmt::format("{} meshes with {} steps, {} runs", meshes.size(),
+                       runs.size() / meshes.size(), runs.size());
 }
 
 /// A value in both widths.
@@ -101,7 +112,7 @@ Table fit_table(const std::vector<std::pair<std::string, const TwoTermFit*>>& fi
             {{"", {p, q, a, b, rho, rms, used}}}};
 }
 
-Section orders_section(const OrdersResult& orders) {
+Section orders_section(const OrdersResult& orders, const OrdersBlock& block) {
     std::vector<std::pair<std::string, const TwoTermFit*>> fits;
     std::vector<Block> findings;
     std::vector<Block> notes;
@@ -142,6 +153,11 @@ Section orders_section(const OrdersResult& orders) {
                         "grid, {} at its finest run.",
                         constant->theorem, scientific(constant->least, 2),
                         scientific(constant->greatest, 2), scientific(constant->finest, 2))});
+    }
+    if (orders.refined) {
+        blocks.emplace_back(BlankLine{});
+        blocks.emplace_back(
+            Finding{ending_text(*orders.refined, *block.until, size_text(orders.runs))});
     }
     if (!notes.empty()) {
         blocks.emplace_back(BlankLine{});

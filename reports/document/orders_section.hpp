@@ -16,6 +16,6 @@ Table fit_table(const std::vector<std::pair<std::string, const TwoTermFit*>>& fi
                 std::size_t records);
 
 /// The whole of an [orders] study: the fits, what they leave out, the constants of Corollary 2.2.
-Section orders_section(const OrdersResult& orders);
+Section orders_section(const OrdersResult& orders, const OrdersBlock& block);
 
 } // namespace tvbeam

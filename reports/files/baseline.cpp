@@ -35,11 +35,14 @@ bool is_round_off(const std::string& figure) {
 } // namespace
 
 void require_recordable(const Scene& scene) {
-    const auto* ladder = scene.get<LadderBlock>();
-    if (ladder != nullptr && ladder->until && ladder->until->seconds && ladder->until->adds_levels)
-        throw InputError({scene.file},
-                         "its ladder.until.seconds ends the ladder by the clock, so that the next "
-                         "run may have other levels than a baseline: give until levels alone");
+    for (const auto& [kind, block] : scene.blocks.entries())
+        if (const Until* until = kind->until(block);
+            until != nullptr && until->seconds && until->adds)
+            throw InputError({scene.file},
+                             fmt::format("its {0}.until.seconds ends the {0} by the clock, so that "
+                                         "the next run may have other runs than a baseline: give "
+                                         "until its other budget alone",
+                                         kind->name()));
 }
 
 BaselineEntry baseline_entry(const StudyResult& result) {

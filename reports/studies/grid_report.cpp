@@ -76,6 +76,8 @@ Json json_of(const OrdersResult& orders, const OrdersBlock& block) {
                                     {"p", interval_json(of.p)},
                                     {"q", interval_json(of.q)},
                                     {"uncertainty", number_json(of.uncertainty)}};
+    if (orders.refined)
+        add_ending(json, *orders.refined);
     if (orders.corollary)
         json["corollary_constant"] = {{"least", orders.corollary->least},
                                       {"greatest", orders.corollary->greatest},
@@ -102,7 +104,7 @@ std::string grid_csv(const OrdersResult& orders, const std::vector<Measure>& nor
 struct OrdersReport final : StudyReport {
     std::string study() const override { return "orders"; }
     std::vector<Section> sections(const StudyResult& result) const override {
-        return {orders_section(*result.get<OrdersResult>())};
+        return {orders_section(*result.get<OrdersResult>(), *result.scene.get<OrdersBlock>())};
     }
     Json json(const StudyResult& result) const override {
         return json_of(*result.get<OrdersResult>(), *result.scene.get<OrdersBlock>());

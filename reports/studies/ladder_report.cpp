@@ -54,10 +54,8 @@ Json json_of(const LadderResult& ladder, const LadderBlock& block) {
     }
     Json json{{"final_time", block.final_time > 0.0 ? Json(block.final_time) : Json()},
               {"rungs", std::move(rungs)}};
-    if (ladder.refined) {
-        json["ended_by"] = name_of(ladder.refined->end);
-        json["not_known"] = ladder.refined->open;
-    }
+    if (ladder.refined)
+        add_ending(json, *ladder.refined);
     if (ladder.analysis)
         for (const auto& column : ladder.analysis->columns)
             add_analysis(json["analysis"][column.name], *ladder.analysis, column);

@@ -40,6 +40,11 @@ Json counters_json(const RungResult& run) {
     return counters;
 }
 
+void add_ending(Json& json, const Refined& refined) {
+    json["ended_by"] = name_of(refined.end);
+    json["not_known"] = refined.open;
+}
+
 Json number_json(std::optional<double> value) {
     return value && std::isfinite(*value) ? Json(*value) : Json();
 }

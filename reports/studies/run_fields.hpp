@@ -1,6 +1,7 @@
 #pragma once
 
 #include "studies/runs/run.hpp"
+#include "studies/scene/until.hpp"
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -16,6 +17,9 @@ nlohmann::ordered_json run_json(const RungResult& run);
 void add_errors(nlohmann::ordered_json& entry, const RungResult& run,
                 const std::vector<Measure>& measures);
 nlohmann::ordered_json counters_json(const RungResult& run);
+
+/// How `until` ended, and what is not known: ended_by, not_known.
+void add_ending(nlohmann::ordered_json& json, const Refined& refined);
 
 /// A number, or null where there is none or it is not finite.
 nlohmann::ordered_json number_json(std::optional<double> value);

@@ -51,6 +51,7 @@ const std::vector<FeatureTable::Exception> without_numbers{
     {"key solver.language = moose", of_generated_code},
     {"key solver.language = ufl", of_generated_code},
     {"key ladder.until.seconds", "how long all runs may take: tests/external"},
+    {"key orders.until.seconds", "how long all runs may take: tests/external"},
     {"key stress.sweep.NAME.work", "how many steps a case may have: tests/studies/stress.cpp"},
 };
 
@@ -342,8 +343,10 @@ Scene shortest_form(Scene scene) {
         ladder->rungs.resize(1);
         ladder->until.reset();
     }
-    if (auto* orders = scene.get<OrdersBlock>())
+    if (auto* orders = scene.get<OrdersBlock>()) {
         orders->grid.resize(1);
+        orders->until.reset();
+    }
     if (auto* race = scene.get<WorkPrecisionBlock>()) {
         race->runs = 1;
         for (auto& scheme : race->schemes)

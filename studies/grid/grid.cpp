@@ -1,8 +1,11 @@
 #include "studies/grid/grid.hpp"
 
+#include "studies/grid/grid_refining.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <span>
+#include <utility>
 
 namespace tvbeam {
 
@@ -53,22 +56,33 @@ Series series_of(const OrdersBlock& block, const Method& method) {
     return {"orders", block.final_time, method, block.norms, block.grid};
 }
 
-OrdersResult run_orders(const OrdersBlock& block, const Method& method, const StudiedSolver& solver,
-                        const Execution& execution) {
+OrdersResult analyse_grid(const std::vector<RungResult>& runs, const std::vector<Measure>& measures,
+                          const std::optional<ReferenceBlock>& reference) {
     OrdersResult result;
-    result.runs = run_series(series_of(block, method), solver.run, execution);
-    for (std::size_t k = 0; k < block.norms.size(); ++k) {
-        const Measure& norm = block.norms[k];
+    for (std::size_t k = 0; k < measures.size(); ++k) {
+        const Measure& norm = measures[k];
         if (norm.is_value) {
-            result.values.push_back(limit_of(norm.name, result.runs, k));
+            result.values.push_back(limit_of(norm.name, runs, k));
             continue;
         }
-        const auto roots = root_records_of(result.runs, k, norm);
-        result.norms.push_back(
-            {norm.root(), fit_two_term(roots, reference_of(solver.reference, roots))});
+        const auto roots = root_records_of(runs, k, norm);
+        result.norms.push_back({norm.root(), fit_two_term(roots, reference_of(reference, roots))});
         if (!norm.theorem.empty())
-            result.corollary = constants_of(norm.theorem, records_of(result.runs, k));
+            result.corollary = constants_of(norm.theorem, records_of(runs, k));
     }
+    return result;
+}
+
+OrdersResult run_orders(const OrdersBlock& block, const Method& method, const StudiedSolver& solver,
+                        const Execution& execution) {
+    const Series series = series_of(block, method);
+    auto runs = run_series(series, solver.run, execution);
+    std::optional<Refined> refined;
+    if (block.until)
+        refined = refine(block, series, runs, solver.run, execution);
+    OrdersResult result = analyse_grid(runs, block.norms, solver.reference);
+    result.runs = std::move(runs);
+    result.refined = std::move(refined);
     return result;
 }
 

@@ -33,6 +33,7 @@ struct OrdersResult {
     std::vector<GridLimit> values = {}; ///< behind the norms in the block's list
     /// If a measure that a theorem bounds was asked for and some run has an error.
     std::optional<TheoremConstants> corollary;
+    std::optional<Refined> refined = {}; ///< why no further; with `until`
 
     /// The fit of a norm, or of the root of a squared one; null where the grid does not determine
     /// both orders, and so predicts nothing.
@@ -42,7 +43,11 @@ struct OrdersResult {
 /// The runs that the block asks for.
 Series series_of(const OrdersBlock& block, const Method& method);
 
-/// Runs the grid and fits the model to each norm.
+/// What the runs of a grid show of the measures; without them. reference: of StudiedSolver.
+OrdersResult analyse_grid(const std::vector<RungResult>& runs, const std::vector<Measure>& measures,
+                          const std::optional<ReferenceBlock>& reference = std::nullopt);
+
+/// Runs the grid, with what its `until` adds, and fits the model to each norm.
 OrdersResult run_orders(const OrdersBlock& block, const Method& method, const StudiedSolver& solver,
                         const Execution& execution = {});
 

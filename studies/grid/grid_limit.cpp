@@ -77,6 +77,11 @@ GridLimit limit_of(const std::string& name, const std::vector<RungResult>& runs,
     const LimitEstimate in_h = grid.along_h();
     const LimitEstimate in_dt = grid.along_dt();
     GridLimit result{.value = name, .limit = {}, .p = in_h.order, .q = in_dt.order};
+    const auto half = [](const OrderInterval& of) {
+        return of.determined ? of.half_width() : std::numeric_limits<double>::infinity();
+    };
+    result.half_in_h = half(in_h.limit);
+    result.half_in_dt = half(in_dt.limit);
     const double finest = grid.at(*grid.h().begin(), *grid.dt().begin());
     if (!std::isfinite(finest))
         result.limit.status = "the finest run has no value";
@@ -89,11 +94,12 @@ GridLimit limit_of(const std::string& name, const std::vector<RungResult>& runs,
     // Orders that are not known are taken as one; a cell that failed says nothing of m.
     const auto order = [](const OrderInterval& of) { return of.determined ? of.value : 1.0; };
     const double mixed = mixed_part(grid, order(in_h.order), order(in_dt.order));
-    const double half =
-        in_h.limit.half_width() + in_dt.limit.half_width() + (std::isfinite(mixed) ? mixed : 0.0);
+    const double whole =
+        result.half_in_h + result.half_in_dt + (std::isfinite(mixed) ? mixed : 0.0);
     const double value = in_h.limit.value + in_dt.limit.value - finest;
-    result.limit = {.value = value, .low = value - half, .high = value + half, .determined = true};
-    result.uncertainty = std::abs(value - finest) + half;
+    result.limit = {
+        .value = value, .low = value - whole, .high = value + whole, .determined = true};
+    result.uncertainty = std::abs(value - finest) + whole;
     return result;
 }
 

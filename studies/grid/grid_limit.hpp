@@ -27,6 +27,9 @@ struct GridLimit {
     OrderInterval q;     ///< order in Δt, along the finest h
     double uncertainty =
         std::numeric_limits<double>::infinity(); ///< of the finest value, 95 %, half width
+    /// Half of the interval of L_h, and of L_Δt; infinite where they are not determined.
+    double half_in_h = std::numeric_limits<double>::infinity();
+    double half_in_dt = std::numeric_limits<double>::infinity();
 };
 
 /// Of measure k of the runs, a grid. Where one of the two limits is not determined, or the finest

@@ -1,12 +1,50 @@
 #include "studies/grid/orders_block.hpp"
 
 #include "mms/text/toml_reader.hpp"
+#include "studies/grid/grid_lines.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string>
 
 namespace tvbeam {
 
 namespace {
 
 constexpr std::size_t largest_grid = 1'000'000;
+
+/// Throws InputError where `until` could not go on as the meshes, or the steps, do.
+void require_refined(const TableReader& table, const std::vector<Rung>& lines, const char* key) {
+    const auto no_finer = [](const Rung& before, const Rung& after) {
+        return after.elements <= before.elements && after.dt >= before.dt;
+    };
+    if (lines.size() < 2 || std::adjacent_find(lines.begin(), lines.end(), no_finer) != lines.end())
+        throw table.error("until", std::string(" goes on as the meshes and the steps do: ") + key +
+                                       " must hold at least two, from coarse to fine");
+}
+
+/// Lines that `until` adds go on as those of the lists do.
+void read_refining(TableReader& table, OrdersBlock& orders) {
+    auto inner = table.table("until");
+    if (!inner)
+        return;
+    const GridLines lines = lines_of(orders.grid);
+    require_refined(table, lines.meshes, "elements");
+    require_refined(table, lines.steps, "dt");
+    const auto at_least = [](const std::vector<Rung>& named) {
+        return static_cast<std::int64_t>(std::max(least_known_levels, named.size()));
+    };
+    orders.until = read_until(
+        *std::move(inner),
+        {"runs", at_least(lines.meshes) * at_least(lines.steps),
+         fmt::format("nothing is known of fewer than {0} meshes and {0} steps, and the grid names "
+                     "{1} and {2}",
+                     least_known_levels, lines.meshes.size(), lines.steps.size())});
+    require_wanted(table, *orders.until, orders.norms, "the grid");
+    orders.next_mesh = next_level(lines.meshes, orders.final_time);
+    orders.next_step = next_level(lines.steps, orders.final_time);
+}
 
 } // namespace
 
@@ -37,6 +75,7 @@ OrdersBlock read_orders(TableReader& table, const SolverKeys& keys) {
                                   "'; the model is one of the norm itself: write " +
                                   orders.norms[i].root(),
                               i);
+    read_refining(table, orders);
     table.finish();
     return orders;
 }

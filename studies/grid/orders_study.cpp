@@ -1,11 +1,13 @@
 #include "mms/forecast/error_constants.hpp"
 #include "mms/text/toml_reader.hpp"
 #include "studies/grid/grid.hpp"
+#include "studies/grid/grid_lines.hpp"
 #include "studies/orders/known_orders.hpp"
 #include "studies/study.hpp"
 #include "studies/table_row.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <utility>
 
 namespace tvbeam {
@@ -144,6 +146,20 @@ struct OrdersStudy final : KindOf<OrdersBlock, OrdersResult> {
     std::vector<Series> series(const std::any& block, const Method& own) const override {
         return {series_of(block_in(block), own)};
     }
+    using StudyKind::until;
+    Until* until(std::any& block) const override { return until_in(block); }
+    std::vector<Rung> addable(const std::any& block) const override {
+        return block_in(block).until ? addable_runs(block_in(block)) : std::vector<Rung>();
+    }
+    std::vector<Rung>
+    dearest_addition(const std::any& block,
+                     const std::function<double(const Rung&)>& cost) const override {
+        return block_in(block).until ? tvbeam::dearest_addition(block_in(block), cost)
+                                     : std::vector<Rung>();
+    }
+    std::size_t most_at_a_time(const std::any& block) const override {
+        return longest_line(block_in(block));
+    }
     std::any run(const std::any& block, const StudyContext& context) const override {
         return run_orders(block_in(block), context.method, context.solver, context.execution);
     }
@@ -151,6 +167,10 @@ struct OrdersStudy final : KindOf<OrdersBlock, OrdersResult> {
 
     void expect(TableReader& table, const std::any& block,
                 std::vector<Expectation>& expectations) const override {
+        if (block_in(block).until)
+            expect_words(table, "ended_by", expectations, [](const StudyResult& result) {
+                return std::vector{name_of(result.get<OrdersResult>()->refined->end)};
+            });
         const auto read = [&](TableReader& norm, std::size_t k) {
             if (block_in(block).norms[k].is_value) {
                 expect_limit(norm, block_in(block), k, expectations);

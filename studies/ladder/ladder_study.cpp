@@ -149,6 +149,11 @@ struct LadderStudy final : KindOf<LadderBlock, LadderResult> {
     std::vector<Series> series(const std::any& block, const Method& own) const override {
         return {series_of(block_in(block), own)};
     }
+    using StudyKind::until;
+    Until* until(std::any& block) const override { return until_in(block); }
+    std::vector<Rung> addable(const std::any& block) const override {
+        return block_in(block).until ? added_levels(block_in(block)) : std::vector<Rung>();
+    }
     std::any run(const std::any& block, const StudyContext& context) const override {
         return make_runs(block_in(block), context.method, context.solver.run, context.execution);
     }

@@ -1,7 +1,6 @@
 #include "studies/ladder/refining.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 namespace tvbeam {
@@ -13,21 +12,6 @@ const OrderInterval& interval_of(const ColumnAnalysis& column) {
     return column.is_value ? column.limit->limit : column.by_width.front();
 }
 
-bool is_known(double wanted, const ColumnAnalysis& now, const ColumnAnalysis& before) {
-    const OrderInterval& found = interval_of(now);
-    const OrderInterval& agreeing = interval_of(before);
-    return found.determined && found.half_width() <= wanted && std::isfinite(agreeing.low) &&
-           std::isfinite(agreeing.high) && agreeing.low <= found.value &&
-           found.value <= agreeing.high;
-}
-
-double seconds_of(const std::vector<RungResult>& rungs) {
-    double seconds = 0.0;
-    for (const auto& rung : rungs)
-        seconds += rung.seconds;
-    return seconds;
-}
-
 /// What the next level will need, as the last two have it.
 double forecast_seconds(const std::vector<RungResult>& rungs) {
     const double last = rungs.back().seconds;
@@ -36,21 +20,6 @@ double forecast_seconds(const std::vector<RungResult>& rungs) {
 }
 
 } // namespace
-
-std::string name_of(RefiningEnd end) {
-    switch (end) {
-    case RefiningEnd::known:
-        return "known";
-    case RefiningEnd::levels:
-        return "levels";
-    case RefiningEnd::seconds:
-        return "seconds";
-    case RefiningEnd::finest:
-        return "finest";
-    default:
-        return "run ended";
-    }
-}
 
 DataAnalysis analysis_of(const Series& series, const std::vector<RungResult>& rungs) {
     DataFile data{
@@ -82,6 +51,18 @@ DataAnalysis analysis_of(const Series& series, const std::vector<RungResult>& ru
     return analyse(data);
 }
 
+std::vector<Rung> added_levels(const LadderBlock& ladder) {
+    std::vector<Rung> rungs = ladder.rungs;
+    const auto most = static_cast<std::size_t>(ladder.until->most.value_or(most_levels));
+    while (ladder.until->adds && rungs.size() < most)
+        if (const auto next = ladder.next(rungs))
+            rungs.push_back(*next);
+        else
+            break;
+    rungs.erase(rungs.begin(), rungs.begin() + static_cast<std::ptrdiff_t>(ladder.rungs.size()));
+    return rungs;
+}
+
 std::vector<std::string> not_known(const Until& until, const Series& series,
                                    const std::vector<RungResult>& rungs) {
     std::optional<DataAnalysis> now;
@@ -94,7 +75,8 @@ std::vector<std::string> not_known(const Until& until, const Series& series,
     for (std::size_t k = 0; k < series.measures.size(); ++k) {
         const Measure& measure = series.measures[k];
         const auto& wanted = measure.is_value ? until.limit : until.order;
-        if (wanted && !(now && is_known(*wanted, now->columns[k], before->columns[k])))
+        if (wanted && !(now && is_known(*wanted, interval_of(now->columns[k]),
+                                        interval_of(before->columns[k]))))
             open.push_back(measure.root());
     }
     return open;
@@ -103,7 +85,7 @@ std::vector<std::string> not_known(const Until& until, const Series& series,
 Refined refine(const LadderBlock& block, Series& series, std::vector<RungResult>& rungs,
                const RunCall& run, const Execution& execution) {
     const Until& until = *block.until;
-    const auto levels = until.adds_levels ? until.levels : std::optional<std::int64_t>(0);
+    const auto levels = until.adds ? until.most : std::optional<std::int64_t>(0);
     while (true) {
         if (std::any_of(rungs.begin(), rungs.end(),
                         [](const RungResult& one) { return one.status != RungStatus::ok; }))

@@ -9,26 +9,12 @@
 
 namespace tvbeam {
 
-/// Why a ladder was refined no further.
-enum class RefiningEnd {
-    known,    ///< all intervals are as narrow as was asked for
-    levels,   ///< the budget of levels is spent
-    seconds,  ///< the next level would not fit into the budget of seconds
-    finest,   ///< there is no finer level that a run may have
-    run_ended ///< a run failed or was interrupted
-};
-
-std::string name_of(RefiningEnd end); ///< "known", "levels", "seconds", "finest", "run ended"
-
-/// How the refining of a ladder ended.
-struct Refined {
-    RefiningEnd end;
-    std::vector<std::string> open = {}; ///< the norms and values that are not known, by name
-};
-
 /// What the runs of a ladder show of each measure, a column a measure: orders with 95 % intervals,
 /// of a square those of the norm itself; limits of values.
 DataAnalysis analysis_of(const Series& series, const std::vector<RungResult>& rungs);
+
+/// The levels that `until` may add to a ladder.
+std::vector<Rung> added_levels(const LadderBlock& ladder);
 
 /// The norms and values of a ladder's levels, from coarse to fine, of which the block does not yet
 /// know what it wants. Known is what has an interval as narrow as that, of at least

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <mutex>
+#include <numeric>
 #include <utility>
 
 namespace tvbeam {
@@ -40,13 +41,20 @@ RungResult run_or_find(const Series& series, std::size_t index, const RunCall& r
 
 std::vector<RungResult> run_series(const Series& series, const RunCall& run,
                                    const Execution& execution) {
+    std::vector<std::size_t> all(series.rungs.size());
+    std::iota(all.begin(), all.end(), std::size_t{0});
+    return run_series(series, all, run, execution);
+}
+
+std::vector<RungResult> run_series(const Series& series, const std::vector<std::size_t>& indices,
+                                   const RunCall& run, const Execution& execution) {
     std::vector<double> costs;
-    costs.reserve(series.rungs.size());
-    for (const auto& rung : series.rungs)
-        costs.push_back(work_of(series.method, rung));
-    std::vector<RungResult> results(series.rungs.size());
+    costs.reserve(indices.size());
+    for (const std::size_t index : indices)
+        costs.push_back(work_of(series.method, series.rungs[index]));
+    std::vector<RungResult> results(indices.size());
     for_each_longest_first(costs, execution.jobs, [&](std::size_t i) {
-        results[i] = run_or_find(series, i, run, execution);
+        results[i] = run_or_find(series, indices[i], run, execution);
     });
     return results;
 }

@@ -75,6 +75,10 @@ RungResult run_or_find(const Series& series, std::size_t index, const RunCall& r
 std::vector<RungResult> run_series(const Series& series, const RunCall& run,
                                    const Execution& execution);
 
+/// The same for those of its runs whose indices are given, in their order.
+std::vector<RungResult> run_series(const Series& series, const std::vector<std::size_t>& indices,
+                                   const RunCall& run, const Execution& execution);
+
 /// The result of a part, in the same manner; empty where the work was interrupted before it.
 std::any make_or_find(const Parts& parts, std::size_t index, const Execution& execution);
 

@@ -4,7 +4,6 @@
 #include "mms/manufactured_problem.hpp"
 #include "mms/text/toml_reader.hpp"
 #include "studies/external/external_runs.hpp"
-#include "studies/ladder/ladder_block.hpp"
 #include "studies/reference/reference_solution.hpp"
 #include "studies/runs/beam_runs.hpp"
 #include "studies/scene/model_keys.hpp"
@@ -17,6 +16,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <set>
 #include <sstream>
 
 namespace tvbeam {
@@ -37,15 +37,13 @@ Solution read_scene_solution(TableReader& root, const std::filesystem::path& bes
 /// The shortest element against the longest, below which a mesh is refused: half the digits.
 constexpr double least_ratio = 1e-8;
 
-/// Levels that are added to a ladder of the beam are on uniform meshes, against the exact solution.
+/// Runs that are added for the beam are on uniform meshes, against the exact solution.
 void check_until(const Scene& scene, const TableReader& root) {
-    const auto* ladder = scene.get<LadderBlock>();
-    if (ladder == nullptr || !ladder->until)
-        return;
-    for (const char* key : {"mesh", "reference", "defect", "sensitivity"})
-        if (root.has(key))
-            throw InputError(root.place(key), std::string("ladder.until adds levels, for which ") +
-                                                  key + " is not made; remove one of the two");
+    for (const auto& [kind, block] : scene.blocks.entries())
+        for (const char* key : {"mesh", "reference", "defect", "sensitivity"})
+            if (kind->until(block) != nullptr && root.has(key))
+                throw InputError(root.place(key), kind->name() + ".until adds runs, for which " +
+                                                      key + " is not made; remove one of the two");
 }
 
 /// Meshes that the studies of the scene cannot have.
@@ -135,10 +133,15 @@ void read_problem(Scene& scene, TableReader& root, bool wanted, bool own_problem
         scene.problem = read_scene_solution(root, path.parent_path());
 }
 
-/// A short form of a ladder makes the levels that it names, unless it has an `until` of its own.
-bool adds_levels_in_short(const TomlDocument& document) {
-    const toml::node* ladder = document.table.at_path("short.ladder").node();
-    return ladder == nullptr || !ladder->is_table() || ladder->as_table()->contains("until");
+/// The studies of which the short form makes the runs that it names, and no more: those that it has
+/// a block of, without an `until` of its own.
+std::set<std::string> naming_runs_in_short(const TomlDocument& document) {
+    std::set<std::string> names;
+    if (const toml::table* shorter = document.table["short"].as_table())
+        for (const auto& [name, block] : *shorter)
+            if (block.is_table() && !block.as_table()->contains("until"))
+                names.emplace(name.str());
+    return names;
 }
 
 /// [solver], and nothing that is about the beam.
@@ -245,7 +248,8 @@ Scene read_scene(const std::string& name_or_file, const std::vector<std::string>
     TomlDocument document = read_toml(path.string());
     require_scene(document);
     require_known_keys(document, scene_keys());
-    const bool adds_levels = !reading.short_form || adds_levels_in_short(document);
+    const auto names_runs_in_short =
+        reading.short_form ? naming_runs_in_short(document) : std::set<std::string>();
     if (reading.short_form)
         merge_block(document, "short");
     for (const auto& assignment : overrides) {
@@ -279,8 +283,9 @@ Scene read_scene(const std::string& name_or_file, const std::vector<std::string>
         check_meshes(scene, root);
         check_until(scene, root);
     }
-    if (auto* ladder = scene.get<LadderBlock>(); ladder != nullptr && ladder->until)
-        ladder->until->adds_levels = adds_levels;
+    for (auto& [kind, block] : scene.blocks.entries())
+        if (Until* until = kind->until(block))
+            until->adds = !names_runs_in_short.contains(kind->name());
     if (auto defect = root.table("defect")) {
         if (!scene.poses_problem())
             throw InputError(defect->place(), "the block [defect] adds to the scene's problem, and "

@@ -1,7 +1,6 @@
 #include "studies/shards/shard.hpp"
 
 #include "mms/text/input_error.hpp"
-#include "studies/ladder/ladder_block.hpp"
 #include "studies/study.hpp"
 #include "studies/work_precision/work_precision_block.hpp"
 
@@ -106,9 +105,11 @@ void require_dealable(const Scene& scene) {
     if (scene.get<WorkPrecisionBlock>() != nullptr)
         throw InputError(place, "times its runs in [work_precision], which others beside them "
                                 "would disturb; run it as a whole, without --shard");
-    if (const auto* ladder = scene.get<LadderBlock>(); ladder != nullptr && ladder->until)
-        throw InputError(place, "adds levels to its ladder (until), each chosen after the last; "
-                                "run it as a whole, without --shard");
+    for (const auto& [kind, block] : scene.blocks.entries())
+        if (kind->until(block) != nullptr)
+            throw InputError(place, "adds runs to its [" + kind->name() +
+                                        "] (until), each chosen after the last; run it as a "
+                                        "whole, without --shard");
     const auto groups = work_groups(scene);
     if (std::all_of(groups.begin(), groups.end(),
                     [](const WorkGroup& group) { return group.count() == 0; }))

@@ -1,6 +1,5 @@
 #include "studies/shards/work_group.hpp"
 
-#include "studies/ladder/ladder_block.hpp"
 #include "studies/predicted_work.hpp"
 
 #include <utility>
@@ -18,14 +17,11 @@ std::vector<WorkGroup> work_groups(const Scene& scene) {
     for (const auto& [kind, block] : scene.blocks.entries())
         if (kind->measures())
             for (auto& series : kind->series(block, own)) {
+                for (const Rung& added : kind->addable(block))
+                    series.rungs.push_back(added);
                 std::string study = series.study;
                 groups.push_back({std::move(study), std::move(series), {}});
             }
-    if (const auto* ladder = scene.get<LadderBlock>(); ladder != nullptr && ladder->until)
-        for (auto& group : groups)
-            if (group.study == "ladder")
-                for (const Rung& level : added_levels(*ladder))
-                    group.series->rungs.push_back(level);
     for (const auto& [kind, block] : scene.blocks.entries())
         for (auto& parts : kind->parts(block)) {
             std::string study = parts.study;

@@ -22,7 +22,7 @@ struct WorkGroup {
     [[nodiscard]] double work(std::size_t index) const;
 };
 
-/// Those of a scene, which must outlive them. With the levels that `until` may add to a ladder.
+/// Those of a scene, which must outlive them. With the runs that `until` may add.
 std::vector<WorkGroup> work_groups(const Scene& scene);
 
 } // namespace tvbeam

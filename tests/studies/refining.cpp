@@ -6,6 +6,7 @@
 #include "studies/ladder/ladder.hpp"
 #include "studies/predicted_work.hpp"
 #include "studies/scene/scene.hpp"
+#include "tests/studies/draw.hpp"
 #include "tests/temporary_directory.hpp"
 
 #include <boost/test/data/monomorphic.hpp>
@@ -18,7 +19,6 @@
 #include <functional>
 #include <optional>
 #include <ostream>
-#include <random>
 #include <string>
 #include <vector>
 
@@ -30,26 +30,6 @@ BOOST_AUTO_TEST_SUITE(refining)
 namespace {
 
 using Elements = std::vector<std::int64_t>;
-
-/// A number that all compilers draw alike.
-class Draw {
-public:
-    explicit Draw(std::uint64_t seed) : generator_(seed) {}
-    std::uint64_t below(std::uint64_t count) { return generator_() % count; }
-    double between(double low, double high) {
-        return low + (high - low) * std::ldexp(static_cast<double>(generator_() >> 11U), -53);
-    }
-    /// Of variance one, by the central limit: sum of twelve.
-    double normal() {
-        double sum = -6.0;
-        for (int i = 0; i < 12; ++i)
-            sum += between(0.0, 1.0);
-        return sum;
-    }
-
-private:
-    std::mt19937_64 generator_;
-};
 
 /// A solver whose error is a formula of h, and the ladder that is asked of it.
 struct MadeUp {
@@ -453,7 +433,7 @@ BOOST_AUTO_TEST_CASE(what_is_added_bounds_the_predicted_work) {
         steps += s * 20.0 * s * s;
     BOOST_TEST(predicted.at_most == steps / 1e8, boost::test_tools::tolerance(1e-3));
     BOOST_TEST(predicted.seconds < 0.1 * predicted.at_most);
-    BOOST_TEST(predicted.text().find("with the levels that ladder.until may add") !=
+    BOOST_TEST(predicted.text().find("with the runs that ladder.until may add") !=
                std::string::npos);
 }
 
