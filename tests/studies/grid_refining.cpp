@@ -2,8 +2,13 @@
 // orders are known, say how often that is true, and what it costs.
 
 #include "studies/grid/grid_refining.hpp"
+#include "mms/text/input_error.hpp"
 #include "studies/grid/grid_lines.hpp"
+#include "studies/grid/next_line.hpp"
+#include "studies/predicted_work.hpp"
 #include "studies/scene/scene.hpp"
+#include "studies/shards/shard.hpp"
+#include "studies/shards/work_group.hpp"
 #include "tests/studies/draw.hpp"
 #include "tests/temporary_directory.hpp"
 
@@ -12,12 +17,19 @@
 #include <boost/test/unit_test.hpp>
 
 #include <algorithm>
+#include <any>
 #include <array>
+#include <atomic>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
+#include <map>
+#include <mutex>
+#include <optional>
 #include <ostream>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 using namespace tvbeam;
@@ -31,12 +43,11 @@ constexpr std::int64_t most = 64; ///< runs
 
 Scene scene_of(const std::string& orders, const Reading& reading = {}) {
     const TemporaryDirectory directory;
-    return read_scene(directory.write("scene.toml",
-                                      "[solver]\ncommand = [\"true\"]\ntimeout = 10\n"
-                                      "errors = { L2 = 'L2 = (\\S+)' }\n"
-                                      "values = { drag = 'drag = (\\S+)' }\n"
-                                      "[orders]\nfinal_time = 1\n" +
-                                          orders),
+    return read_scene(directory.write("scene.toml", "[solver]\ncommand = [\"true\"]\ntimeout = 10\n"
+                                                    "errors = { L2 = 'L2 = (\\S+)' }\n"
+                                                    "values = { drag = 'drag = (\\S+)' }\n"
+                                                    "[orders]\nfinal_time = 1\n" +
+                                                        orders),
                       {}, reading);
 }
 
@@ -49,11 +60,11 @@ OrdersBlock block_of(const std::string& orders) {
 ///     T = h^p (1 + c h^k),  S = b Δt^q (1 + d Δt^l),  e² = T² + 2ρTS + S², with scatter.
 struct MadeUp {
     double p = 0, q = 0, b = 0, rho = 0;
-    double c = 0, d = 0;       ///< of the next terms
-    double k = 1, l = 1;       ///< their powers
-    double scatter = 0;        ///< of ln e
-    double start = 0;          ///< mesh width from which on the order is p, if it starts slowly
-    double cost = 1;           ///< of a step: the elements to this power
+    double c = 0, d = 0; ///< of the next terms
+    double k = 1, l = 1; ///< their powers
+    double scatter = 0;  ///< of ln e
+    double start = 0;    ///< mesh width from which on the order is p, if it starts slowly
+    double cost = 1;     ///< of a step: the elements to this power
     double wanted = 0.05;
     std::uint64_t seed = 0;
     std::vector<std::int64_t> meshes = {};
@@ -129,10 +140,6 @@ OrdersBlock block_of(const MadeUp& solver) {
                     ", seconds = 1e9, runs = " + std::to_string(most) + " }\n");
 }
 
-double cost_of(const std::vector<RungResult>& runs) {
-    return seconds_of(runs);
-}
-
 bool holds(const OrderInterval& order, double truth) {
     return order.low <= truth && truth <= order.high;
 }
@@ -160,7 +167,7 @@ double cheapest(const MadeUp& solver, const OrdersBlock& block, double least) {
             for (std::size_t j = 0; j < n; ++j)
                 for (std::size_t i = 0; i < m; ++i)
                     grid.runs.push_back(solver.run(all.run(i, j)));
-            grid.cost = cost_of(grid.runs);
+            grid.cost = seconds_of(grid.runs);
             if (grid.cost <= least)
                 grids.push_back(std::move(grid));
         }
@@ -169,8 +176,7 @@ double cheapest(const MadeUp& solver, const OrdersBlock& block, double least) {
     for (const auto& grid : grids) {
         const TwoTermFit fit = analyse_grid(grid.runs, block.norms).norms[0].fit;
         if (fit.p.determined && fit.q.determined && fit.p.half_width() <= solver.wanted &&
-            fit.q.half_width() <= solver.wanted && holds(fit.p, solver.p) &&
-            holds(fit.q, solver.q))
+            fit.q.half_width() <= solver.wanted && holds(fit.p, solver.p) && holds(fit.q, solver.q))
             return grid.cost;
     }
     return std::numeric_limits<double>::quiet_NaN();
@@ -179,72 +185,400 @@ double cheapest(const MadeUp& solver, const OrdersBlock& block, double least) {
 /// What became of a set of solvers.
 struct Score {
     int known = 0;
-    int held_p = 0; ///< of those known: the interval holds the order
-    int held_q = 0;
+    int held = 0; ///< of those known: both intervals hold their order
     int not_known = 0;
     double mean = 0; ///< cost over that of the cheapest grid, geometric
     double dearest = 0;
     int cheapest = 0; ///< so often it was that
 };
 
+RunCall calls_of(const MadeUp& solver) {
+    return [&](const RunTask& task) { return solver.run(task.rung); };
+}
+
 Score score(std::uint64_t first, std::uint64_t end) {
     Score score;
-    int compared = 0;
     for (auto seed = first; seed < end; ++seed) {
         const MadeUp solver = made_up(seed);
         const OrdersBlock block = block_of(solver);
-        const OrdersResult grid = run_orders(
-            block, {}, {.run = [&](const RunTask& task) { return solver.run(task.rung); }});
-        const TwoTermFit& fit = grid.norms[0].fit;
-        const double cost = cost_of(grid.runs);
-        const bool known = grid.refined->end == RefiningEnd::known;
-        const GridLines lines = [&] {
-            std::vector<Rung> rungs;
-            for (const auto& run : grid.runs)
-                rungs.push_back(run.rung);
-            return lines_of(rungs);
-        }();
-        const double best = known ? cheapest(solver, block, cost) : cost;
-        BOOST_TEST_MESSAGE("seed " << seed << " kind " << seed % 8 << " p " << solver.p << " q " << solver.q << " ± "
-                                   << solver.wanted << " cost s^" << solver.cost << ": " << name_of(grid.refined->end) << " "
-                                   << solver.meshes.size() << "x" << solver.steps.size() << " -> "
-                                   << lines.meshes.size() << "x" << lines.steps.size() << " p " << fit.p.value << " ± "
-                                   << fit.p.half_width() << (holds(fit.p, solver.p) ? "" : " MISS") << " q "
-                                   << fit.q.value << " ± " << fit.q.half_width() << (holds(fit.q, solver.q) ? "" : " MISS") << " cost ratio "
-                                   << cost / best << (fit.p.determined ? "" : " " + fit.p.status)<< (fit.q.determined ? "" : " " + fit.q.status));
-        if (!known) {
+        const OrdersResult grid = run_orders(block, {}, {.run = calls_of(solver)});
+        if (grid.refined->end != RefiningEnd::known) {
+            BOOST_TEST(name_of(grid.refined->end) == "runs");
             ++score.not_known;
             continue;
         }
+        const TwoTermFit& fit = grid.norms[0].fit;
         ++score.known;
-        score.held_p += holds(fit.p, solver.p) ? 1 : 0;
-        score.held_q += holds(fit.q, solver.q) ? 1 : 0;
-        if (std::isnan(best))
-            continue;
-        const double ratio = cost / best;
-        ++compared;
+        if (holds(fit.p, solver.p) && holds(fit.q, solver.q))
+            ++score.held;
+        const double cost = seconds_of(grid.runs);
+        const double best = cheapest(solver, block, cost);
+        const double ratio = std::isnan(best) ? 1.0 : cost / best;
         score.mean += std::log(ratio);
         score.dearest = std::max(score.dearest, ratio);
         score.cheapest += ratio < 1.0 + 1e-9 ? 1 : 0;
     }
-    score.mean = std::exp(score.mean / compared);
+    score.mean = std::exp(score.mean / score.known);
     return score;
 }
 
 std::ostream& operator<<(std::ostream& stream, const Score& score) {
-    return stream << "known " << score.known << ", of these p held " << score.held_p << ", q held "
-                  << score.held_q << "; not known " << score.not_known
-                  << "; cost over the cheapest grid of >= 4 x 4: mean " << score.mean << ", most "
-                  << score.dearest << ", the cheapest " << score.cheapest << " times";
+    return stream << "known " << score.known << ", of these held " << score.held << "; not known "
+                  << score.not_known << "; cost over the cheapest grid of >= 4 x 4: mean "
+                  << score.mean << ", most " << score.dearest << ", the cheapest " << score.cheapest
+                  << " times";
 }
 
 } // namespace
 
-BOOST_AUTO_TEST_CASE(tune) {
-    const char* first = std::getenv("FIRST");
-    const char* end = std::getenv("END");
-    BOOST_TEST_MESSAGE(score(std::stoul(first), std::stoul(end)));
-    BOOST_TEST(true);
+// 0 to 79 are those that the choice of lines was made by; these were kept for the test, all eighty
+// with TVBEAM_REFINED_GRIDS=80.
+BOOST_AUTO_TEST_CASE(of_made_up_solvers_what_is_known_holds_and_costs_little_more_than_it_must) {
+    const char* wanted = std::getenv("TVBEAM_REFINED_GRIDS");
+    const int count = wanted ? std::atoi(wanted) : TVBEAM_SHORT_TESTS ? 4 : 24;
+    const Score found = score(80, 80 + static_cast<std::uint64_t>(count));
+    BOOST_TEST_MESSAGE(found);
+    BOOST_TEST(found.known >= 4 * found.not_known, found);
+    BOOST_TEST(found.held >= 0.95 * found.known, found);
+    BOOST_TEST(found.mean <= 1.5, found);
+    BOOST_TEST(found.dearest <= 40, found);
+}
+
+namespace {
+
+/// e = h² + Δt, in a second each; what is not a number in `orders` of two meshes and two steps.
+const std::string two_by_two = "norms = [\"L2\"]\nelements = [10, 20]\ndt = [0.1, 0.05]\n";
+
+RungResult two_terms(const RunTask& task) {
+    const double h = task.rung.h();
+    return {.rung = task.rung, .seconds = 1.0, .errors = {h * h + task.rung.dt}};
+}
+
+/// The same with scatter, of which no order is known.
+RungResult noisy(const RunTask& task) {
+    RungResult result = two_terms(task);
+    result.errors[0] *= (task.rung.elements + task.rung.steps) % 3 == 0 ? 1.4 : 1.0;
+    return result;
+}
+
+OrdersResult refined(const std::string& until, const RunCall& run,
+                     const Execution& execution = {}) {
+    return run_orders(block_of(two_by_two + "until = { " + until + " }\n"), {}, {.run = run},
+                      execution);
+}
+
+std::vector<Rung> rungs_of(const std::vector<RungResult>& runs) {
+    std::vector<Rung> rungs;
+    for (const auto& run : runs)
+        rungs.push_back(run.rung);
+    return rungs;
+}
+
+std::string size_of(const OrdersResult& grid) {
+    const GridLines lines = lines_of(rungs_of(grid.runs));
+    BOOST_TEST(lines.runs() == grid.runs.size());
+    return std::to_string(lines.meshes.size()) + " x " + std::to_string(lines.steps.size());
+}
+
+} // namespace
+
+BOOST_AUTO_TEST_CASE(lines_go_on_by_the_mean_ratios_of_the_grid_but_at_least_root_two) {
+    // Meshes by 2, steps by 5/4, which is too little: 8, 10, 10 √2, 20 of them in T = 1.
+    const OrdersBlock block = block_of("norms = [\"L2\"]\nelements = [4, 8]\ndt = [0.125, 0.1]\n"
+                                       "until = { order = 0.05, runs = 40 }\n");
+    GridLines lines = lines_of(block.grid);
+    lines = *with_mesh(block, *with_step(block, *with_step(block, lines)));
+    BOOST_TEST(lines.meshes.back().elements == 16);
+    BOOST_TEST(lines.steps[2].steps == 14);
+    BOOST_TEST(lines.steps[2].dt == 1.0 / 14);
+    BOOST_TEST(lines.steps[3].steps == 20);
+    BOOST_TEST(lines.runs() == 12U);
+}
+
+// A power shows its order on two by two, were it not that nothing is known of so few.
+BOOST_AUTO_TEST_CASE(nothing_is_known_of_fewer_than_four_meshes_and_four_steps) {
+    const OrdersResult grid = refined("order = 0.05, runs = 40", two_terms);
+    BOOST_TEST(size_of(grid) == "4 x 4");
+    BOOST_TEST(name_of(grid.refined->end) == "known");
+    BOOST_TEST(grid.refined->open.empty());
+    // As the grid of a scene that names them all: from coarse to fine, elements fastest.
+    const auto all = lines_of(rungs_of(grid.runs)).grid();
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        BOOST_TEST(grid.runs[i].rung.elements == all[i].elements);
+        BOOST_TEST(grid.runs[i].rung.dt == all[i].dt);
+    }
+}
+
+// Of solver 1, four by four have a narrow q, which is not that of the grid without its finest step.
+BOOST_AUTO_TEST_CASE(a_narrow_interval_that_the_one_before_does_not_hold_gets_a_line_of_its_own) {
+    const MadeUp solver = made_up(1);
+    const OrdersBlock block = block_of(solver);
+    GridLines lines = lines_of(block.grid);
+    while (lines.meshes.size() < 4)
+        lines = *with_mesh(block, lines);
+    while (lines.steps.size() < 4)
+        lines = *with_step(block, lines);
+    const auto runs_on = [&](const GridLines& on) {
+        std::vector<RungResult> runs;
+        for (const Rung& run : on.grid())
+            runs.push_back(solver.run(run));
+        return runs;
+    };
+    const TwoTermFit fit = analyse_grid(runs_on(lines), block.norms).norms[0].fit;
+    GridLines coarser = lines;
+    coarser.steps.pop_back();
+    const OrderInterval before = analyse_grid(runs_on(coarser), block.norms).norms[0].fit.q;
+    BOOST_TEST(fit.q.determined);
+    BOOST_TEST(fit.q.half_width() < solver.wanted);
+    BOOST_TEST(!holds(before, fit.q.value));
+    BOOST_TEST(not_known(block, runs_on(lines)) == std::vector<std::string>{"q of L2"},
+               boost::test_tools::per_element());
+    BOOST_TEST(size_of(run_orders(block, {}, {.run = calls_of(solver)})) == "4 x 5");
+}
+
+BOOST_AUTO_TEST_CASE(a_line_is_chosen_by_what_it_narrows) {
+    const OrdersBlock block = block_of(two_by_two + "until = { order = 0.05, runs = 100 }\n");
+    GridLines lines = lines_of(block.grid);
+    while (lines.runs() < 16)
+        lines = *with_mesh(block, *with_step(block, lines));
+    const auto expected = [&](double a, double b, bool in_h) {
+        std::vector<RungResult> runs;
+        for (const Rung& run : lines.grid()) {
+            Draw noise(static_cast<std::uint64_t>(100 * run.elements + run.steps));
+            runs.push_back({.rung = run,
+                            .errors = {(a * run.h() * run.h() + b * run.dt) *
+                                       std::exp(0.05 * noise.normal())}});
+        }
+        const TwoTermFit fit = analyse_grid(runs, block.norms).norms[0].fit;
+        return open_order(fit, in_h, 1e-3, lines, *with_mesh(block, lines),
+                          *with_step(block, lines));
+    };
+    // Terms that are seen well: each order by its own lines.
+    const OpenInterval p = expected(1e5, 1, true);
+    BOOST_TEST(p.with_mesh < p.with_step);
+    BOOST_TEST(p.with_step <= p.now);
+    const OpenInterval q = expected(10, 1, false);
+    BOOST_TEST(q.with_step < q.with_mesh);
+    BOOST_TEST(q.with_mesh <= q.now);
+    // A term that the other hides is laid bare by the lines of the other.
+    const OpenInterval hidden_p = expected(0.1, 1, true);
+    BOOST_TEST(hidden_p.with_step < hidden_p.with_mesh);
+    const OpenInterval hidden_q = expected(10, 0.001, false);
+    BOOST_TEST(hidden_q.with_mesh < hidden_q.with_step);
+    // By the cost: 20 % for one is more than 30 % for two.
+    const std::vector<OpenInterval> open{{0.5, 0.1, 0.1}, {1.0, 0.8, 0.7}}; // the wider counts
+    BOOST_TEST(gain_of_mesh(open, 1.0) == 0.2, boost::test_tools::tolerance(1e-12));
+    BOOST_TEST(gain_of_step(open, 2.0) == 0.15, boost::test_tools::tolerance(1e-12));
+}
+
+// sec = 1e-3 s² n, as it is and on coarse runs longer: the last three lines count.
+BOOST_AUTO_TEST_CASE(seconds_are_forecast_by_a_power_law_of_the_finest_runs) {
+    const GridLines lines{{{4, 0, 0}, {8, 0, 0}, {16, 0, 0}, {32, 0, 0}},
+                          {{0, 10, 0.1}, {0, 20, 0.05}, {0, 40, 0.025}}};
+    std::vector<RungResult> runs;
+    for (const Rung& run : lines.grid())
+        runs.push_back(
+            {.rung = run,
+             .seconds = run.elements == 4
+                            ? 100.0
+                            : 1e-3 * static_cast<double>(run.elements * run.elements) / run.dt});
+    const ForecastSeconds forecast(lines, runs);
+    BOOST_TEST(forecast({64, 80, 0.0125}) == 1e-3 * 64 * 64 * 80,
+               boost::test_tools::tolerance(1e-9));
+    for (auto& run : runs)
+        run.seconds = 0.0; // a clock that shows nothing
+    BOOST_TEST(ForecastSeconds(lines, runs)({64, 80, 0.0125}) == 0.0);
+}
+
+BOOST_AUTO_TEST_CASE(why_it_ended_and_what_is_not_known_is_said) {
+    const OrdersResult runs = refined("order = 0.02, runs = 18", noisy);
+    BOOST_TEST(name_of(runs.refined->end) == "runs");
+    BOOST_TEST(size_of(runs) == "4 x 4"); // a line of four more are twenty
+    BOOST_TEST(runs.refined->open == (std::vector<std::string>{"p of L2", "q of L2"}),
+               boost::test_tools::per_element());
+    // A second each: 2 x 2, 3 x 2, 3 x 3 and 4 x 3 are twelve, and four more do not fit.
+    const OrdersResult seconds = refined("order = 0.02, seconds = 15.9", noisy);
+    BOOST_TEST(name_of(seconds.refined->end) == "seconds");
+    BOOST_TEST(seconds.runs.size() == 12U);
+    const auto failing = [](const RunTask& task) {
+        RungResult result = two_terms(task);
+        if (task.rung.elements == 40)
+            result.status = RungStatus::failed;
+        return result;
+    };
+    const OrdersResult failed = refined("order = 0.05, runs = 40", failing);
+    BOOST_TEST(name_of(failed.refined->end) == "run ended");
+    // Beyond ten million elements there is no mesh; a step of 1e-12 is the last.
+    const OrdersBlock finest =
+        block_of("norms = [\"L2\"]\nelements = [1000000, 10000000]\ndt = [1e-6, 1e-12]\n"
+                 "until = { order = 0.05, runs = 40 }\n");
+    BOOST_TEST(name_of(run_orders(finest, {}, {.run = two_terms}).refined->end) == "finest");
+}
+
+// v = 1 + h² + Δt: both widths must be known for the limit, which is 1.
+BOOST_AUTO_TEST_CASE(a_value_is_refined_until_its_limit_is_known) {
+    const auto value = [](const RunTask& task) {
+        RungResult result = two_terms(task);
+        result.errors[0] += 1.0;
+        return result;
+    };
+    const auto of = [&](const std::string& half) {
+        return run_orders(block_of("values = [\"drag\"]\nelements = [2, 4]\ndt = [0.5, 0.25]\n"
+                                   "until = { limit = " +
+                                   half + ", runs = 60 }\n"),
+                          {}, {.run = value});
+    };
+    const OrdersResult wide = of("0.1");
+    BOOST_TEST(name_of(wide.refined->end) == "known");
+    const OrdersResult narrow = of("1e-3");
+    BOOST_TEST(name_of(narrow.refined->end) == "known");
+    BOOST_TEST(narrow.values[0].limit.half_width() <= 1e-3);
+    BOOST_TEST(holds(narrow.values[0].limit, 1.0));
+    BOOST_TEST(narrow.runs.size() > wide.runs.size());
+}
+
+namespace {
+
+/// Results by study and index, as an earlier attempt leaves them.
+class Kept final : public FinishedRuns {
+public:
+    std::optional<RungResult> find(const Series& /*series*/, std::size_t index) override {
+        const std::scoped_lock lock(mutex_);
+        const auto found = runs_.find(index);
+        return found == runs_.end() ? std::nullopt : std::optional(found->second);
+    }
+    void add(const Series& /*series*/, std::size_t index, const RungResult& result) override {
+        const std::scoped_lock lock(mutex_);
+        BOOST_TEST(!runs_.contains(index));
+        runs_[index] = result;
+    }
+    std::any find_part(const std::string& /*study*/, std::size_t /*index*/) override { return {}; }
+    void add_part(const std::string& /*study*/, std::size_t /*index*/,
+                  const std::any& /*result*/) override {}
+
+    [[nodiscard]] const std::map<std::size_t, RungResult>& runs() const { return runs_; }
+
+private:
+    std::mutex mutex_;
+    std::map<std::size_t, RungResult> runs_;
+};
+
+} // namespace
+
+BOOST_AUTO_TEST_CASE(runs_that_an_earlier_attempt_made_are_found_again_whatever_it_added) {
+    const MadeUp solver = made_up(1); // 4 x 5, from 2 x 2
+    const OrdersBlock block = block_of(solver);
+    Scene scene = scene_of(two_by_two);
+    scene.blocks.set(block);
+    const auto groups = work_groups(scene); // by which they are kept
+    for (const int jobs : {1, 3}) {
+        Kept kept;
+        std::atomic<int> made = 0;
+        const auto count_to = [&](int last) {
+            return [&, last](const RunTask& task) {
+                RungResult result = solver.run(task.rung);
+                if (++made > last)
+                    result.status = RungStatus::interrupted;
+                return result;
+            };
+        };
+        const Execution execution{.jobs = jobs, .finished = &kept};
+        const OrdersResult cut = run_orders(block, {}, {.run = count_to(11)}, execution);
+        BOOST_TEST(name_of(cut.refined->end) == "run ended");
+        BOOST_TEST(kept.runs().size() == 11U);
+        for (const auto& [index, run] : kept.runs()) {
+            BOOST_REQUIRE(index < groups[0].series->rungs.size());
+            BOOST_TEST(groups[0].series->rungs[index].elements == run.rung.elements);
+            BOOST_TEST(groups[0].series->rungs[index].dt == run.rung.dt);
+        }
+        made = 0;
+        const OrdersResult whole = run_orders(block, {}, {.run = count_to(100)}, execution);
+        BOOST_TEST(name_of(whole.refined->end) == "known");
+        BOOST_TEST(size_of(whole) == "4 x 5");
+        BOOST_TEST(made == 20 - 11);
+        const OrdersResult alone = run_orders(block, {}, {.run = calls_of(solver)});
+        for (std::size_t i = 0; i < alone.runs.size(); ++i)
+            BOOST_TEST(whole.runs[i].errors[0] == alone.runs[i].errors[0]);
+    }
+}
+
+BOOST_AUTO_TEST_CASE(a_short_form_of_the_grid_adds_nothing_unless_it_says_so) {
+    const std::string grid = two_by_two + "until = { order = 0.05, runs = 40 }\n";
+    const auto size = [&](const std::string& in_short) {
+        const Scene scene = scene_of(grid + in_short, {.short_form = true});
+        return size_of(run_orders(*scene.get<OrdersBlock>(), {}, {.run = two_terms}));
+    };
+    BOOST_TEST(size("[short.orders]\nelements = [5, 10, 20]\n") == "3 x 2");
+    BOOST_TEST(size("[short.orders]\nuntil = { order = 0.2 }\n") == "4 x 4");
+    BOOST_TEST(size("") == "4 x 4");
+}
+
+namespace {
+
+struct Refused {
+    std::string orders;
+    std::string message;
+};
+
+std::ostream& operator<<(std::ostream& stream, const Refused& refused) {
+    return stream << refused.orders;
+}
+
+const std::vector<Refused> refused_grids{
+    {two_by_two + "until = { order = 0.01, runs = 40 }\n",
+     "orders.until.order is 0.01; no interval is that narrow: it must be > 0.01"},
+    {two_by_two + "until = { order = 0.05, runs = 15 }\n",
+     "orders.until.runs is 15; it must be >= 16, all runs together: nothing is known of fewer than "
+     "4 meshes and 4 steps, and the grid names 2 and 2"},
+    {"norms = [\"L2\"]\nelements = [1, 2, 3, 4, 5]\ndt = [0.5, 0.1]\n"
+     "until = { order = 0.05, runs = 19 }\n",
+     "it must be >= 20"},
+    {"norms = [\"L2\"]\nelements = [4]\ndt = [0.5, 0.1]\nuntil = { order = 0.05, runs = 40 }\n",
+     "elements must hold at least two, from coarse to fine"},
+    {"norms = [\"L2\"]\nelements = [4, 8]\ndt = [0.1, 0.5]\nuntil = { order = 0.05, runs = 40 }\n",
+     "dt must hold at least two, from coarse to fine"},
+    {two_by_two + "until = { runs = 40 }\n", "says nothing of what is to be known"},
+    {two_by_two + "until = { order = 0.05 }\n", "has no end; give it a budget: seconds, or runs"},
+    {two_by_two + "until = { limit = 0.05, runs = 40 }\n",
+     "asks for a known limit, and the grid names no values"},
+};
+
+} // namespace
+
+BOOST_DATA_TEST_CASE(what_could_never_be_known_of_a_grid_is_refused, data::make(refused_grids)) {
+    BOOST_CHECK_EXCEPTION(scene_of(sample.orders), InputError, [&](const InputError& error) {
+        BOOST_TEST(std::string(error.what()).find(sample.message) != std::string::npos,
+                   error.what());
+        return true;
+    });
+}
+
+BOOST_AUTO_TEST_CASE(a_grid_that_is_refined_is_not_dealt_nor_measured_against_a_reference) {
+    const auto says = [](const std::string& words) {
+        return [words](const InputError& error) {
+            BOOST_TEST(std::string(error.what()).find(words) != std::string::npos, error.what());
+            return true;
+        };
+    };
+    BOOST_CHECK_EXCEPTION(require_dealable(read_scene("table1-grid-until-known")), InputError,
+                          says("adds runs to its [orders] (until), each chosen after the last"));
+    BOOST_CHECK_EXCEPTION(
+        read_scene("table1-grid-until-known", {"reference={elements=640,dt=1e-5}"}), InputError,
+        says("orders.until adds runs, for which reference is not made"));
+}
+
+BOOST_AUTO_TEST_CASE(what_is_added_to_a_grid_bounds_the_predicted_work) {
+    const std::string until = two_by_two + "until = { order = 0.05, ";
+    // Four, and up to 17 in all, of at most ten seconds: as 8 x 2, for 5 x 3 are fewer.
+    BOOST_TEST(predicted_work(scene_of(until + "runs = 17 }")).at_most == 160.0);
+    // By its own clock: the four, and the last line of up to eight as long as any.
+    BOOST_TEST(predicted_work(scene_of(until + "runs = 17, seconds = 15 }")).at_most ==
+               40.0 + 15.0 + 80.0);
+    const PredictedWork beam = predicted_work(read_scene("table1-grid-until-known"));
+    BOOST_TEST(beam.text().find("with the runs that orders.until may add") != std::string::npos);
+    // 10 … 10·2^(m−1) elements with 100 … 100·2^(n−1) steps, m n ≤ 48: by 24 x 2 the most.
+    const double elements = 10.0 * (std::pow(2.0, 20) - 1);
+    BOOST_TEST(beam.at_most > elements * 300.0 / 1e8);
 }
 
 BOOST_AUTO_TEST_SUITE_END()
