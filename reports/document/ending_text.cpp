@@ -1,5 +1,6 @@
 #include "reports/document/ending_text.hpp"
 
+#include "studies/scene/study_keys.hpp"
 #include "studies/text/number_text.hpp"
 
 #include <fmt/format.h>
@@ -30,9 +31,13 @@ std::string ending_text(const Refined& refined, const Until& until, const std::s
     case RefiningEnd::known:
         return text + "what was to be known is (" + wanted_text(until) + ").";
     case RefiningEnd::levels:
+        return text +
+               (until.adds ? "the budget of levels is spent; " : "the short form adds none; ") +
+               open;
     case RefiningEnd::runs:
         return text +
-               (until.adds ? "the budget of " + name_of(refined.end) + " is spent; "
+               (until.adds ? fmt::format("the next would not fit into the budget of {} runs; ",
+                                         until.most.value_or(most_levels))
                            : "the short form adds none; ") +
                open;
     case RefiningEnd::seconds:

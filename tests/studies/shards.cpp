@@ -138,7 +138,7 @@ BOOST_AUTO_TEST_CASE(every_run_of_every_shipped_scene_is_dealt_or_the_scene_says
                               [](std::uint32_t shard) { return shard >= 1 && shard <= 3; }));
         BOOST_TEST(dealt_runs == runs, file.name);
     }
-    BOOST_TEST(refused > 0); // a work-precision study, and a ladder that is refined
+    BOOST_TEST(refused > 0); // a work-precision study, and what is refined
 }
 
 BOOST_AUTO_TEST_CASE(cases_come_back_in_order_whatever_the_order_they_come_in) {
