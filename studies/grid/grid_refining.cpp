@@ -104,6 +104,7 @@ Open open_of(const OrdersBlock& block, const std::vector<RungResult>& runs) {
 
 std::vector<std::string> names_of(const std::vector<Wanted>& wanted) {
     std::vector<std::string> names;
+    names.reserve(wanted.size());
     for (const auto& one : wanted)
         names.push_back(one.name);
     return names;
