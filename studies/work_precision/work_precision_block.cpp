@@ -8,7 +8,7 @@ namespace tvbeam {
 
 namespace {
 
-constexpr std::int64_t most_runs = 10'000;
+constexpr std::int64_t most_timed_runs = 10'000;
 constexpr std::size_t most_schemes = 1000;
 /// In bytes. Names stand in tables of 80 columns.
 constexpr std::size_t longest_name = 28;
@@ -74,9 +74,9 @@ WorkPrecisionBlock read_work_precision(TableReader& table, const SolverKeys& key
         throw table.error("norms",
                           " is missing or empty; name the norms that the schemes are timed for");
     const std::int64_t runs = table.integer("runs").value_or(block.runs);
-    if (runs < 1 || runs > most_runs)
+    if (runs < 1 || runs > most_timed_runs)
         throw table.error("runs", " is " + std::to_string(runs) + "; it must be 1 to " +
-                                      std::to_string(most_runs));
+                                      std::to_string(most_timed_runs));
     block.runs = static_cast<int>(runs);
     if (auto targets = table.table("targets"))
         block.targets = read_targets(*std::move(targets), block.norms, keys);
