@@ -33,6 +33,8 @@ public:
     /// factored.
     HermiteForm(const Beam& beam, const ProblemData& data, const Mesh& mesh, const Scheme& scheme,
                 double dt);
+    HermiteForm(const Beam& beam, const ProblemData& data, Mesh&& mesh, const Scheme& scheme,
+                double dt) = delete;
 
     [[nodiscard]] Eigen::Ref<const Eigen::VectorXd> temperature() const override { return theta_; }
     [[nodiscard]] DiscontinuousLinear curvature() const override;

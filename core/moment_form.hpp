@@ -45,6 +45,8 @@ public:
     /// that reason.
     MomentForm(const Beam& beam, const ProblemData& data, const Mesh& mesh, const Scheme& scheme,
                double dt, const Needs& needs);
+    MomentForm(const Beam& beam, const ProblemData& data, Mesh&& mesh, const Scheme& scheme,
+               double dt, const Needs& needs) = delete;
 
     [[nodiscard]] Eigen::Ref<const Eigen::VectorXd> temperature() const override { return theta_; }
     [[nodiscard]] DiscontinuousLinear curvature() const override;

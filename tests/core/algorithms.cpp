@@ -182,7 +182,8 @@ BOOST_DATA_TEST_CASE(matrices_are_factored_once_for_each_coefficient,
         read_solution(find_file(Shipped::solution, "free-decay")), paper_beam, 1.0);
     const Scheme scheme{
         .algorithm = Algorithm::fixed_point, .tolerance = 1e-10, .time = TimeScheme::named(time)};
-    HermiteForm form(paper_beam, problem, Mesh::uniform(8), scheme, dt);
+    const Mesh mesh = Mesh::uniform(8);
+    HermiteForm form(paper_beam, problem, mesh, scheme, dt);
     march(form, problem, scheme.time, dt, 10, [](double) {});
     BOOST_TEST(form.factorizations() == (time == "bdf2" ? 2 : 1));
 }
