@@ -52,7 +52,7 @@ Json number_json(std::optional<double> value) {
 std::string quoted(const std::string& given) {
     // A spreadsheet would compute what begins so.
     const bool is_formula = given.find_first_of("=+-@\t\r") == 0;
-    const std::string field = (is_formula ? "'" : "") + visible(given);
+    std::string field = (is_formula ? "'" : "") + visible(given);
     if (field.find_first_of(",\"\n\r") == std::string::npos)
         return field;
     std::string text = "\"";

@@ -46,8 +46,9 @@ private:
     static LimitEstimate along(const std::set<double>& widths,
                                const std::function<double(double)>& value) {
         std::vector<ValueRow> rows;
-        for (auto width = widths.rbegin(); width != widths.rend(); ++width)
-            rows.push_back({*width, value(*width)});
+        const std::vector<double> falling(widths.rbegin(), widths.rend());
+        for (const double width : falling)
+            rows.push_back({width, value(width)});
         return estimate_limit(rows);
     }
 
