@@ -1,6 +1,7 @@
 #include "studies/grid/grid_lines.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace tvbeam {
 
@@ -21,6 +22,15 @@ GridLines longest_lines(const OrdersBlock& block) {
         else
             break;
     return all;
+}
+
+std::optional<GridLines> with_one_more(GridLines lines, std::vector<Rung> GridLines::*along,
+                                       const NextLevel& next_level) {
+    const auto next = next_level(lines.*along);
+    if (!next)
+        return std::nullopt;
+    (lines.*along).push_back(*next);
+    return lines;
 }
 
 } // namespace
@@ -57,19 +67,11 @@ GridLines lines_of(const std::vector<Rung>& grid) {
 }
 
 std::optional<GridLines> with_mesh(const OrdersBlock& block, GridLines lines) {
-    const auto next = block.next_mesh(lines.meshes);
-    if (!next)
-        return std::nullopt;
-    lines.meshes.push_back(*next);
-    return lines;
+    return with_one_more(std::move(lines), &GridLines::meshes, block.next_mesh);
 }
 
 std::optional<GridLines> with_step(const OrdersBlock& block, GridLines lines) {
-    const auto next = block.next_step(lines.steps);
-    if (!next)
-        return std::nullopt;
-    lines.steps.push_back(*next);
-    return lines;
+    return with_one_more(std::move(lines), &GridLines::steps, block.next_step);
 }
 
 std::size_t most_runs(const OrdersBlock& block) {

@@ -92,6 +92,12 @@ BOOST_AUTO_TEST_CASE(a_pole_of_a_source_alone_is_said_of_it) {
     const std::string wide =
         remark_of("x*(2 + t)", "diff(u, t) - u/(x - 1/2)", "[domain]\nx = [0, 1e300]\n");
     BOOST_TEST(wide.ends_with("is 0 at t = 0, x = 0.5"), wide);
+    // The domain's length is beyond a double, and t = 1e-304 is not 0.
+    const std::string widest =
+        remark_of("cos(t + 1)*t", "diff(u, t) - u/(x - 1/2)", "[domain]\nx = [-9e307, 9e307]\n");
+    BOOST_TEST(widest.ends_with("is 0 at t = 0, x = 0.5"), widest);
+    const std::string tiny = remark_of("exp(x)*(2 + t)", "diff(u, t) - u/(1e300*t - 1e-4)");
+    BOOST_TEST(tiny.find("t = 1e-304") != std::string::npos, tiny);
 }
 
 BOOST_AUTO_TEST_CASE(a_narrow_pole_between_the_points_is_not_overlooked) {

@@ -217,6 +217,25 @@ BOOST_AUTO_TEST_CASE(every_norm_of_the_two_paths_is_compared) {
     BOOST_TEST(std::isnan(path_difference({std::nan(""), 0.5, 0.5}, {0.5, 0.4, 0.3}, scales)));
 }
 
+// Squares of 1e-165 are no numbers: what is that small is not compared, and what is not compared is
+// no failure.
+BOOST_AUTO_TEST_CASE(paths_are_compared_only_where_their_squares_are_numbers) {
+    StressParameters small;
+    small.alpha = 0.5;
+    small.zeta = 0.1;
+    small.dt = 0.01;
+    small.elements = 8;
+    small.load = 0.0;
+    for (const auto& time : TimeScheme::names())
+        for (const double theta_A : {1e-165, 1e-100}) {
+            small.time = time;
+            small.theta_A = theta_A;
+            const StressCase result = judge(small);
+            BOOST_TEST(name_of(result.outcome) == "certified", result.reason);
+            BOOST_TEST(result.checks->path.has_value() == (theta_A == 1e-100));
+        }
+}
+
 // Each by itself, at both sides where it has two; what is no number holds nothing.
 BOOST_AUTO_TEST_CASE(every_check_beyond_its_limit_is_named) {
     BOOST_TEST(violation({}) == "");
