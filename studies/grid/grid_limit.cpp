@@ -46,6 +46,7 @@ private:
     static LimitEstimate along(const std::set<double>& widths,
                                const std::function<double(double)>& value) {
         std::vector<ValueRow> rows;
+        rows.reserve(widths.size());
         const std::vector<double> falling(widths.rbegin(), widths.rend());
         for (const double width : falling)
             rows.push_back({width, value(width)});
