@@ -153,9 +153,12 @@ void read_solver_of(Scene& scene, TableReader& root) {
             foreign.push_back(kind->name());
     for (const auto& key : foreign)
         if (root.has(key))
-            throw InputError(root.place(key),
-                             key + " is of a scene of the beam, and this one has a block [solver]; "
-                                   "remove one of the two");
+            throw InputError(
+                root.place(key),
+                key + " is of a scene of the beam, and this one has a block [solver]; " +
+                    (key == "reference" ? "leave it out and let the program print values: their "
+                                          "limit is estimated from the levels, with its interval"
+                                        : "remove one of the two"));
     scene.solver =
         read_solver(*root.table("solver"), std::filesystem::path(scene.file).parent_path());
 }
