@@ -11,6 +11,17 @@
 
 namespace tvbeam {
 
+/// A directory with a German locale, made once in a program; empty where it cannot be made.
+inline const TemporaryDirectory& german_locale() {
+    static const TemporaryDirectory directory;
+    static const int status =
+        std::system(("localedef -i de_DE -f UTF-8 " + (directory.path() / "de_DE.UTF-8").string() +
+                     " 2>/dev/null")
+                        .c_str());
+    static_cast<void>(status); // setlocale says whether it is there
+    return directory;
+}
+
 /// While it lives, decimals have a comma and thousands a point: for C++, and for C by a German
 /// locale that is made for the test. Where it cannot be made (Debian's package locales is missing),
 /// the test's log says that C goes on as it was.
@@ -23,11 +34,8 @@ public:
             std::string do_grouping() const override { return "\3"; }
         };
         before_ = std::locale::global(std::locale(std::locale::classic(), new Comma));
-        const std::string name = (directory_.path() / "de_DE.UTF-8").string();
-        const bool made =
-            std::system(("localedef -i de_DE -f UTF-8 " + name + " 2>/dev/null").c_str()) == 0;
-        ::setenv("LOCPATH", directory_.path().c_str(), 1);
-        if (!made || std::setlocale(LC_ALL, "de_DE.UTF-8") == nullptr)
+        ::setenv("LOCPATH", german_locale().path().c_str(), 1);
+        if (std::setlocale(LC_ALL, "de_DE.UTF-8") == nullptr)
             BOOST_TEST_MESSAGE("skipped for C: localedef cannot make de_DE.UTF-8");
         else
             BOOST_TEST(std::localeconv()->decimal_point == std::string(","));
@@ -43,7 +51,6 @@ public:
     CommaLocale& operator=(CommaLocale&&) = delete;
 
 private:
-    TemporaryDirectory directory_;
     std::locale before_;
 };
 
