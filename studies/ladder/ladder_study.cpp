@@ -133,6 +133,22 @@ void expect_method(TableReader& table, const std::string& key, const std::string
     finish_expecting(*inner, before, expectations);
 }
 
+/// remarks = ["…"]: sentences that the result must say of measure k, among others.
+void expect_remarks(TableReader& table, const std::string& name, std::size_t k,
+                    std::vector<Expectation>& expectations) {
+    const auto wanted = table.texts("remarks").value_or(std::vector<std::string>{});
+    for (std::size_t i = 0; i < wanted.size(); ++i)
+        expectations.push_back([what = "ladder." + name + ": remark", sentence = wanted[i], k,
+                                place = table.place("remarks", i)](const StudyResult& result) {
+            const auto& said = result.get<LadderResult>()->norms[k].remarks;
+            const bool holds = std::find(said.begin(), said.end(), sentence) != said.end();
+            std::string all;
+            for (const auto& one : said)
+                all += (all.empty() ? "" : " ") + one;
+            return std::vector<CheckedExpectation>{{what, sentence, all, place, holds}};
+        });
+}
+
 /// Of an error the order along the ladder; of a value also its limit, the uncertainty of the finest
 /// and what methods that have names say.
 void expect_analysis(TableReader& table, const Measure& measure, std::size_t k,
@@ -203,9 +219,7 @@ struct LadderStudy final : KindOf<LadderBlock, LadderResult> {
         const auto read = [&](TableReader& norm, std::size_t k) {
             if (block_in(block).says_orders)
                 expect_analysis(norm, series.measures[k], k, expectations);
-            expect_words(norm, "remarks", expectations, [k](const StudyResult& result) {
-                return result.get<LadderResult>()->norms[k].remarks;
-            });
+            expect_remarks(norm, series.measures[k].name, k, expectations);
             if (series.measures[k].is_value)
                 return;
             expect_orders(norm, series, k, expectations);

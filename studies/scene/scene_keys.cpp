@@ -310,7 +310,7 @@ Entries of_expectations() {
         {"expect.ladder.NORM.predicted_place", KeyType::band, "anything",
          "where in the predicted interval an error lies, from 0 to 1"},
         {"expect.ladder.NORM.remarks", KeyType::texts, "anything",
-         "what the result says of it, sentence by sentence"},
+         "sentences that the result must say of it, among others"},
         {"expect.ladder.NORM.order", KeyType::band, "anything",
          "the order along the ladder, where it has [solver] or `until`"},
         {"expect.ladder.NORM.order_determined", KeyType::flag, "anything", "whether it is known"},

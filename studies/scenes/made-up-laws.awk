@@ -27,6 +27,7 @@ BEGIN {
     error("late", h / (1 + 20 * h))                          # 1, but not before the end
     error("to_and_fro", h^2 * (1 + 0.02 * sign))
     error("scattered", h^2 * (1 + 0.03 * z))
+    error("wavy", h^2 * (1 + 0.06 * (int(level / 2) % 2 ? -1 : 1)) * (1 + 0.002 * z)) # two runs a mesh, and off the law
     error("logarithm", h^2 * log(4 / h))
     error("floor", h^2 + 2e-3)
     error("rough_floor", 2 * h^3 + 1e-4 * (1 + 0.3 * z))
@@ -45,6 +46,7 @@ BEGIN {
     value("v_steep", 1 + 50 * h^5)
     value("v_to_and_fro", 1 + 0.3 * sign * h)
     value("v_scattered", 1 + 0.3 * h^2 + 2e-4 * z)
+    value("v_wavy", 1 + 0.3 * h^2 * (1 + 0.06 * (int(level / 2) % 2 ? -1 : 1)) * (1 + 0.002 * z))
     value("v_crawling", 1 + h^0.1)
     value("v_apart", log(h))
     value("v_standing", 0.1)
