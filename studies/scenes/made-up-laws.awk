@@ -45,6 +45,7 @@ BEGIN {
     value("v_slow", 1 + 0.4 * h^0.4)
     value("v_steep", 1 + 50 * h^5)
     value("v_to_and_fro", 1 + 0.3 * sign * h)
+    value("v_turns", 1 + 0.3 * h^2 - 0.005 * h)              # its last step goes back
     value("v_scattered", 1 + 0.3 * h^2 + 2e-4 * z)
     value("v_wavy", 1 + 0.3 * h^2 * (1 + 0.06 * (int(level / 2) % 2 ? -1 : 1)) * (1 + 0.002 * z))
     value("v_crawling", 1 + h^0.1)
