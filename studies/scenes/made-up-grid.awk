@@ -19,6 +19,7 @@ BEGIN {
     printf "v_plain = %.17g\n", 3 + 0.5 * h^2 - 0.3 * dt
     printf "v_swapped = %.17g\n", 3 + 0.2 * h + 0.7 * dt^2
     printf "v_mixed = %.17g\n", 3 + 0.5 * h^2 - 0.3 * dt + 2 * h^2 * dt
+    printf "v_coupled = %.17g\n", 3 + 0.5 * h^2 - 0.3 * dt + 20 * h^2 * dt
     printf "v_apart_in_dt = %.17g\n", 3 + 0.5 * h^2 + 0.1 * log(dt)
 
     if (clock == "steps are dear")
