@@ -222,6 +222,7 @@ def operators_in_space():
                                        for i in space])
     sources |= numbered("rows", [a - 3 * b for a, b in zip(product(m, v), product(turned(m), v))])
     sources["squares"] = (total(0.5 * (slopes[i][j] + slopes[j][i]) * slopes[i][j] for i in space for j in space)
+                          + total(slopes[i][j] * m[i][j] for i in space for j in space)
                           - total(m[i][j] * m[j][i] for i in space for j in space)
                           + total(a * a for a in v) / 0.75 - total(shear[i][i] for i in space))
     sources["signs"] = u * u * u + field(
