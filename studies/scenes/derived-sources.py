@@ -275,7 +275,7 @@ class Derived:
         if language in ("c", "c++", "freefem"):
             self.read_braces(re.sub(r"//.*", "", text).replace("std::", ""))
         elif language == "fortran":
-            text = re.sub(r"&\n\s*", "", re.sub(r"!.*", "", text)).replace("_dp", "")
+            text = re.sub(r"&\n\s*", " ", re.sub(r"!.*", "", text)).replace("_dp", "")
             self.read_blocks(text, r"parameter :: (\w+) = (.*)", r"(?:function|subroutine) (\w+)\((.*?)\)\n(.*?)\n *end")
         elif language == "moose":
             self.read_moose(re.sub(r"#.*", "", text))
