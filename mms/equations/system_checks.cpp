@@ -38,9 +38,13 @@ public:
     explicit SystemCheck(DerivedSystem& derived)
         : derived_(derived), points_(points_inside(derived.system, point_count)) {}
 
-    std::vector<Remark> remarks() {
+    void require_exact_values() {
         for (const DerivedFunction* exact : derived_.of_role(Role::exact))
             require_values(*exact);
+    }
+
+    std::vector<Remark> remarks() {
+        require_exact_values();
         for (const DerivedFunction* source : derived_.of_role(Role::source)) {
             look_for_zero(*source);
             look_for_unexercised(*source);
@@ -164,6 +168,10 @@ private:
 
 std::vector<Remark> checked_system(DerivedSystem& derived) {
     return SystemCheck(derived).remarks();
+}
+
+void require_exact_values(DerivedSystem& derived) {
+    SystemCheck(derived).require_exact_values();
 }
 
 std::vector<DomainPoint> points_inside(const EquationSystem& system, std::size_t count) {

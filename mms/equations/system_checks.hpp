@@ -28,6 +28,9 @@ struct Remark {
 /// rounding. Throws InputError where an exact value itself has a pole in the domain, or no value.
 std::vector<Remark> checked_system(DerivedSystem& derived);
 
+/// The last of it alone: what is refused, without what is only said.
+void require_exact_values(DerivedSystem& derived);
+
 /// A point of the domain: values of the coordinates.
 using DomainPoint = std::map<std::string, double>;
 

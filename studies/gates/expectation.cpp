@@ -4,12 +4,14 @@
 #include "mms/text/toml_reader.hpp"
 #include "studies/orders/order_engine.hpp"
 #include "studies/orders/verdict.hpp"
+#include "studies/scene/until.hpp"
 #include "studies/study.hpp"
 
 #include <boost/algorithm/string/join.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 #include <sstream>
 
 namespace tvbeam {
@@ -159,6 +161,28 @@ void expect_numbers(TableReader& table, const std::string& key,
         expectations.push_back(
             all_of(table, key, texts_of(*wanted),
                    [found](const StudyResult& result) { return texts_of(found(result)); }));
+}
+
+void expect_refined(TableReader& table, const std::string& study,
+                    std::vector<Expectation>& expectations,
+                    const std::function<Refined(const StudyResult&)>& refined) {
+    expect_words(table, "ended_by", expectations, [refined](const StudyResult& result) {
+        return std::vector{name_of(refined(result).end)};
+    });
+    expect_words(table, "open", expectations,
+                 [refined](const StudyResult& result) { return refined(result).open; });
+    expect_numbers(table, "elements", expectations, [study](const StudyResult& result) {
+        std::set<double> elements;
+        for (const auto& run : runs_of(result, study))
+            elements.insert(static_cast<double>(run.rung.elements));
+        return std::vector<double>(elements.begin(), elements.end());
+    });
+    expect_numbers(table, "dt", expectations, [study](const StudyResult& result) {
+        std::set<double> steps;
+        for (const auto& run : runs_of(result, study))
+            steps.insert(run.rung.dt);
+        return std::vector<double>(steps.rbegin(), steps.rend());
+    });
 }
 
 void expect_interval(TableReader& table, const std::string& key,

@@ -12,6 +12,7 @@
 namespace tvbeam {
 
 struct OrderInterval;
+struct Refined;
 struct RowVerdict;
 struct StudyResult;
 class TableReader;
@@ -58,6 +59,12 @@ void expect_words(TableReader& table, const std::string& key,
                   std::vector<Expectation>& expectations, const Words& found);
 void expect_numbers(TableReader& table, const std::string& key,
                     std::vector<Expectation>& expectations, const Numbers& found);
+
+/// What refining by `until` came to: ended_by and open, in words; elements and dt, the different
+/// ones of all runs of the study, from coarse to fine.
+void expect_refined(TableReader& table, const std::string& study,
+                    std::vector<Expectation>& expectations,
+                    const std::function<Refined(const StudyResult&)>& refined);
 
 /// Of an order or a limit with its 95 % interval: KEY_determined = true or false, KEY_holds = a
 /// number that the interval must hold, KEY_half_width = [lo, hi]. add(judge): for each that the

@@ -28,9 +28,6 @@ namespace tvbeam {
 
 namespace {
 
-constexpr const char* of_generated_code =
-    "the same functions in another language: tests/equations, tests/external";
-
 /// Keys that change no number of a result.
 const std::vector<FeatureTable::Exception> without_numbers{
     {"key title", "what the scene is called"},
@@ -43,15 +40,6 @@ const std::vector<FeatureTable::Exception> without_numbers{
     {"key work_precision.targets", "errors whose times are compared"},
     {"key work_precision.targets.NORM", "errors whose times are compared"},
     {"key solver.timeout", "how long a run may take: tests/external"},
-    {"key solver.language = c", of_generated_code},
-    {"key solver.language = c++", of_generated_code},
-    {"key solver.language = fortran", of_generated_code},
-    {"key solver.language = freefem", of_generated_code},
-    {"key solver.language = julia", of_generated_code},
-    {"key solver.language = moose", of_generated_code},
-    {"key solver.language = ufl", of_generated_code},
-    {"key ladder.until.seconds", "how long all runs may take: tests/external"},
-    {"key orders.until.seconds", "how long all runs may take: tests/external"},
     {"key stress.sweep.NAME.work", "how many steps a case may have: tests/studies/stress.cpp"},
 };
 

@@ -52,6 +52,14 @@ CheckedExpectation judged(const JudgeInterval& judge, bool in_h, const OrdersRes
     return judge("orders." + orders.norm + (in_h ? ": p" : ": q"), order);
 }
 
+/// The runs that a fit leaves out, and why: "s = 4, dt = 0.1: too coarse for the model: …".
+std::vector<std::string> rejected(const OrdersResult& result, std::size_t k) {
+    std::vector<std::string> words;
+    for (const auto& one : result.norms[k].fit.rejected)
+        words.push_back(result.runs[one.record].rung.name(metric_text) + ": " + one.reason);
+    return words;
+}
+
 /// Sizes that the grid gives to terms of the forecast orders, over the forecast ones.
 std::vector<Metric> forecast_metrics(std::size_t k, double within, const StudyResult& result) {
     const OrdersBlock& block = *result.scene.get<OrdersBlock>();
@@ -168,8 +176,8 @@ struct OrdersStudy final : KindOf<OrdersBlock, OrdersResult> {
     void expect(TableReader& table, const std::any& block,
                 std::vector<Expectation>& expectations) const override {
         if (block_in(block).until)
-            expect_words(table, "ended_by", expectations, [](const StudyResult& result) {
-                return std::vector{name_of(result.get<OrdersResult>()->refined->end)};
+            expect_refined(table, name(), expectations, [](const StudyResult& result) {
+                return *result.get<OrdersResult>()->refined;
             });
         const auto read = [&](TableReader& norm, std::size_t k) {
             if (block_in(block).norms[k].is_value) {
@@ -188,6 +196,9 @@ struct OrdersStudy final : KindOf<OrdersBlock, OrdersResult> {
                         return std::vector{judged(judge, in_h, *result.get<OrdersResult>(), k)};
                     });
                 });
+            expect_words(norm, "left_out", expectations, [k](const StudyResult& result) {
+                return rejected(*result.get<OrdersResult>(), k);
+            });
             if (const auto within = norm.number("forecast")) {
                 if (!(*within > 0.0 && *within <= widest_part))
                     throw norm.error("forecast", " must be > 0 and at most 0.5: by what part a and "

@@ -110,19 +110,61 @@ void expect_found(TableReader& table, const std::string& key, const std::string&
     });
 }
 
-/// Of an error the order along the ladder; of a value its limit, and the uncertainty of the finest.
+/// gci = { limit = [lo, hi], uncertainty = …, order = … }: what a method that has a name says.
+void expect_method(TableReader& table, const std::string& key, const std::string& name,
+                   std::size_t k, std::optional<MethodLimit> LimitEstimate::*method,
+                   std::vector<Expectation>& expectations) {
+    auto inner = table.table(key);
+    if (!inner)
+        return;
+    const std::size_t before = expectations.size();
+    for (const auto& [word, figure] : {std::pair("limit", &MethodLimit::limit),
+                                       {"uncertainty", &MethodLimit::uncertainty},
+                                       {"order", &MethodLimit::order}})
+        expect_band(*inner, word, expectations,
+                    [what = name + key + ", " + word, k, method,
+                     figure = figure](const StudyResult& result) {
+                        const auto& column = result.get<LadderResult>()->analysis->columns[k];
+                        const auto& found = (*column.limit).*method;
+                        return std::vector{
+                            Metric{what, found ? std::optional((*found).*figure) : std::nullopt,
+                                   "the method says nothing of these values"}};
+                    });
+    finish_expecting(*inner, before, expectations);
+}
+
+/// remarks = ["…"]: sentences that the result must say of measure k, among others.
+void expect_remarks(TableReader& table, const std::string& name, std::size_t k,
+                    std::vector<Expectation>& expectations) {
+    const auto wanted = table.texts("remarks").value_or(std::vector<std::string>{});
+    for (std::size_t i = 0; i < wanted.size(); ++i)
+        expectations.push_back([what = "ladder." + name + ": remark", sentence = wanted[i], k,
+                                place = table.place("remarks", i)](const StudyResult& result) {
+            const auto& said = result.get<LadderResult>()->norms[k].remarks;
+            const bool holds = std::find(said.begin(), said.end(), sentence) != said.end();
+            std::string all;
+            for (const auto& one : said)
+                all += (all.empty() ? "" : " ") + one;
+            return std::vector<CheckedExpectation>{{what, sentence, all, place, holds}};
+        });
+}
+
+/// Of an error the order along the ladder; of a value also its limit, the uncertainty of the finest
+/// and what methods that have names say.
 void expect_analysis(TableReader& table, const Measure& measure, std::size_t k,
                      std::vector<Expectation>& expectations) {
     const std::string name = "ladder." + measure.name + ": ";
-    if (!measure.is_value) {
-        expect_found(
-            table, "order", name + "order along the ladder", k,
-            [](const ColumnAnalysis& column) -> const OrderInterval& {
-                return column.by_width.front();
-            },
-            expectations);
+    expect_found(
+        table, "order", name + "order along the ladder", k,
+        [](const ColumnAnalysis& column) -> const OrderInterval& {
+            return column.by_width.front();
+        },
+        expectations);
+    if (!measure.is_value)
         return;
-    }
+    expect_method(table, "gci", name, k, &LimitEstimate::gci, expectations);
+    expect_method(table, "celik", name, k, &LimitEstimate::celik, expectations);
+    expect_method(table, "eca_hoekstra", name, k, &LimitEstimate::eca_hoekstra, expectations);
     expect_found(
         table, "limit", name + "limit", k,
         [](const ColumnAnalysis& column) -> const OrderInterval& { return column.limit->limit; },
@@ -171,12 +213,13 @@ struct LadderStudy final : KindOf<LadderBlock, LadderResult> {
                 std::vector<Expectation>& expectations) const override {
         const Series series = series_of(block_in(block), {});
         if (block_in(block).until)
-            expect_words(table, "ended_by", expectations, [](const StudyResult& result) {
-                return std::vector{name_of(result.get<LadderResult>()->refined->end)};
+            expect_refined(table, name(), expectations, [](const StudyResult& result) {
+                return *result.get<LadderResult>()->refined;
             });
         const auto read = [&](TableReader& norm, std::size_t k) {
             if (block_in(block).says_orders)
                 expect_analysis(norm, series.measures[k], k, expectations);
+            expect_remarks(norm, series.measures[k].name, k, expectations);
             if (series.measures[k].is_value)
                 return;
             expect_orders(norm, series, k, expectations);

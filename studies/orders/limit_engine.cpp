@@ -243,7 +243,11 @@ LimitEstimate estimate_limit(std::span<const ValueRow> rows, const LimitTuning& 
     }
     result.gci = gci_of(given);
     result.celik = celik_of(given);
-    result.eca_hoekstra = eca_hoekstra_of(given);
+    result.eca_hoekstra = eca_hoekstra_of(levels);
+    if (auto& least_squares = result.eca_hoekstra) {
+        least_squares->limit = origin + scale * least_squares->limit;
+        least_squares->uncertainty *= scale;
+    }
     if (is_significant(given) && result.gci && result.gci->order < least_order) {
         result.limit.status = result.order.status = "the order of the finest values is below 0.2";
         return result;

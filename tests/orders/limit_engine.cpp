@@ -129,6 +129,23 @@ BOOST_AUTO_TEST_CASE(the_uncertainty_of_eca_and_hoekstra_is_theirs) {
     BOOST_TEST(std::abs(found->uncertainty - (12.5 + std::sqrt(302.4) + 3)) < 1e-3);
 }
 
+// A factor 1e-160 on all values is one on limits and uncertainties, though no double holds the
+// squares of such values.
+BOOST_AUTO_TEST_CASE(no_method_depends_on_the_scale_of_the_values) {
+    const auto value = [](double h) { return 1 + 2 * std::pow(h, 1.5); };
+    const auto large = estimate_limit(sequence(5, value));
+    const auto small = estimate_limit(sequence(5, [&](double h) { return 1e-160 * value(h); }));
+    for (const auto method :
+         {&LimitEstimate::gci, &LimitEstimate::celik, &LimitEstimate::eca_hoekstra}) {
+        BOOST_REQUIRE((large.*method).has_value());
+        BOOST_REQUIRE((small.*method).has_value());
+        BOOST_TEST(std::abs((small.*method)->order - (large.*method)->order) < 1e-5);
+        BOOST_TEST(std::abs(1e160 * (small.*method)->limit - (large.*method)->limit) < 1e-6);
+        BOOST_TEST(std::abs(1e160 * (small.*method)->uncertainty - (large.*method)->uncertainty) <
+                   1e-6);
+    }
+}
+
 // A 95 % interval may miss one case of twenty, and of these the most extreme: p = ½, and a next
 // term as large as the first.
 BOOST_AUTO_TEST_CASE(the_limit_of_a_power_with_a_next_term_is_held) {

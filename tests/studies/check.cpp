@@ -274,6 +274,64 @@ BOOST_AUTO_TEST_CASE(intervals_are_expected_to_be_determined_to_hold_and_to_be_n
     BOOST_TEST(all[2].found.starts_with("not determined: hidden"), all[2].found);
 }
 
+BOOST_AUTO_TEST_CASE(what_refining_came_to_and_what_is_said_of_a_program_is_expected) {
+    // An error h² and a value 1 + h²: known with the fourth level; Richardson's limit of the three
+    // finest values is 1, and Roache's index 1.25 (f_2 − f_1)/3 = 1.25/64 = 0.0195.
+    const auto of = [](const std::string& expect) {
+        const TemporaryDirectory directory;
+        const std::string file = directory.write("s.toml", R"([solver]
+command = ["awk", "-v", "h={h}", 'BEGIN { print "L2 = " h^2; printf "drag = %.17g\n", 1 + h^2 }']
+errors  = { L2 = 'L2 = (\S+)' }
+values  = { drag = 'drag = (\S+)' }
+[ladder]
+elements = [1, 2, 4]
+norms    = ["L2"]
+values   = ["drag"]
+until    = { order = 0.05, levels = 6 }
+)" + expect);
+        return violations(check(run_study(read_scene(file, {}, {.expectations = true}))));
+    };
+    BOOST_TEST(of("[expect.ladder]\nended_by = [\"known\"]\nopen = []\n"
+                  "elements = [1, 2, 4, 8]\n") == 0u);
+    BOOST_TEST(of("[expect.ladder]\nended_by = [\"levels\"]\nopen = [\"L2\"]\n"
+                  "elements = [1, 2, 4]\n") == 3u);
+    const std::string said = "[expect.ladder.L2]\nremarks = ";
+    BOOST_TEST(of(said + "[\"L2: order 2.00 up to s = 8.\"]\n") == 0u);
+    BOOST_TEST(of(said + "[\"L2: order 2.00 up to s = 4.\"]\n") == 1u);
+    const std::string value = "[expect.ladder.drag]\n";
+    BOOST_TEST(of(value +
+                  "order_holds = 2\ngci = { limit = [0.999, 1.001], order = [1.999, 2.001], "
+                  "uncertainty = [0.0195, 0.0196] }\n"
+                  "celik.order = [1.999, 2.001]\n"
+                  "eca_hoekstra.limit = [0.999, 1.001]\n") == 0u);
+    BOOST_TEST(of(value + "order_holds = 1\ngci = { limit = [1.001, 1.002], order = [1, 1.9], "
+                          "uncertainty = [0.0196, 0.02] }\n"
+                          "celik.order = [1, 1.9]\n"
+                          "eca_hoekstra.limit = [1.001, 1.002]\n") == 6u);
+}
+
+BOOST_AUTO_TEST_CASE(the_runs_that_a_fit_leaves_out_are_expected_with_their_reasons) {
+    // e = h² + Δt, but for one run, which has three times as much: its ln e is off by ln 3.
+    const auto of = [](const std::string& expect) {
+        const TemporaryDirectory directory;
+        const std::string file = directory.write("s.toml", R"([solver]
+command = ["awk", "-v", "h={h}", "-v", "dt={dt}", "-v", "level={level}",
+           'BEGIN { print "L2 = " (level == 5 ? 3 : 1) * (h^2 + dt) }']
+errors  = { L2 = 'L2 = (\S+)' }
+[orders]
+final_time = 1.0
+elements   = [4, 8, 16, 32]
+dt         = [0.1, 0.05, 0.025, 0.0125]
+norms      = ["L2"]
+[expect.orders.L2]
+)" + expect);
+        return violations(check(run_study(read_scene(file, {}, {.expectations = true}))));
+    };
+    BOOST_TEST(of("left_out = [\"s = 8, dt = 0.05: out of line with its neighbours: the error is 3 "
+                  "times the model's\"]\n") == 0u);
+    BOOST_TEST(of("left_out = []\n") == 1u);
+}
+
 BOOST_AUTO_TEST_CASE(the_schedule_of_a_reference_is_expected_number_by_number) {
     // Extrapolated from (h, Δt), (2h, Δt) and (h, 2Δt); known at the ends of the steps of both
     // rungs: the multiples of 0.05, which those of 0.1 are among.
