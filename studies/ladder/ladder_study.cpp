@@ -174,11 +174,21 @@ struct LadderStudy final : KindOf<LadderBlock, LadderResult> {
             expect_words(table, "ended_by", expectations, [](const StudyResult& result) {
                 return std::vector{name_of(result.get<LadderResult>()->refined->end)};
             });
+        expect_counters(table, series, expectations);
+        expect_sentences(table, "remarks", expectations, [](const StudyResult& result) {
+            std::vector<std::string> remarks = {result.get<LadderResult>()->quadrature_remark,
+                                                result.get<LadderResult>()->reference_remark};
+            std::erase(remarks, "");
+            return remarks;
+        });
         const auto read = [&](TableReader& norm, std::size_t k) {
             if (block_in(block).says_orders)
                 expect_analysis(norm, series.measures[k], k, expectations);
             if (series.measures[k].is_value)
                 return;
+            expect_sentences(norm, "remarks", expectations, [k](const StudyResult& result) {
+                return result.get<LadderResult>()->norms[k].remarks;
+            });
             expect_orders(norm, series, k, expectations);
             expect_ratios(norm, series, k, block_in(block).printed, expectations);
             expect_errors(norm, series, k, expectations);
