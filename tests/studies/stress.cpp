@@ -396,8 +396,12 @@ BOOST_AUTO_TEST_CASE(a_contact_stress_that_alone_differs_between_the_bases_is_se
 BOOST_AUTO_TEST_CASE(cases_are_counted_by_regime_and_checks_by_their_extremes) {
     const double nan = std::numeric_limits<double>::quiet_NaN();
     StressCase one;
-    one.parameters = {.alpha = 20.0, .zeta = 1.0, .dt = 1e-3, .elements = 10, .time = "bdf2"};
-    one.checks = StressChecks{.energy = 3e-16, .path = 6.0, .path_limit = 30.0};
+    one.parameters.alpha = 20.0;
+    one.parameters.time = "bdf2";
+    one.checks = StressChecks();
+    one.checks->energy = 3e-16;
+    one.checks->path = 6.0;
+    one.checks->path_limit = 30.0;
     StressCase refused = one;
     refused.outcome = Outcome::refused;
     refused.checks.reset();
