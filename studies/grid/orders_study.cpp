@@ -97,6 +97,16 @@ std::vector<Metric> constant_metrics(const std::string& norm, const StudyResult&
              "no run of the grid has an error"}};
 }
 
+/// The meshes, or steps, of all runs, as they come first.
+std::vector<double> widths_of(const OrdersResult& orders,
+                              const std::function<double(const Rung&)>& width) {
+    std::vector<double> widths;
+    for (const auto& run : orders.runs)
+        if (std::find(widths.begin(), widths.end(), width(run.rung)) == widths.end())
+            widths.push_back(width(run.rung));
+    return widths;
+}
+
 /// limit, p and q of a value with their intervals, and the uncertainty of the finest.
 void expect_limit(TableReader& table, const OrdersBlock& block, std::size_t k,
                   std::vector<Expectation>& expectations) {
@@ -171,6 +181,13 @@ struct OrdersStudy final : KindOf<OrdersBlock, OrdersResult> {
             expect_words(table, "ended_by", expectations, [](const StudyResult& result) {
                 return std::vector{name_of(result.get<OrdersResult>()->refined->end)};
             });
+        expect_numbers(table, "elements", expectations, [](const StudyResult& result) {
+            return widths_of(*result.get<OrdersResult>(),
+                             [](const Rung& rung) { return static_cast<double>(rung.elements); });
+        });
+        expect_numbers(table, "dt", expectations, [](const StudyResult& result) {
+            return widths_of(*result.get<OrdersResult>(), [](const Rung& rung) { return rung.dt; });
+        });
         const auto read = [&](TableReader& norm, std::size_t k) {
             if (block_in(block).norms[k].is_value) {
                 expect_limit(norm, block_in(block), k, expectations);
