@@ -1,5 +1,6 @@
 #include "reports/document/stress_section.hpp"
 
+#include "core/worse.hpp"
 #include "reports/document/text_table.hpp"
 #include "studies/text/number_text.hpp"
 
@@ -7,119 +8,52 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <map>
 
 namespace tvbeam {
 
 namespace {
 
-/// The regime of a number by its size: a name that also sorts.
-std::string by_size(double value, double small, double large) {
-    if (value == 0.0)
-        return "= 0";
-    if (value < small)
-        return "< " + shortest(small);
-    return value <= large ? shortest(small) + " to " + shortest(large) : "> " + shortest(large);
+/// The greatest of checks that a column of the table shows together.
+std::optional<double> worst_of(const StressTally& tally, const std::vector<std::string>& checks) {
+    std::optional<double> worst;
+    for (const auto& check : checks)
+        if (const auto value = tally.greatest(check))
+            worst = worst ? worse(*worst, *value) : *value;
+    return worst;
 }
 
-double gap_of(const Stops& stops) {
-    return std::min(-stops.lower, stops.upper);
-}
-
-std::string stops_regime(const Stops& stops) {
-    if (!stops.exist())
-        return "none";
-    const bool both = std::isfinite(stops.lower) && std::isfinite(stops.upper);
-    return std::string(both ? "both" : "one") + (gap_of(stops) < 1e-6 ? ", < 1e-6" : ", >= 1e-6");
-}
-
-/// The regimes that a case belongs to, one a line of the table.
-std::vector<std::string> regimes_of(const StressParameters& p) {
-    return {"alpha " + by_size(p.alpha, 1e-2, 10.0),
-            "zeta " + by_size(p.zeta, 1e-3, 1e3),
-            "dt " + by_size(p.dt, 1e-4, 1.0),
-            "s " + (p.elements <= 3      ? "1 to 3"
-                    : p.elements <= 1000 ? "4 to 1000"
-                                         : std::string("> 1000")),
-            "stops " + stops_regime(p.stops),
-            p.theta_A == 0.0 ? "theta_A = 0" : "theta_A not 0",
-            "load " + by_size(p.load, 1e-9, 1e9),
-            "start " + name_of(p.initial),
-            "mass " + name_of(p.thermal_mass),
-            "time " + p.time,
-            "algorithm " + name_of(p.algorithm)};
-}
-
-struct Tally {
-    std::map<Outcome, int> outcomes;
-    // The worst of each check; none: never made.
-    std::optional<double> energy;
-    std::optional<double> residual;
-    std::optional<double> contact;
-    std::optional<double> path; // over its limit
-};
-
-/// A NaN is worse than any number.
-bool is_worse(double value, double worst) {
-    return value > worst || std::isnan(value);
-}
-
-void raise(std::optional<double>& worst, double value) {
-    if (!worst || is_worse(value, *worst))
-        worst = value;
-}
-
-/// The cases by regime, in the order of the table's lines.
-class Tallies {
-public:
-    void add(const StressCase& one) {
-        const auto regimes = regimes_of(one.parameters);
-        for (std::size_t k = 0; k < regimes.size(); ++k)
-            add(one, tallies_[{k, regimes[k]}]);
-        add(one, tallies_[{regimes.size(), "all"}]);
-    }
-    [[nodiscard]] const auto& all() const { return tallies_; }
-
-private:
-    static void add(const StressCase& one, Tally& tally) {
-        ++tally.outcomes[one.outcome];
-        if (!one.checks)
-            return;
-        raise(tally.energy, one.checks->energy);
-        raise(tally.residual, std::max(one.checks->heat_residual, one.checks->beam_residual));
-        if (one.parameters.stops.exist())
-            raise(tally.contact, std::max({one.checks->penetration, one.checks->wrong_sign,
-                                           one.checks->complementarity}));
-        if (const auto part = one.checks->path_part())
-            raise(tally.path, *part);
-    }
-
-    std::map<std::pair<std::size_t, std::string>, Tally> tallies_;
-};
-
-Table regime_table(const Tallies& tallies) {
+Table regime_table(const StressTallies& tallies) {
     Table::Group key{"", {{"regime", {}}}};
     Table::Group outcomes{"cases",
                           {{"certified", {}}, {"refused", {}}, {"stopped", {}}, {"failed", {}}}};
     Table::Group worst{"worst", {{"energy", {}}, {"resid.", {}}, {"contact", {}}, {"path", {}}}};
-    for (const auto& [regime, tally] : tallies.all()) {
-        key.columns[0].cells.push_back(regime.second);
-        const auto count = [&outcomes = tally.outcomes](Outcome outcome) {
-            const auto found = outcomes.find(outcome);
-            return std::to_string(found == outcomes.end() ? 0 : found->second);
+    const auto add = [&](const std::string& regime, const StressTally& tally) {
+        key.columns[0].cells.push_back(regime);
+        const auto count = [&tally](Outcome outcome) {
+            return std::to_string(tally.count(outcome));
         };
         outcomes.columns[0].cells.push_back(count(Outcome::certified));
         outcomes.columns[1].cells.push_back(count(Outcome::refused));
         outcomes.columns[2].cells.push_back(count(Outcome::stopped));
         outcomes.columns[3].cells.push_back(count(Outcome::failed));
-        worst.columns[0].cells.push_back(scientific(tally.energy, 0));
-        worst.columns[1].cells.push_back(fixed(tally.residual, 1));
-        worst.columns[2].cells.push_back(scientific(tally.contact, 0));
-        worst.columns[3].cells.push_back(fixed(tally.path, 2));
-    }
+        worst.columns[0].cells.push_back(scientific(worst_of(tally, {"energy"}), 0));
+        worst.columns[1].cells.push_back(
+            fixed(worst_of(tally, {"heat_residual", "beam_residual"}), 1));
+        worst.columns[2].cells.push_back(
+            scientific(worst_of(tally, {"penetration", "wrong_sign", "complementarity"}), 0));
+        worst.columns[3].cells.push_back(fixed(worst_of(tally, {"path"}), 2));
+    };
+    for (const auto& [regime, tally] : tallies.regimes())
+        add(regime.second, tally);
+    add("all", tallies.all());
     return {
         "Outcomes of the cases by regime, and the worst of each check.", key, {outcomes, worst}};
+}
+
+/// A NaN is worse than any number.
+bool is_worse(double value, double worst) {
+    return value > worst || std::isnan(value);
 }
 
 /// The case in words: only what tells it apart.
@@ -145,58 +79,32 @@ std::string cases_text(std::size_t count) {
 class WorstCases {
 public:
     void add(const StressCase& one) {
-        for (auto& check : checks_)
-            if (const auto figure = check.figure(one)) {
-                ++check.count;
-                if (!check.worst || is_worse(*figure, check.greatest)) {
-                    check.worst = one.parameters;
-                    check.greatest = *figure;
-                }
+        for (std::size_t k = 0; k < worst_.size(); ++k)
+            if (const auto value = stress_checks()[k].of(one)) {
+                Worst& worst = worst_[k];
+                if (worst.count++ == 0 || is_worse(*value, worst.greatest))
+                    worst = {worst.count, one.parameters, *value};
             }
     }
     [[nodiscard]] std::vector<Block> blocks() const {
         std::vector<Block> items{BlankLine{}, Paragraph{"Worst cases:"}};
-        for (const auto& check : checks_)
-            if (check.worst)
-                items.emplace_back(
-                    Item{fmt::format("{}: {} ({}): {}", check.name, scientific(check.greatest, 1),
-                                     cases_text(check.count), text_of(*check.worst)),
-                         6});
+        for (std::size_t k = 0; k < worst_.size(); ++k)
+            if (const auto& [count, parameters, greatest] = worst_[k];
+                count > 0 && !stress_checks()[k].words.empty())
+                items.emplace_back(Item{fmt::format("{}: {} ({}): {}", stress_checks()[k].words,
+                                                    scientific(greatest, 1), cases_text(count),
+                                                    text_of(parameters)),
+                                        6});
         return items;
     }
 
 private:
-    using Figure = std::function<std::optional<double>(const StressCase&)>;
-    struct Check {
-        std::string name;
-        Figure figure;
+    struct Worst {
         std::size_t count = 0; ///< of the cases that have it
-        std::optional<StressParameters> worst = {};
+        StressParameters parameters;
         double greatest = 0.0;
     };
-    static Figure of(double StressChecks::*check) {
-        return [check](const StressCase& one) {
-            return one.checks ? std::optional((*one.checks).*check) : std::nullopt;
-        };
-    }
-    static Figure of_contact(double StressChecks::*check) {
-        return [check](const StressCase& one) {
-            return one.checks && one.parameters.stops.exist() ? std::optional((*one.checks).*check)
-                                                              : std::nullopt;
-        };
-    }
-
-    std::vector<Check> checks_{
-        {"energy law", of(&StressChecks::energy)},
-        {"heat residual", of(&StressChecks::heat_residual)},
-        {"beam residual", of(&StressChecks::beam_residual)},
-        {"penetration", of_contact(&StressChecks::penetration)},
-        {"wrong sign", of_contact(&StressChecks::wrong_sign)},
-        {"min-residual", of_contact(&StressChecks::complementarity)},
-        {"path, of its limit",
-         [](const StressCase& one) { return one.checks ? one.checks->path_part() : std::nullopt; }},
-        {"error/predicted",
-         [](const StressCase& one) { return one.checks ? one.checks->error : std::nullopt; }}};
+    std::vector<Worst> worst_ = std::vector<Worst>(stress_checks().size());
 };
 
 /// The text of a reason without its numbers, to count those alike.
@@ -238,17 +146,15 @@ private:
 };
 
 Section case_section(const StressCases& cases) {
-    Tallies tallies;
     WorstCases worst;
     Reasons reasons;
     cases.visit([&](const StressCase& one) {
-        tallies.add(one);
         worst.add(one);
         reasons.add(one);
     });
     Section section{
         "Stress",
-        {regime_table(tallies),
+        {regime_table(cases.tallies()),
          Paragraph{"energy: energy law, of its terms (limit 1e-12); resid.: of both equations, "
                    "in units of round-off (64); contact: penetration, wrong sign or "
                    "min-residual, of the tip's scale (1e-13); path: sine basis against nodal "
@@ -338,19 +244,6 @@ Section round_off_section(const RoundOffTable& table) {
 }
 
 } // namespace
-
-std::string name_of(InitialData initial) {
-    switch (initial) {
-    case InitialData::zero:
-        return "zero";
-    case InitialData::smooth:
-        return "smooth";
-    case InitialData::rough:
-        return "rough";
-    default:
-        return "random";
-    }
-}
 
 std::vector<Section> stress_sections(const StressResult& result) {
     std::vector<Section> sections;

@@ -3,7 +3,6 @@
 #include "reports/document/document.hpp"
 #include "studies/stress/stress.hpp"
 
-#include <string>
 #include <vector>
 
 namespace tvbeam {
@@ -11,8 +10,5 @@ namespace tvbeam {
 /// The stress study: outcomes by regime, the worst case of each check, the reasons of what was
 /// refused or stopped; the contraction map; the round-off table. A section for each that there is.
 std::vector<Section> stress_sections(const StressResult& result);
-
-/// The name of a kind of initial data, as a scene gives it.
-std::string name_of(InitialData initial);
 
 } // namespace tvbeam

@@ -91,6 +91,13 @@ std::optional<double> ProbeHistory::greatest_error() const {
     return greatest;
 }
 
+double ProbeHistory::mean() const {
+    const auto undefined = [](double value) { return std::isnan(value); };
+    const auto from = std::find_if_not(values.begin(), values.end(), undefined);
+    return std::accumulate(from, values.end(), 0.0) /
+           static_cast<double>(std::distance(from, values.end()));
+}
+
 std::map<std::string, double> EvolutionResult::figures() const {
     std::map<std::string, double> figures{{"beyond_stops", beyond_stops}};
     for (const auto& probe : probes) {
@@ -98,11 +105,18 @@ std::map<std::string, double> EvolutionResult::figures() const {
             figures[probe.name + ".least"] = probe.values[*least];
         if (const auto greatest = probe.greatest())
             figures[probe.name + ".greatest"] = probe.values[*greatest];
-        if (!probe.values.empty())
+        if (!probe.values.empty()) {
             figures[probe.name + ".last"] = probe.values.back();
+            if (!std::isnan(probe.values.front()))
+                figures[probe.name + ".first"] = probe.values.front();
+            figures[probe.name + ".mean"] = probe.mean();
+        }
         if (const auto error = probe.greatest_error())
             figures[probe.name + ".error"] = *error;
     }
+    figures["samples"] = static_cast<double>(t.size());
+    for (std::size_t k = 0; k < probes.size() && !periods.empty(); ++k)
+        figures[probes[k].name + ".period_change"] = periods.back().changes[k];
     if (!periods.empty())
         figures["period_change"] = std::accumulate(periods.back().changes.begin(),
                                                    periods.back().changes.end(), 0.0, worse);

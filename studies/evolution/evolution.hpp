@@ -25,6 +25,8 @@ struct ProbeHistory {
     /// The samples with the least and the greatest value; none where no value is defined.
     [[nodiscard]] std::optional<std::size_t> least() const;
     [[nodiscard]] std::optional<std::size_t> greatest() const;
+    /// Of the samples from the first one with a value on.
+    [[nodiscard]] double mean() const;
     /// The greatest |value − exact|; not a number where an exact value is none.
     [[nodiscard]] std::optional<double> greatest_error() const;
 };
@@ -44,9 +46,10 @@ struct EvolutionResult {
     double beyond_stops = 0.0;         ///< ContactEvents::beyond_stops
     std::vector<PeriodChange> periods; ///< from the second one on
 
-    /// What [expect.evolution] may hold bands for: PROBE.least, PROBE.greatest, PROBE.last,
-    /// PROBE.error; beyond_stops, period_change (of the last period, the greatest of all probes);
-    /// onsets, releases (how many), onset.1, release.1, … (when).
+    /// What [expect.evolution] may hold bands for: PROBE.least, .greatest, .first, .last,
+    /// .mean, .error, .period_change (of the last period); samples (how many), beyond_stops,
+    /// period_change (the greatest of all probes); onsets, releases (how many), onset.1,
+    /// release.1, … (when).
     [[nodiscard]] std::map<std::string, double> figures() const;
 };
 

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 #include <sstream>
 
@@ -155,6 +156,17 @@ void expect_words(TableReader& table, const std::string& key,
         expectations.push_back(all_of(table, key, *wanted, found));
 }
 
+void expect_sentences(TableReader& table, const std::string& key,
+                      std::vector<Expectation>& expectations, const Words& found) {
+    expect_words(table, key, expectations, [found, wanted = table.texts(key)](const auto& result) {
+        auto sentences = found(result);
+        for (std::size_t i = 0; i < sentences.size() && i < wanted->size(); ++i)
+            if (sentences[i].starts_with((*wanted)[i]))
+                sentences[i] = (*wanted)[i];
+        return sentences;
+    });
+}
+
 void expect_numbers(TableReader& table, const std::string& key,
                     std::vector<Expectation>& expectations, const Numbers& found) {
     if (const auto wanted = table.numbers(key))
@@ -230,6 +242,27 @@ void expect_orders(TableReader& table, const Series& series, std::size_t k,
                                          "nothing: a ladder of one rung has no order"));
         return metrics;
     });
+}
+
+void expect_counters(TableReader& table, const Series& series,
+                     std::vector<Expectation>& expectations) {
+    auto counters = table.table("counters");
+    if (!counters)
+        return;
+    for (const auto& name : counters->unread()) {
+        if (const auto wanted = counters->numbers(name))
+            require_count(*counters, name, wanted->size(), series.rungs.size(), "rung");
+        expect_numbers(*counters, name, expectations, [series, name](const StudyResult& result) {
+            std::vector<double> counts;
+            for (const auto& run : runs_of(result, series.study)) {
+                const bool known = std::ranges::any_of(
+                    run.counters, [&](const Count& one) { return one.name == name; });
+                counts.push_back(known ? static_cast<double>(run.count(name)) : std::nan(""));
+            }
+            return counts;
+        });
+    }
+    counters->finish();
 }
 
 void read_error_bands(TableReader& table, std::size_t count, const std::string& rows,

@@ -53,10 +53,13 @@ void expect_verdicts(TableReader& table, std::size_t count, const std::string& r
                      const std::function<void(JudgeVerdicts)>& add);
 
 /// KEY = [ … ]: all that the result says, word by word or number by number, to six digits.
+/// expect_sentences: sentence by sentence, each by how it begins.
 using Words = std::function<std::vector<std::string>(const StudyResult&)>;
 using Numbers = std::function<std::vector<double>(const StudyResult&)>;
 void expect_words(TableReader& table, const std::string& key,
                   std::vector<Expectation>& expectations, const Words& found);
+void expect_sentences(TableReader& table, const std::string& key,
+                      std::vector<Expectation>& expectations, const Words& found);
 void expect_numbers(TableReader& table, const std::string& key,
                     std::vector<Expectation>& expectations, const Numbers& found);
 
@@ -78,6 +81,10 @@ void expect_orders(TableReader& table, const Series& series, std::size_t k,
                    std::vector<Expectation>& expectations);
 void expect_errors(TableReader& table, const Series& series, std::size_t k,
                    std::vector<Expectation>& expectations);
+
+/// The table counters = { NAME = one a rung } of the series: what its runs did, so many times.
+void expect_counters(TableReader& table, const Series& series,
+                     std::vector<Expectation>& expectations);
 
 /// Relative bands that are wider hold nearly anything.
 inline constexpr double widest_part = 0.5;

@@ -133,22 +133,6 @@ void expect_method(TableReader& table, const std::string& key, const std::string
     finish_expecting(*inner, before, expectations);
 }
 
-/// remarks = ["…"]: sentences that the result must say of measure k, among others.
-void expect_remarks(TableReader& table, const std::string& name, std::size_t k,
-                    std::vector<Expectation>& expectations) {
-    const auto wanted = table.texts("remarks").value_or(std::vector<std::string>{});
-    for (std::size_t i = 0; i < wanted.size(); ++i)
-        expectations.push_back([what = "ladder." + name + ": remark", sentence = wanted[i], k,
-                                place = table.place("remarks", i)](const StudyResult& result) {
-            const auto& said = result.get<LadderResult>()->norms[k].remarks;
-            const bool holds = std::find(said.begin(), said.end(), sentence) != said.end();
-            std::string all;
-            for (const auto& one : said)
-                all += (all.empty() ? "" : " ") + one;
-            return std::vector<CheckedExpectation>{{what, sentence, all, place, holds}};
-        });
-}
-
 /// Of an error the order along the ladder; of a value also its limit, the uncertainty of the finest
 /// and what methods that have names say.
 void expect_analysis(TableReader& table, const Measure& measure, std::size_t k,
@@ -216,10 +200,19 @@ struct LadderStudy final : KindOf<LadderBlock, LadderResult> {
             expect_refined(table, name(), expectations, [](const StudyResult& result) {
                 return *result.get<LadderResult>()->refined;
             });
+        expect_counters(table, series, expectations);
+        expect_sentences(table, "remarks", expectations, [](const StudyResult& result) {
+            std::vector<std::string> remarks = {result.get<LadderResult>()->quadrature_remark,
+                                                result.get<LadderResult>()->reference_remark};
+            std::erase(remarks, "");
+            return remarks;
+        });
         const auto read = [&](TableReader& norm, std::size_t k) {
             if (block_in(block).says_orders)
                 expect_analysis(norm, series.measures[k], k, expectations);
-            expect_remarks(norm, series.measures[k].name, k, expectations);
+            expect_sentences(norm, "remarks", expectations, [k](const StudyResult& result) {
+                return result.get<LadderResult>()->norms[k].remarks;
+            });
             if (series.measures[k].is_value)
                 return;
             expect_orders(norm, series, k, expectations);

@@ -212,6 +212,8 @@ void read_expectations(Scene& scene, TableReader expect) {
             parts.push_back(part_of(sentence));
         return parts;
     });
+    expect_sentences(expect, "remarks", scene.expectations,
+                     [](const StudyResult& result) { return result.remarks; });
     if (auto table = expect.table("reference")) {
         if (!scene.reference)
             throw expect.error("reference", " expects something of a block [reference], which the "

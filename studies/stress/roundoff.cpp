@@ -3,6 +3,7 @@
 #include "core/round_off.hpp"
 #include "core/run.hpp"
 #include "core/time/time_levels.hpp"
+#include "core/worse.hpp"
 #include "studies/stress/mode_solution.hpp"
 
 #include <algorithm>
@@ -158,6 +159,18 @@ double RoundOffTable::least_hermite_ratio() const {
 double RoundOffTable::greatest_hermite_ratio() const {
     const Eigen::ArrayXd ratios = hermite_ratios(rows);
     return ratios.size() == 0 ? unknown : ratios.maxCoeff<Eigen::PropagateNaN>();
+}
+
+double RoundOffTable::greatest_discretisation_error() const {
+    double greatest = 0.0;
+    for (const auto& row : rows)
+        greatest = worse(greatest, row.discretisation_error);
+    return greatest;
+}
+
+std::size_t RoundOffTable::remarks() const {
+    return static_cast<std::size_t>(std::count_if(
+        rows.begin(), rows.end(), [](const auto& row) { return !row.remark.empty(); }));
 }
 
 } // namespace tvbeam

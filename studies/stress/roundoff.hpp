@@ -36,6 +36,9 @@ struct RoundOffTable {
     [[nodiscard]] double greatest_moment_floor() const;
     [[nodiscard]] double least_hermite_ratio() const;    ///< measured/predicted
     [[nodiscard]] double greatest_hermite_ratio() const; ///< measured/predicted
+    [[nodiscard]] double greatest_discretisation_error() const;
+    /// The rows in which the Hermite form's predicted round-off exceeds the discretisation error.
+    [[nodiscard]] std::size_t remarks() const;
 };
 
 /// The row of block.elements[row].

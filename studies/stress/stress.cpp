@@ -15,9 +15,7 @@ constexpr double steps_a_point = 100.0;
 std::map<std::string, double> StressResult::figures() const {
     std::map<std::string, double> figures;
     if (!cases.empty()) {
-        for (const Outcome outcome :
-             {Outcome::certified, Outcome::refused, Outcome::stopped, Outcome::failed})
-            figures[name_of(outcome)] = static_cast<double>(cases.count(outcome));
+        figures = cases.tallies().figures();
         figures["cases"] = static_cast<double>(cases.size());
     }
     if (contraction) {
@@ -29,6 +27,8 @@ std::map<std::string, double> StressResult::figures() const {
         figures["moment_floor"] = roundoff->greatest_moment_floor();
         figures["hermite_least"] = roundoff->least_hermite_ratio();
         figures["hermite_greatest"] = roundoff->greatest_hermite_ratio();
+        figures["discretisation_greatest"] = roundoff->greatest_discretisation_error();
+        figures["hermite_exceeds"] = static_cast<double>(roundoff->remarks());
     }
     return figures;
 }

@@ -54,7 +54,8 @@ struct StressCases::Kept {
     Scratch records;
     Scratch texts;
     std::map<std::string, TextPlace, std::less<>> places; ///< of the first few texts, which recur
-    std::map<Outcome, std::size_t> outcomes;
+    StressTallies tallies;
+    std::size_t size = 0;
     std::optional<std::pair<std::size_t, std::string>> failure; ///< index and reason of the first
 
     TextPlace place_of(const std::string& text) {
@@ -152,21 +153,18 @@ void StressCases::set(std::size_t index, const StressCase& one) {
     if (one.checks)
         kept_->add_checks(*one.checks, record);
     kept_->records.write(index * sizeof(record), &record, sizeof(record));
-    ++kept_->outcomes[one.outcome];
+    kept_->tallies.add(one);
+    ++kept_->size;
     if (one.outcome == Outcome::failed && (!kept_->failure || index < kept_->failure->first))
         kept_->failure = {index, one.reason};
 }
 
 std::size_t StressCases::size() const {
-    std::size_t all = 0;
-    for (const auto& [outcome, count] : kept_->outcomes)
-        all += count;
-    return all;
+    return kept_->size;
 }
 
-std::size_t StressCases::count(Outcome outcome) const {
-    const auto found = kept_->outcomes.find(outcome);
-    return found == kept_->outcomes.end() ? 0 : found->second;
+const StressTallies& StressCases::tallies() const {
+    return kept_->tallies;
 }
 
 std::string StressCases::first_failure() const {

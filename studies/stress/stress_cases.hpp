@@ -1,6 +1,6 @@
 #pragma once
 
-#include "studies/stress/stress_case.hpp"
+#include "studies/stress/stress_tally.hpp"
 
 #include <cstddef>
 #include <functional>
@@ -23,7 +23,10 @@ public:
 
     [[nodiscard]] std::size_t size() const; ///< that are there
     [[nodiscard]] bool empty() const { return size() == 0; }
-    [[nodiscard]] std::size_t count(Outcome outcome) const;
+    [[nodiscard]] std::size_t count(Outcome outcome) const {
+        return tallies().all().count(outcome);
+    }
+    [[nodiscard]] const StressTallies& tallies() const;
     /// Of the first that failed; empty: none did.
     [[nodiscard]] std::string first_failure() const;
 

@@ -45,6 +45,7 @@ struct WorkPrecisionStudy final : KindOf<WorkPrecisionBlock, WorkPrecisionResult
         for (std::size_t i = 0; i < all.size(); ++i)
             if (auto scheme = table.table(block_in(block).schemes[i].name)) {
                 const std::size_t before = expectations.size();
+                expect_counters(*scheme, all[i], expectations);
                 for_each_measure(*scheme, block_in(block).norms, expectations,
                                  [&](TableReader& norm, std::size_t k) {
                                      expect_orders(norm, all[i], k, expectations);

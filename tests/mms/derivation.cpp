@@ -215,6 +215,17 @@ Point mixed(const X& x, const T& t, const Beam& beam) {
             x * x * exp(-x * t) / 100.0, (1.0 - x) * (1.0 - x) * (1.0 - x) * cos(t) / 20.0};
 }
 
+Point jumping_front(const X& x, const T& t, const Beam& beam) {
+    const Jet steady = beam.theta_A * (1.0 - x) + 0.0 * t;
+    const Jet late = t - 0.5 + 0.0 * x;
+    if (value(t) <= 0.5)
+        return {steady + x * (1.0 - x) * atan(2.0 * x * (1.0 + t) - 1.0),
+                x * x * exp(-x * t) / 20.0, (1.0 - x) * (1.0 - x) * cos(t) / 20.0};
+    return {steady + x * (1.0 - x) * (atan(3.0 * x - 1.0) + exp(x * late) - 1.0),
+            x * x * (exp(-0.5 * x) + sin((1.0 + x) * late)) / 20.0,
+            (1.0 - x) * (1.0 - x) * cos(2.0 * x * late + 0.5) / 20.0};
+}
+
 Point mixed_pressed(const X& x, const T& t, const Beam& beam) {
     return {beam.theta_A * (1.0 - x) + x * (1.0 - x) * log(1.0 + t + x * t),
             beam.stops.upper * (bent(x, t) + bump(x) * exp(-x * t)),
@@ -237,6 +248,7 @@ const std::map<std::string, Formula> counterparts = {
     {"free-oscillation", free_oscillation},
     {"heated-end", heated_end},
     {"impact", impact},
+    {"jumping-front", jumping_front},
     {"mixed", mixed},
     {"mixed-pressed", mixed_pressed},
     {"moving-front", moving_front},

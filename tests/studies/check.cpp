@@ -59,6 +59,33 @@ std::string message_of(const std::string& expect) {
 
 } // namespace
 
+BOOST_AUTO_TEST_CASE(a_remark_is_expected_by_how_it_begins_and_none_may_be_missing) {
+    const auto violated = [](const std::string& wanted) {
+        return violations(checked("[expect.ladder.theta_L2L2_sq]\nremarks = " + wanted,
+                                  {"ladder.elements=[10, 20, 40]", "ladder.dt=[1e-3, 5e-4, 2.5e-4]",
+                                   "ladder.printed.theta_L2L2_sq=[1, 1, 1]"}));
+    };
+    BOOST_TEST(violated("['theta_L2L2_sq: order 4.01 to 4.02 (the square']") == 0U);
+    BOOST_TEST(violated("['theta_L2L2_sq: order 3.9']") == 1U);
+    BOOST_TEST(violated("[]") == 1U);
+    BOOST_TEST(violated("['theta', 'theta']") == 1U);
+    BOOST_TEST(violations(checked("[expect]\nremarks = []")) == 0U);
+    BOOST_TEST(violations(checked("[expect.ladder]\nremarks = ['The reference']")) == 1U);
+}
+
+// A step of Euler has one solve of each equation; T = 2.
+BOOST_AUTO_TEST_CASE(what_runs_did_is_expected_level_by_level) {
+    const std::string counters = "[expect.ladder]\ncounters = ";
+    BOOST_TEST(violations(checked(
+                   counters + "{ heat_solves = [2000, 4000], beam_solves = [2000, 4000] }")) == 0U);
+    BOOST_TEST(violations(checked(counters + "{ heat_solves = [2000, 4001] }")) == 1U);
+    // A counter that there is not is not zero.
+    BOOST_TEST(violations(checked(counters + "{ heat_solve = [0, 0] }")) == 1U);
+    BOOST_TEST(message_of(counters + "{ heat_solves = [2000] }")
+                   .find("heat_solves has 1 values for 2 rungs; give one a rung") !=
+               std::string::npos);
+}
+
 BOOST_AUTO_TEST_CASE(right_bands_hold) {
     const auto all =
         checked("[expect.ladder.theta_L2L2_sq]\norders = [3.9, 4.1]\nratios = [0.99, 1.01]\n"

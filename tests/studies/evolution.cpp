@@ -557,6 +557,11 @@ BOOST_AUTO_TEST_CASE(expectations_hold_every_figure_from_both_sides) {
     BOOST_TEST(figures.at("onsets") == 10.0);
     BOOST_TEST(figures.at("releases") == 10.0);
     BOOST_TEST(figures.at("theta@0.5.greatest") == 2.0);
+    BOOST_TEST(figures.at("theta@0.5.first") == 2.0);
+    BOOST_TEST(figures.count("stress.first") == 0U); // not defined at t = 0
+    BOOST_TEST(std::isfinite(figures.at("stress.mean")));
+    BOOST_TEST(figures.at("samples") == 5001.0);
+    BOOST_TEST(figures.at("u@1.period_change") <= figures.at("period_change"));
     BOOST_TEST(figures.at("u@1.last") < 0.1);
     BOOST_TEST(figures.at("period_change") < 1e-6);
     BOOST_TEST(figures.count("u@1.error") == 0U); // there is no exact solution

@@ -393,4 +393,45 @@ BOOST_AUTO_TEST_CASE(a_contact_stress_that_alone_differs_between_the_bases_is_se
     BOOST_TEST(alone > 0);
 }
 
+BOOST_AUTO_TEST_CASE(cases_are_counted_by_regime_and_checks_by_their_extremes) {
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    StressCase one;
+    one.parameters.alpha = 20.0;
+    one.parameters.time = "bdf2";
+    one.checks = StressChecks();
+    one.checks->energy = 3e-16;
+    one.checks->path = 6.0;
+    one.checks->path_limit = 30.0;
+    StressCase refused = one;
+    refused.outcome = Outcome::refused;
+    refused.checks.reset();
+    StressCase other = one;
+    other.parameters.alpha = 10.0;
+    other.parameters.stops = {-0.1, 0.1};
+    other.checks->energy = 1e-16;
+    other.checks->penetration = 2e-17;
+    StressTallies tallies;
+    for (const auto& each : {one, refused, other})
+        tallies.add(each);
+    auto figures = tallies.figures();
+    BOOST_TEST(figures.at("certified") == 2.0);
+    BOOST_TEST(figures.at("alpha > 10.certified") == 1.0);
+    BOOST_TEST(figures.at("alpha > 10.refused") == 1.0);
+    BOOST_TEST(figures.at("alpha 0.01 to 10.certified") == 1.0);
+    BOOST_TEST(figures.at("time bdf2.refused") == 1.0);
+    BOOST_TEST(figures.at("energy.count") == 2.0);
+    BOOST_TEST(figures.at("energy.least") == 1e-16);
+    BOOST_TEST(figures.at("energy.greatest") == 3e-16);
+    BOOST_TEST(figures.at("path.greatest") == 0.2); // of its limit
+    BOOST_TEST(figures.at("penetration.count") == 1.0);
+    BOOST_TEST(figures.at("error.count") == 0.0);
+    BOOST_TEST(figures.count("error.greatest") == 0U);
+    other.checks->energy = nan; // meets no band, from either side
+    tallies.add(other);
+    tallies.add(one);
+    figures = tallies.figures();
+    BOOST_TEST(std::isnan(figures.at("energy.least")));
+    BOOST_TEST(std::isnan(figures.at("energy.greatest")));
+}
+
 BOOST_AUTO_TEST_SUITE_END()
