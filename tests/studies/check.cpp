@@ -323,7 +323,7 @@ until    = { order = 0.05, levels = 6 }
     BOOST_TEST(of("[expect.ladder]\nended_by = [\"levels\"]\nopen = [\"L2\"]\n"
                   "elements = [1, 2, 4]\n") == 3u);
     const std::string said = "[expect.ladder.L2]\nremarks = ";
-    BOOST_TEST(of(said + "[\"L2: order 2.00 up to s = 8.\"]\n") == 0u);
+    BOOST_TEST(of(said + "[\"L2: order 2.00 up to s = 8.\", \"L2: order 2.0\"]\n") == 0u);
     BOOST_TEST(of(said + "[\"L2: order 2.00 up to s = 4.\"]\n") == 1u);
     const std::string value = "[expect.ladder.drag]\n";
     BOOST_TEST(of(value +

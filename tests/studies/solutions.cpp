@@ -29,10 +29,13 @@ BOOST_AUTO_TEST_SUITE(shipped_solutions)
 
 namespace {
 
+/// All but the one whose rates jump within a run, which takes orders from schemes that look back:
+/// its orders are those forecast (forecasts.cpp).
 std::vector<std::string> solutions() {
     std::vector<std::string> names;
     for (const auto& file : shipped_files(Shipped::solution))
-        names.push_back(file.name);
+        if (file.name != "jumping-front")
+            names.push_back(file.name);
     return names;
 }
 
