@@ -3,6 +3,7 @@
 #include "mms/derivation.hpp"
 #include "mms/expression/algebra.hpp"
 #include "mms/expression/printing.hpp"
+#include "mms/expression/shortened.hpp"
 #include "mms/expression/symbols.hpp"
 
 #include <algorithm>
@@ -76,7 +77,7 @@ std::vector<DerivedFormula> derived_formulas(const Solution& solution, bool pena
     std::vector<DerivedFormula> formulas;
     const auto add = [&formulas](const std::string& symbol, const WrittenTimes& times,
                                  const ex& formula) {
-        const ex readable = collected(formula);
+        const ex readable = shortened(collected(formula));
         formulas.push_back(
             {symbol, times.text, times.latex, formula_text(readable), formula_latex(readable)});
     };

@@ -35,7 +35,11 @@ void require_free_name(const std::string& name, const Place& place) {
     if (name == "pi" || model_symbol_table().contains(name) ||
         std::find(functions.begin(), functions.end(), name) != functions.end())
         throw InputError(place,
-                         "parameter '" + name + "' hides a known name; call it something else");
+                         "parameter '" + name + "' hides a known name; call it something else" +
+                             (model_symbol_table().contains(name) && name != "x" && name != "t"
+                                  ? ", or leave it out: it is the beam's, and stands in the "
+                                    "scene"
+                                  : ""));
 }
 
 std::vector<SolutionParameter> read_parameters(TableReader& root) {
@@ -47,6 +51,10 @@ std::vector<SolutionParameter> read_parameters(TableReader& root) {
                                            "; a solution has at most " +
                                            std::to_string(most_parameters));
     for (const auto& name : names) {
+        if ((name == "theta" || name == "u") && !root.has(name) && !root.has("phase"))
+            throw InputError(table->place_of_key(name),
+                             name + " stands below [parameters], which makes it a parameter; move "
+                                    "it above that line");
         require_free_name(name, table->place_of_key(name));
         result.push_back({name, *table->expression(name)});
     }
@@ -111,6 +119,11 @@ Solution solution_in(const TomlDocument& document) {
     const Formulas top = read_formulas(root);
     solution.parameters = read_parameters(root);
     auto tables = root.tables("phase");
+    for (const std::string of_beam : {"alpha", "zeta", "stops", "theta_A"})
+        if (root.has(of_beam))
+            throw InputError(root.place_of_key(of_beam),
+                             of_beam + " is the beam's; it stands in [beam] of the scene, and "
+                                       "formulas know it from there");
     root.finish();
     if (tables.size() > most_phases)
         throw root.error("phase", " holds " + std::to_string(tables.size()) +

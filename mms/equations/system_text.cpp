@@ -3,6 +3,7 @@
 #include "mms/equations/infix.hpp"
 #include "mms/expression/algebra.hpp"
 #include "mms/expression/printing.hpp"
+#include "mms/expression/shortened.hpp"
 #include "mms/text/number_text.hpp"
 
 #include <map>
@@ -22,7 +23,7 @@ constexpr std::size_t longest_formula = 400;
 std::optional<std::string> with_solution(const DerivedSystem& derived,
                                          const DerivedFunction& function, auto written) {
     try {
-        std::string text = written(derived.fields.exact(function.formula));
+        std::string text = written(shortened(derived.fields.exact(function.formula)));
         if (text.size() <= longest_formula)
             return text;
     } catch (const AlgebraError&) { // too large: it is left in its derivatives

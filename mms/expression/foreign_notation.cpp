@@ -57,6 +57,7 @@ constexpr Advice characters[] = {
     {"√", "a root is written sqrt(…)"},
     {"α", "it is written alpha"},
     {"ζ", "it is written zeta"},
+    {"θ_A", "it is written theta_A"},
     {"θ", "the temperature is not a symbol of its own formula"},
 };
 

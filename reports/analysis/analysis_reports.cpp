@@ -98,14 +98,20 @@ void add_order_line(const DataColumn& width, const ColumnAnalysis& column,
         rows += fmt::format("{} {}\n", x,
                             column.numbers[last - 1] *
                                 std::pow(x / width.numbers[last - 1], order.value));
-    const std::string block = drawing.add_block(column.name + ": its order", rows);
-    drawing.add_curve(fmt::format("{} using 1:2 with lines lc rgb '{}' dt {} lw 1.6", block,
-                                  style.colour, style.dash));
+    drawing.add_curve({.block = drawing.add_block(column.name + ": its order", rows)},
+                      look_of(style, CurveLook::Kind::lines));
+}
+
+Axis width_axis(const DataColumn& width) {
+    constexpr std::size_t most_ticks = 6;
+    return {.title = width.name,
+            .is_logarithmic = true,
+            .range = range_of(width.numbers, 1.5),
+            .ticks = thinned(value_ticks(width.numbers), most_ticks)};
 }
 
 Plot value_plot(const DataColumn& width, const ColumnAnalysis& column) {
     Drawing drawing;
-    const SeriesStyle style = series_style(0);
     const auto& limit = column.limit->limit;
     if (limit.determined) {
         const auto [least, greatest] =
@@ -113,22 +119,19 @@ Plot value_plot(const DataColumn& width, const ColumnAnalysis& column) {
         std::string rows;
         for (const double x : {*least, *greatest})
             rows += fmt::format("{} {} {} {}\n", x, limit.low, limit.value, limit.high);
-        const std::string block = drawing.add_block("limit: low, value, high", rows);
-        drawing.add_curve(block + " using 1:2:4 with filledcurves fillstyle solid noborder "
-                                  "fillcolor rgb '#deebf7'",
+        const std::size_t block = drawing.add_block("limit: low, value, high", rows);
+        drawing.add_curve({.block = block, .third = 4},
+                          {.kind = CurveLook::Kind::band, .colour = "#deebf7"},
                           "95 % interval of the limit");
-        drawing.add_curve(block + " using 1:3 with lines lc rgb '#08519c' lw 1.2", "limit");
+        drawing.add_curve({.block = block, .y = 3}, {.colour = "#08519c", .width = 1.2}, "limit");
     }
-    const std::string block = drawing.add_block(column.name, points_of(width, column));
-    drawing.add_curve(fmt::format("{} using 1:2 with linespoints lc rgb '{}' pt {} ps 0.9", block,
-                                  style.colour, style.point),
-                      column.name);
+    drawing.add_curve({.block = drawing.add_block(column.name, points_of(width, column))},
+                      look_of(series_style(0)), column.name);
+    drawing.x = width_axis(width);
     std::string name = "value_";
     for (const char c : column.name)
         name += std::isalnum(static_cast<unsigned char>(c)) != 0 ? c : '_';
-    return drawing.plot(name, column.name + " against " + width.name + ", with its limit.",
-                        fmt::format("set logscale x\n{}set xlabel {} noenhanced\n",
-                                    range_text("x", width.numbers, 1.5), gnuplot_text(width.name)));
+    return {name, column.name + " against " + width.name + ", with its limit.", drawing};
 }
 
 } // namespace
@@ -208,22 +211,18 @@ std::vector<Plot> analysis_plots(const DataAnalysis& analysis) {
         std::copy_if(column.numbers.begin(), column.numbers.end(), std::back_inserter(errors),
                      is_positive);
         const SeriesStyle style = series_style(k);
-        const std::string block = drawing.add_block(column.name, points_of(width, column));
-        drawing.add_curve(fmt::format("{} using 1:2 with points lc rgb '{}' pt {} ps 0.9", block,
-                                      style.colour, style.point),
-                          column.name);
+        drawing.add_curve({.block = drawing.add_block(column.name, points_of(width, column))},
+                          look_of(style, CurveLook::Kind::points), column.name);
         add_order_line(width, column, column.by_width[along], style, drawing);
     }
-    if (!errors.empty())
-        plots.insert(
-            plots.begin(),
-            drawing.plot("convergence",
-                         "Errors against " + width.name +
-                             ", on logarithmic axes; lines: orders that are determined.",
-                         fmt::format("set logscale xy\n{}{}set format y '10^{{%L}}'\nset "
-                                     "xlabel {} noenhanced\nset ylabel 'error'\n",
-                                     range_text("x", width.numbers, 1.5),
-                                     range_text("y", errors, 2.0), gnuplot_text(width.name))));
+    if (errors.empty())
+        return plots;
+    drawing.x = width_axis(width);
+    drawing.y = {.title = "error", .is_logarithmic = true, .range = range_of(errors, 2.0)};
+    plots.insert(plots.begin(), {"convergence",
+                                 "Errors against " + width.name +
+                                     ", on logarithmic axes; lines: orders that are determined.",
+                                 drawing});
     return plots;
 }
 

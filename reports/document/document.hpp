@@ -58,7 +58,8 @@ struct Document {
     std::vector<std::pair<std::string, std::string>> provenance;
 };
 
-/// The findings of all sections, in their order.
+/// The findings of all sections, in their order; a norm that one begins with in words, as in the
+/// figures.
 std::vector<Finding> findings_of(const Document& document);
 
 } // namespace tvbeam

@@ -168,15 +168,29 @@ std::vector<Block> comparisons(const ReachedError& error, const NormCosts& costs
                                const WorkPrecisionBlock& block) {
     std::vector<Block> findings{
         Finding{fmt::format("To reach {} = {}:", costs.norm.name, shortest(error.error))}};
-    for (const auto& pair : error.comparisons)
-        findings.emplace_back(comparison(pair, error, block));
+    constexpr std::size_t most_pairs = 15;
+    for (std::size_t i = 0; i < std::min(most_pairs, error.comparisons.size()); ++i)
+        findings.emplace_back(comparison(error.comparisons[i], error, block));
+    if (error.comparisons.size() > most_pairs)
+        findings.emplace_back(Finding{fmt::format("and {} more pairs, by the times in the table",
+                                                  error.comparisons.size() - most_pairs),
+                                      4});
     for (std::size_t k = 0; k < block.schemes.size(); ++k)
         if (error.times[k] && error.comparisons.empty())
             findings.emplace_back(Finding{block.schemes[k].name + " alone does", 4});
+    std::vector<std::string> short_of_it;
     for (std::size_t k = 0; k < block.schemes.size(); ++k)
         if (!error.times[k])
-            findings.emplace_back(
-                Finding{block.schemes[k].name + " does not, as far as measured", 4});
+            short_of_it.push_back(block.schemes[k].name);
+    constexpr std::size_t most = 4;
+    if (short_of_it.size() > most)
+        findings.emplace_back(Finding{
+            fmt::format("{} of {} schemes do not, as far as measured; the table shows which",
+                        short_of_it.size(), block.schemes.size()),
+            4});
+    else
+        for (const auto& name : short_of_it)
+            findings.emplace_back(Finding{name + " does not, as far as measured", 4});
     return findings;
 }
 

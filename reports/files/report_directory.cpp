@@ -36,7 +36,7 @@ void publish(std::list<OutputFile>& files) {
 ReportDirectory::ReportDirectory(std::filesystem::path path, const ReportBlock& block)
     : path_(std::move(path)) {
     for (const auto& format : report_formats())
-        if (block.wants(format->name()))
+        if (block.files.empty() ? format->is_written_unasked() : block.names(format->name()))
             formats_.push_back(format.get());
     make(path_);
     lock();
@@ -90,10 +90,13 @@ void ReportDirectory::lock() {
 }
 
 std::string ReportDirectory::write(const Reported& result) {
-    const bool shows_plots = std::any_of(formats_.begin(), formats_.end(),
-                                         [](const auto* format) { return format->shows_plots(); });
-    const auto plots = shows_plots ? result.plots() : std::vector<Plot>();
-    const DrawnPlots drawn = plots.empty() ? DrawnPlots() : draw(plots);
+    const auto any = [this](bool (ReportFormat::*asks)() const) {
+        return std::any_of(formats_.begin(), formats_.end(),
+                           [asks](const auto* format) { return (format->*asks)(); });
+    };
+    const auto plots = any(&ReportFormat::describes_plots) ? result.plots() : std::vector<Plot>();
+    const DrawnPlots drawn =
+        plots.empty() || !any(&ReportFormat::shows_plots) ? DrawnPlots() : draw(plots);
     std::list<OutputFile> files;
     std::set<std::string> written;
     for (const auto* format : formats_)

@@ -254,6 +254,8 @@ std::string verdict_of(const HtmlContents& contents) {
             : contents.scene_text.empty() ? "" // a table of data: nothing was run
                                           : "<p>Every run finished.</p>\n";
     const auto findings = findings_of(contents.document);
+    if (findings.empty() && !html.ends_with("</p>\n"))
+        return "";
     return html + (findings.empty() ? "" : html_of(findings)) + "</section>\n";
 }
 

@@ -121,20 +121,6 @@ std::string power_of_ten(const WrittenNumber& number) {
     return number.exponent.empty() ? "" : fmt::format("\\times10^{{{}}}", number.exponent);
 }
 
-/// A sentence, its numbers with an exponent as mathematics, and what stands behind a ^ raised.
-std::string latex_sentence(const std::string& text) {
-    std::string latex;
-    for (const auto& piece : pieces_of(text)) {
-        if (const auto& number = piece.number)
-            latex += "$" + number->whole +
-                     (number->fraction.empty() ? "" : "." + number->fraction) +
-                     power_of_ten(*number) + "$";
-        else
-            latex += with_raised(latex_text(piece.text), "\\textasciicircum{}", "$^{", "}$");
-    }
-    return latex;
-}
-
 /// The columns of LaTeX that one column takes: one for what stands before the point, one behind
 /// it, one for the power of ten.
 struct Layout {
@@ -330,6 +316,19 @@ std::string latex_text(const std::string& given) {
         latex +=
             character == "∞" && latex.ends_with('L') ? "$^\\infty$" : latex_character(character);
         at += length;
+    }
+    return latex;
+}
+
+std::string latex_sentence(const std::string& text) {
+    std::string latex;
+    for (const auto& piece : pieces_of(text)) {
+        if (const auto& number = piece.number)
+            latex += "$" + number->whole +
+                     (number->fraction.empty() ? "" : "." + number->fraction) +
+                     power_of_ten(*number) + "$";
+        else
+            latex += with_raised(latex_text(piece.text), "\\textasciicircum{}", "$^{", "}$");
     }
     return latex;
 }

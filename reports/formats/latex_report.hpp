@@ -15,4 +15,8 @@ std::string latex_report(const Document& document);
 /// pdflatex's default fonts have not are printed as "?".
 std::string latex_text(const std::string& text);
 
+/// The same of a sentence, its numbers with an exponent as mathematics, and what stands behind a ^
+/// raised.
+std::string latex_sentence(const std::string& text);
+
 } // namespace tvbeam

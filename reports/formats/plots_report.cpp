@@ -1,4 +1,5 @@
 #include "reports/formats/report_format.hpp"
+#include "reports/plots/gnuplot_script.hpp"
 #include "studies/table_row.hpp"
 
 namespace tvbeam {
@@ -14,8 +15,8 @@ struct PlotsFormat final : ReportFormat {
         for (std::size_t i = 0; i < contents.plots.size(); ++i) {
             const Plot& plot = contents.plots[i];
             const std::string file = "plots/" + plot.name;
-            texts.push_back({file + ".gp", plot.script});
-            texts.push_back({file + ".dat", plot.data});
+            texts.push_back({file + ".gp", gnuplot_script(plot.drawing, plot.name)});
+            texts.push_back({file + ".dat", gnuplot_data(plot.drawing)});
             if (const DrawnPlot& drawn = contents.drawn.plots[i]; !drawn.svg.empty()) {
                 texts.push_back({file + ".svg", drawn.svg});
                 texts.push_back({file + ".png", drawn.png});

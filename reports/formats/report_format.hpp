@@ -39,7 +39,7 @@ Reported reported(const StudyResult& result);
 /// What formats are written from.
 struct ReportContents {
     const Reported& reported;
-    const std::vector<Plot>& plots; ///< none where no format that is wanted shows them
+    const std::vector<Plot>& plots; ///< none where no format that is wanted has them
     const DrawnPlots& drawn;
 };
 
@@ -49,7 +49,10 @@ public:
     virtual ~ReportFormat() = default;
 
     [[nodiscard]] virtual std::string name() const = 0; ///< by which [report] asks for it
-    [[nodiscard]] virtual bool shows_plots() const { return false; }
+    /// Where [report] names no kinds of files.
+    [[nodiscard]] virtual bool is_written_unasked() const { return true; }
+    [[nodiscard]] virtual bool describes_plots() const { return shows_plots(); }
+    [[nodiscard]] virtual bool shows_plots() const { return false; } ///< as gnuplot draws them
 
     /// Files that it writes whatever the result, one at least in every directory it writes to; none
     /// if their names depend on the result.

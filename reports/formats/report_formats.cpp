@@ -14,7 +14,7 @@ constexpr RowMaker<ReportFormat> formats[] = {
     make_row<ReportFormat, struct JsonFormat>,     make_row<ReportFormat, struct CsvFormat>,
     make_row<ReportFormat, struct MarkdownFormat>, make_row<ReportFormat, struct LatexFormat>,
     make_row<ReportFormat, struct PlotsFormat>,    make_row<ReportFormat, struct PdfFormat>,
-    make_row<ReportFormat, struct HtmlFormat>,
+    make_row<ReportFormat, struct PgfplotsFormat>, make_row<ReportFormat, struct HtmlFormat>,
 };
 
 const RowsOf<ReportFormat>& report_formats() {

@@ -46,33 +46,38 @@ std::vector<Plot> contraction_plots(const StudyResult& result) {
         return {};
     const ContractionMap& map = *stress->contraction;
     Drawing drawing;
-    const auto add = [&](const std::string& rows, const std::string& style,
-                         const std::string& title) {
+    const auto add = [&](const std::string& rows, const CurveLook& look, const std::string& title) {
         if (!rows.empty())
-            drawing.add_curve(drawing.add_block(title + ": alpha, dt, contraction", rows) +
-                                  " using 1:2 " + style,
-                              title);
+            drawing.add_curve(
+                {.block = drawing.add_block(title + ": alpha, dt, contraction", rows)}, look,
+                title);
     };
-    add(points_of(map, true), "with points pt 6 ps 0.8 lc rgb '#56B4E9' lw 1.4",
-        "measured: below 1");
-    add(points_of(map, false), "with points pt 2 ps 0.8 lc rgb '#000000' lw 1.4",
-        "measured: 1 or more, refused");
+    const auto points = [](const char* colour, int point) {
+        return CurveLook{.kind = CurveLook::Kind::points,
+                         .colour = colour,
+                         .point = point,
+                         .size = 0.8,
+                         .width = 1.4};
+    };
+    add(points_of(map, true), points("#56B4E9", 6), "measured: below 1");
+    add(points_of(map, false), points("#000000", 2), "measured: 1 or more, refused");
     std::size_t line = 0;
     for (const double level : {0.01, 0.1, 1.0})
-        add(level_line(map, level),
-            fmt::format("with lines lc rgb '#D55E00' dt {} lw 1.6", series_style(line++).dash),
+        add(level_line(map, level), {.colour = "#D55E00", .dash = series_style(line++).dash},
             "predicted: " + shortest(level));
-    const std::string settings = fmt::format(
-        "set logscale xy\nset format xy '10^{{%L}}'\n{}{}set xlabel 'thermal expansion α'\n"
-        "set ylabel 'time step Δt'\n",
-        range_text("x", map.block.alpha, 1.3), range_text("y", map.block.dt, 1.3));
-    return {drawing.plot(
-        "contraction",
-        fmt::format("Contraction of the fixed point between temperature and deflection, {}, {} "
-                    "mass, zeta = {}: measured at the points; the lines are where it is predicted "
-                    "to be 0.01, 0.1 and 1.",
-                    map.block.time, name_of(map.block.thermal_mass), shortest(map.block.zeta)),
-        settings)};
+    constexpr double room = 1.3;
+    drawing.x = {.title = "thermal expansion α",
+                 .is_logarithmic = true,
+                 .range = range_of(map.block.alpha, room)};
+    drawing.y = {
+        .title = "time step Δt", .is_logarithmic = true, .range = range_of(map.block.dt, room)};
+    return {
+        {"contraction",
+         fmt::format("Contraction of the fixed point between temperature and deflection, {}, {} "
+                     "mass, zeta = {}: measured at the points; the lines are where it is predicted "
+                     "to be 0.01, 0.1 and 1.",
+                     map.block.time, name_of(map.block.thermal_mass), shortest(map.block.zeta)),
+         drawing}};
 }
 
 } // namespace tvbeam

@@ -81,7 +81,7 @@ std::optional<double> order_of(const LadderResult& ladder, std::size_t k) {
 }
 
 /// The axes of the figure: a rectangle in its picture, and the powers of ten that it shows.
-struct Axes {
+struct LogAxes {
     PictureBox frame;
     double left, right, low, high; ///< decimal logarithms
 
@@ -106,6 +106,12 @@ constexpr double label_width(std::size_t characters) {
     return character * static_cast<double>(characters);
 }
 
+const CurveLook predicted_look{.dash = 3, .width = 1.2};
+
+CurveLook printed_look(double size) {
+    return {.kind = CurveLook::Kind::points, .point = 4, .size = size, .width = 1.3};
+}
+
 class ConvergencePlot {
 public:
     ConvergencePlot(const LadderResult& ladder, const LadderBlock& block)
@@ -127,9 +133,11 @@ public:
         // Where there is no room for a slope, the axis of errors is made longer below.
         constexpr int longest = 8;
         for (int more = 0; more <= longest; ++more) {
-            const Axes axes = axes_with(*least, *greatest, more);
-            if (place(slopes, axes) || more == longest)
-                return {drawing_.plot("convergence", caption(slopes), settings(axes))};
+            const LogAxes axes = axes_with(*least, *greatest, more);
+            if (place(slopes, axes) || more == longest) {
+                set_axes(axes);
+                return {{"convergence", caption(slopes), drawing_}};
+            }
         }
         return {};
     }
@@ -145,16 +153,13 @@ private:
     void add_norm(std::size_t k) {
         const LadderNorm& norm = ladder_.norms[k];
         add_points(k, norm);
-        const SeriesStyle style = series_style(k);
         std::string name = norm.norm.words;
         // The axis says it.
         if (const std::string square = ", squared"; squares() && name.ends_with(square))
             name.resize(name.size() - square.size());
         if (const auto order = order_of(ladder_, k))
             name += ": slope " + fixed(*order, 2);
-        drawing_.add_curve(fmt::format("NaN with linespoints lc rgb '{}' pt {} ps 0.9 dt {} lw 1.6",
-                                       style.colour, style.point, style.dash),
-                           name);
+        drawing_.add_curve({}, look_of(series_style(k)), name);
     }
 
     /// Every norm's, where all are squares.
@@ -171,21 +176,16 @@ private:
                                 positive_error(ladder_.rungs[i], k).value_or(nan),
                                 figures != nullptr ? (*figures)[i] : nan,
                                 norm.predictions.empty() ? nan : norm.predictions[i].value);
-        const std::string block =
+        const std::size_t block =
             drawing_.add_block(norm.norm.name + ": h, dt, error, printed, predicted", rows);
-        const SeriesStyle style = series_style(k);
         const int x = widths_.in_time ? 2 : 1;
-        if (!norm.predictions.empty()) {
-            drawing_.add_curve(
-                fmt::format("{} using {}:5 with lines lc rgb '#000000' dt 3 lw 1.2", block, x));
+        if (norm.predictions.size() > 1) { // one point makes no line
+            drawing_.add_curve({.block = block, .x = x, .y = 5}, predicted_look);
             predicted_ = true;
         }
-        drawing_.add_curve(
-            fmt::format("{} using {}:3 with linespoints lc rgb '{}' pt {} ps 0.9 dt {} lw 1.6",
-                        block, x, style.colour, style.point, style.dash));
+        drawing_.add_curve({.block = block, .x = x, .y = 3}, look_of(series_style(k)));
         if (figures != nullptr) {
-            drawing_.add_curve(fmt::format(
-                "{} using {}:4 with points lc rgb '#000000' pt 4 ps 1.9 lw 1.3", block, x));
+            drawing_.add_curve({.block = block, .x = x, .y = 4}, printed_look(1.9));
             has_printed_ = true;
         }
     }
@@ -219,7 +219,7 @@ private:
     }
 
     /// more: tenths of the decades that the errors span, added below.
-    [[nodiscard]] Axes axes_with(double least, double greatest, int more) const {
+    [[nodiscard]] LogAxes axes_with(double least, double greatest, int more) const {
         const auto [narrowest, widest] =
             std::minmax_element(widths_.abscissa().begin(), widths_.abscissa().end());
         const double span = std::max(1.0, std::log10(greatest / least));
@@ -228,7 +228,7 @@ private:
     }
 
     /// What stands on the axes.
-    [[nodiscard]] FreeSpace space_of(const Axes& axes) const {
+    [[nodiscard]] FreeSpace space_of(const LogAxes& axes) const {
         FreeSpace space(axes.frame);
         for (std::size_t k = 0; k < ladder_.norms.size(); ++k) {
             const auto& predicted = ladder_.norms[k].predictions;
@@ -261,8 +261,8 @@ private:
     }
 
     /// Puts a triangle for each slope where nothing else is; false where some do not fit.
-    bool place(const std::vector<int>& slopes, const Axes& axes) {
-        labels_.clear();
+    bool place(const std::vector<int>& slopes, const LogAxes& axes) {
+        drawing_.labels.clear();
         triangles_.clear();
         FreeSpace space = space_of(axes);
         const PicturePoint middle{(axes.frame.left + axes.frame.right) / 2.0,
@@ -282,14 +282,14 @@ private:
             add_triangle(text, *box, width, width * rise, axes);
         }
         for (const auto& [name, rows] : triangles_)
-            drawing_.add_curve(drawing_.add_block(name, rows) +
-                               " using 1:2 with lines lc rgb '#444444' lt 1 lw 1");
+            drawing_.add_curve({.block = drawing_.add_block(name, rows)},
+                               {.colour = "#444444", .width = 1.0});
         return true;
     }
 
     /// In the upper left corner of its box: its labels stand to the right and below.
     void add_triangle(const std::string& slope, const PictureBox& box, double width, double height,
-                      const Axes& axes) {
+                      const LogAxes& axes) {
         const double left = axes.width_at(box.left);
         const double right = axes.width_at(box.left + width);
         const double bottom = box.bottom - label_height;
@@ -299,33 +299,31 @@ private:
             "the slope " + slope,
             fmt::format("{0} {2}\n{1} {2}\n{1} {3}\n{0} {2}\n", left, right, low, high));
         const auto label = [&](const std::string& text, double x, double y) {
-            labels_ += fmt::format("set label '{}' at {},{} center front font ',16'\n", text,
-                                   axes.width_at(x), axes.error_at(y));
+            drawing_.labels.push_back({text, axes.width_at(x), axes.error_at(y)});
         };
         label(slope, (box.left + width + box.right) / 2.0 + 2.0, bottom - height / 2.0);
         label("1", box.left + width / 2.0, bottom + label_height / 2.0);
     }
 
-    [[nodiscard]] std::string settings(const Axes& axes) const {
-        const auto ticks = widths_.in_time ? value_ticks(widths_.dt) : width_ticks(widths_.h);
+    void set_axes(const LogAxes& axes) {
+        constexpr std::size_t most_ticks = 6;
         constexpr double many_decades = 5.0;
-        return fmt::format(
-            "set logscale xy\nset xrange [{}:{}]\nset yrange [{}:{}]\nset xtics {}\n"
-            "set format y '10^{{%L}}'\n{}set xlabel {} noenhanced\nset ylabel '{}' offset "
-            "1.5,0\n{}",
-            std::pow(10.0, axes.left), std::pow(10.0, axes.right), std::pow(10.0, axes.low),
-            std::pow(10.0, axes.high), ticks_text(ticks, 6),
-            axes.high - axes.low > many_decades ? "unset mytics\n" : "",
-            gnuplot_text(widths_.axis_title()), squares() ? "squared error" : "error", labels_);
+        const auto ticks = widths_.in_time ? value_ticks(widths_.dt) : width_ticks(widths_.h);
+        drawing_.x = {.title = widths_.axis_title(),
+                      .is_logarithmic = true,
+                      .range = {{std::pow(10.0, axes.left), std::pow(10.0, axes.right)}},
+                      .ticks = thinned(ticks, most_ticks)};
+        drawing_.y = {.title = squares() ? "squared error" : "error",
+                      .is_logarithmic = true,
+                      .range = {{std::pow(10.0, axes.low), std::pow(10.0, axes.high)}},
+                      .are_minor_ticks_left_out = axes.high - axes.low > many_decades};
     }
 
     void add_legend_of_marks() {
         if (has_printed_)
-            drawing_.add_curve("NaN with points lc rgb '#000000' pt 4 ps 1.5 lw 1.3",
-                               "published in " + block_.printed->source);
+            drawing_.add_curve({}, printed_look(1.5), "published in " + block_.printed->source);
         if (predicted_)
-            drawing_.add_curve("NaN with lines lc rgb '#000000' dt 3 lw 1.2",
-                               "predicted by the fits of [orders]");
+            drawing_.add_curve({}, predicted_look, "predicted by the fits of [orders]");
     }
 
     [[nodiscard]] std::string caption(const std::vector<int>& slopes) const {
@@ -345,7 +343,6 @@ private:
     std::vector<double> errors_;
     Drawing drawing_;
     PictureBox frame_ = drawing_.fix_axes();
-    std::string labels_;
     std::vector<std::pair<std::string, std::string>> triangles_; ///< names and rows
     bool has_printed_ = false;
     bool predicted_ = false;

@@ -102,6 +102,14 @@ std::string shade(double part) {
     return colour;
 }
 
+CurveLook run_look(const char* colour, int point, double size) {
+    return {.kind = CurveLook::Kind::points,
+            .colour = colour,
+            .point = point,
+            .size = size,
+            .width = 1.5};
+}
+
 /// One figure, put together block by block.
 class SurfacePlot {
 public:
@@ -114,15 +122,17 @@ public:
         if (modelled)
             add_model();
         add_runs(modelled);
-        const std::string name = "error_surface_" + norm_.name;
-        const std::string settings = fmt::format(
-            "set logscale xy\nset xrange [{}:{}]\nset yrange [{}:{}]\nset xtics {}\nset ytics {}\n"
-            "set xlabel 'mesh width h'\nset ylabel 'time step Δt'\nset clip two\nset border "
-            "15\nunset grid\n"
-            "set style textbox opaque noborder fillcolor 'white' margins 0.6,0.6\n{}",
-            box_.least.h, box_.greatest.h, box_.least.dt, box_.greatest.dt,
-            ticks_text(width_ticks(box_.h), 6), ticks_text(value_ticks(box_.dt), 6), labels_);
-        return drawing_.plot(name, caption(modelled), settings);
+        constexpr std::size_t most_ticks = 6;
+        drawing_.x = {.title = "mesh width h",
+                      .is_logarithmic = true,
+                      .range = {{box_.least.h, box_.greatest.h}},
+                      .ticks = thinned(width_ticks(box_.h), most_ticks)};
+        drawing_.y = {.title = "time step Δt",
+                      .is_logarithmic = true,
+                      .range = {{box_.least.dt, box_.greatest.dt}},
+                      .ticks = thinned(value_ticks(box_.dt), most_ticks)};
+        drawing_.is_framed = true;
+        return {"error_surface_" + norm_.name, caption(modelled), drawing_};
     }
 
 private:
@@ -140,9 +150,7 @@ private:
                 greatest = std::max(greatest, error);
             }
         const auto levels = levels_between(least, greatest);
-        labels_ += fmt::format("set object rectangle from graph 0,0 to graph 1,1 behind fillstyle "
-                               "solid noborder fillcolor rgb '{}'\n",
-                               shade(1.0));
+        drawing_.backdrop = shade(1.0);
         for (std::size_t i = levels.size(); i-- > 0;)
             add_band(levels[i], static_cast<double>(i) / static_cast<double>(levels.size()));
         for (const double level : levels)
@@ -162,11 +170,9 @@ private:
             rows += fmt::format("{:.6g} {:.6g}\n", within.h, within.dt);
         }
         rows += fmt::format("{} {}\n", box_.least.h, box_.least.dt);
-        const std::string block =
-            drawing_.add_block(fmt::format("model below {}: h, dt", level), rows);
-        drawing_.add_curve(fmt::format(
-            "{} using 1:2 with filledcurves closed fillstyle solid noborder fillcolor rgb '{}'",
-            block, shade(part)));
+        drawing_.add_curve(
+            {.block = drawing_.add_block(fmt::format("model below {}: h, dt", level), rows)},
+            {.kind = CurveLook::Kind::region, .colour = shade(part)});
     }
 
     /// How far a point lies from what its label would cover: the edges of the figure, runs, the
@@ -206,14 +212,16 @@ private:
         }
         if (!is_seen)
             return;
-        const std::string block =
-            drawing_.add_block(fmt::format("model equal to {}: h, dt", level), rows);
-        drawing_.add_curve(block + " using 1:2 with lines lc rgb '#08519c' lw 1");
+        drawing_.add_curve(
+            {.block = drawing_.add_block(fmt::format("model equal to {}: h, dt", level), rows)},
+            {.colour = "#08519c", .width = 1.0});
         constexpr double room = 0.03;
         if (best > room)
-            labels_ += fmt::format("set label '{}' at {:.6g},{:.6g} center boxed front font "
-                                   "',15'\n",
-                                   scientific(level, 0), labelled.h, labelled.dt);
+            drawing_.labels.push_back({.text = scientific(level, 0),
+                                       .x = labelled.h,
+                                       .y = labelled.dt,
+                                       .font = 15,
+                                       .is_on_white = true});
     }
 
     void add_balance() {
@@ -221,8 +229,8 @@ private:
         std::string rows;
         for (const double h : {box_.least.h, box_.greatest.h})
             rows += fmt::format("{} {}\n", h, std::pow(model.spatial(h) / model.b, 1.0 / model.q));
-        const std::string block = drawing_.add_block("balance a h^p = b dt^q: h, dt", rows);
-        drawing_.add_curve(block + " using 1:2 with lines lc rgb '#D55E00' dt 2 lw 2.2",
+        drawing_.add_curve({.block = drawing_.add_block("balance a h^p = b dt^q: h, dt", rows)},
+                           {.colour = "#D55E00", .dash = 2, .width = 2.2},
                            "balance of space error and time error");
     }
 
@@ -239,14 +247,14 @@ private:
                             errors.empty() ? "NaN" : fmt::format("{}", errors[k_]));
         }
         if (!used.empty()) {
-            const std::string block = drawing_.add_block("runs of the fit: h, dt, error", used);
-            drawing_.add_curve(block + " using 1:2 with points pt 7 ps 1 lc rgb '#ffffff'");
-            drawing_.add_curve(block + " using 1:2 with points pt 6 ps 1 lw 1.5 lc rgb '#000000'",
+            const std::size_t block = drawing_.add_block("runs of the fit: h, dt, error", used);
+            drawing_.add_curve({.block = block}, run_look("#ffffff", 7, 1.0));
+            drawing_.add_curve({.block = block}, run_look("#000000", 6, 1.0),
                                "runs that the model is fitted to");
         }
         if (!other.empty()) {
-            const std::string block = drawing_.add_block("other runs: h, dt, error", other);
-            drawing_.add_curve(block + " using 1:2 with points pt 2 ps 0.9 lw 1.5 lc rgb '#000000'",
+            drawing_.add_curve({.block = drawing_.add_block("other runs: h, dt, error", other)},
+                               run_look("#000000", 2, 0.9),
                                modelled ? "runs left out of the fit" : "runs");
             if (!modelled)
                 add_errors_as_labels();
@@ -257,9 +265,12 @@ private:
     void add_errors_as_labels() {
         for (std::size_t i = 0; i < orders_.runs.size(); ++i) {
             const auto& errors = orders_.runs[i].errors;
-            labels_ += fmt::format("set label '{}' at {},{} center offset 0,0.8 front font ',13'\n",
-                                   errors.empty() ? "failed" : scientific(errors[k_], 1), box_.h[i],
-                                   box_.dt[i]);
+            drawing_.labels.push_back(
+                {.text = errors.empty() ? "failed" : scientific(errors[k_], 1),
+                 .x = box_.h[i],
+                 .y = box_.dt[i],
+                 .font = 13,
+                 .is_above = true});
         }
     }
 
@@ -280,7 +291,6 @@ private:
     std::size_t k_;
     Box box_;
     Drawing drawing_;
-    std::string labels_;
 };
 
 } // namespace

@@ -51,21 +51,6 @@ std::string rows_of(const EvolutionResult& result, const std::vector<double>& va
     return rows;
 }
 
-/// Lines at the stops that the tip can meet, with one title.
-void add_stops(Drawing& drawing, const Stops& stops) {
-    bool titled = false;
-    for (const double stop : {stops.lower, stops.upper}) {
-        if (!std::isfinite(stop))
-            continue;
-        const std::string line = fmt::format("{} with lines lc rgb '#555555' dt 3 lw 1.2", stop);
-        if (titled)
-            drawing.add_curve(line);
-        else
-            drawing.add_curve(line, "stops");
-        titled = true;
-    }
-}
-
 std::vector<Window> windows_of(const EvolutionResult& result, const EvolutionBlock& block) {
     std::vector<Window> windows{{"", "", 0.0, block.final_time}};
     if (!result.periods.empty()) {
@@ -82,28 +67,22 @@ Plot plot_of(const EvolutionResult& result, const Scene& scene, std::size_t k,
     const NamedProbe& named = scene.get<EvolutionBlock>()->probes[k];
     const ProbeHistory& probe = result.probes[k];
     Drawing drawing;
-    const std::string computed =
-        drawing.add_block("t, " + probe.name, rows_of(result, probe.values, window));
+    constexpr double width = 1.8;
     drawing.add_curve(
-        fmt::format("{} using 1:2 with lines lc rgb '{}' lw 1.8", computed, series_style(0).colour),
-        "computed");
-    if (!probe.exact.empty()) {
-        const std::string exact =
-            drawing.add_block("t, exact value", rows_of(result, probe.exact, window));
-        drawing.add_curve(fmt::format("{} using 1:2 with lines lc rgb '{}' dt 2 lw 1.8", exact,
-                                      series_style(1).colour),
-                          "exact");
-    }
+        {.block = drawing.add_block("t, " + probe.name, rows_of(result, probe.values, window))},
+        {.colour = series_style(0).colour, .width = width}, "computed");
+    if (!probe.exact.empty())
+        drawing.add_curve(
+            {.block = drawing.add_block("t, exact value", rows_of(result, probe.exact, window))},
+            {.colour = series_style(1).colour, .dash = 2, .width = width}, "exact");
     const bool tip = named.probe.quantity == Probe::Quantity::deflection && named.probe.x == 1.0;
     if (tip)
-        add_stops(drawing, scene.beam.stops);
+        drawing.add_heights({scene.beam.stops.lower, scene.beam.stops.upper}, "stops");
     const std::string words = quantity_words(named);
-    const std::string settings =
-        fmt::format("set xlabel 'time'\nset ylabel {}\nset xrange [{}:{}]\nset offsets 0, 0, graph "
-                    "0.05, graph 0.05\n",
-                    gnuplot_text(words), window.begin, window.end);
-    return drawing.plot("evolution_" + file_part(named.name) + window.name,
-                        fmt::format("Evolution in time: {}{}.", words, window.words), settings);
+    drawing.x = {.title = "time", .range = {{window.begin, window.end}}};
+    drawing.y = {.title = words, .room = 0.05};
+    return {"evolution_" + file_part(named.name) + window.name,
+            fmt::format("Evolution in time: {}{}.", words, window.words), drawing};
 }
 
 } // namespace

@@ -5,6 +5,7 @@
 #include "reports/command_line/end_requests.hpp"
 #include "reports/files/output_file.hpp"
 #include "reports/files/temporary.hpp"
+#include "reports/plots/gnuplot_script.hpp"
 
 #include <boost/crc.hpp>
 
@@ -170,8 +171,9 @@ void draw(const std::vector<Plot>& plots, const std::filesystem::path& inside, D
     const ScratchDirectory scratch(inside);
     for (std::size_t i = 0; i < plots.size(); ++i) {
         const Plot& plot = plots[i];
-        OutputFile(scratch.path() / (plot.name + ".gp")).commit(plot.script);
-        OutputFile(scratch.path() / (plot.name + ".dat")).commit(plot.data);
+        OutputFile(scratch.path() / (plot.name + ".gp"))
+            .commit(gnuplot_script(plot.drawing, plot.name));
+        OutputFile(scratch.path() / (plot.name + ".dat")).commit(gnuplot_data(plot.drawing));
         if (EndRequests::made())
             throw OutputError("the end was asked for");
         const int error = run_gnuplot(scratch.path(), plot.name + ".gp", "said");

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "reports/plots/drawing.hpp"
 #include "studies/study.hpp"
 
 #include <string>
@@ -7,13 +8,11 @@
 
 namespace tvbeam {
 
-/// A figure: a script for gnuplot and the data that it reads. Run where they stand, the script
-/// makes NAME.svg, NAME.png and NAME.pdf.
+/// A figure and what is said of it.
 struct Plot {
-    std::string name;    ///< of the files, without ending
+    std::string name;    ///< of its files, without ending
     std::string caption; ///< what it shows, in words
-    std::string script;  ///< NAME.gp
-    std::string data;    ///< NAME.dat: blocks of columns, two blank lines between them
+    Drawing drawing;
 };
 
 /// Every figure that a result has; each kind is a function in a file of its own.

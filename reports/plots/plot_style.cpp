@@ -55,13 +55,16 @@ std::string gnuplot_title(const std::string& text) {
     return gnuplot_text(boost::algorithm::replace_all_copy(escaped, "L∞", "L^{∞}"));
 }
 
-std::string ticks_text(const std::vector<Tick>& ticks, std::size_t most) {
-    const std::size_t step = (ticks.size() + most - 1) / std::max<std::size_t>(most, 1);
-    std::string text;
-    for (std::size_t i = 0; i < ticks.size(); i += std::max<std::size_t>(step, 1))
-        text += fmt::format("{}{} {}", text.empty() ? "" : ", ", gnuplot_text(ticks[i].text),
-                            ticks[i].value);
-    return "(" + text + ")";
+std::vector<Tick> thinned(const std::vector<Tick>& ticks, std::size_t most) {
+    if (ticks.empty())
+        return {};
+    const double span = std::log(ticks.back().value / ticks.front().value);
+    const double apart = span / (static_cast<double>(most) - 0.5) * (1.0 - 1e-9);
+    std::vector<Tick> left{ticks.front()};
+    for (const auto& tick : ticks)
+        if (std::log(tick.value / left.back().value) >= apart && tick.value > left.back().value)
+            left.push_back(tick);
+    return left;
 }
 
 std::vector<Tick> width_ticks(std::vector<double> widths) {
@@ -80,9 +83,13 @@ std::vector<Tick> value_ticks(std::vector<double> values) {
     return ticks;
 }
 
-std::string range_text(const char* axis, const std::vector<double>& values, double room) {
+std::pair<double, double> range_of(const std::vector<double>& values, double room) {
     const auto [least, greatest] = std::minmax_element(values.begin(), values.end());
-    return fmt::format("set {}range [{}:{}]\n", axis, *least / room, *greatest * room);
+    return {*least / room, *greatest * room};
+}
+
+std::vector<std::string> shades() {
+    return {"#7AD151", "#22A884", "#2A788E", "#414487", "#440154"};
 }
 
 } // namespace tvbeam

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace tvbeam {
@@ -23,18 +25,23 @@ std::string gnuplot_text(const std::string& text);
 /// The same where gnuplot obeys marks, so that the ∞ of a space L∞ is raised; all else is as it is.
 std::string gnuplot_title(const std::string& text);
 
-/// Ticks of a logarithmic axis at given values: at most `most` of them, evenly left out.
 struct Tick {
     double value = 0.0;
     std::string text;
+    std::optional<int> power = {}; ///< of ten, in place of the text
 };
-std::string ticks_text(const std::vector<Tick>& ticks, std::size_t most);
+
+/// Of positive ones, in their order, at most `most`, none close to another on a logarithmic axis.
+std::vector<Tick> thinned(const std::vector<Tick>& ticks, std::size_t most);
 
 /// Ticks at mesh widths 1/s, as fractions; and at other values, as short numbers.
 std::vector<Tick> width_ticks(std::vector<double> widths);
 std::vector<Tick> value_ticks(std::vector<double> values);
 
-/// "set xrange [a:b]": all values, and a factor's room on both sides.
-std::string range_text(const char* axis, const std::vector<double>& values, double room);
+/// All values, and a factor's room on both sides.
+std::pair<double, double> range_of(const std::vector<double>& values, double room);
+
+/// Colours of numbers from 0 to 1, evenly apart: from a green that is seen on white to dark.
+std::vector<std::string> shades();
 
 } // namespace tvbeam

@@ -49,22 +49,20 @@ std::vector<Plot> round_off_plots(const StudyResult& result) {
         const SeriesStyle style = series_style(series++);
         if (rows.empty())
             continue;
-        const std::string block =
-            drawing.add_block(curve.name + ": elements, relative error", rows);
-        drawing.add_curve(fmt::format("{} using 1:2 with linespoints lc rgb '{}' pt {} ps 0.9 dt "
-                                      "{} lw 1.6",
-                                      block, style.colour, style.point, style.dash),
-                          curve.name);
+        drawing.add_curve(
+            {.block = drawing.add_block(curve.name + ": elements, relative error", rows)},
+            look_of(style), curve.name);
     }
     if (drawing.is_empty())
         return {};
-    return {drawing.plot(
-        "round_off",
-        "Floor of round-off under the errors, against the number of elements: measured on the "
-        "coupled mode sin(pi x), and as the h^-4 law of the Hermite basis predicts it. Where a "
-        "floor lies above the discretisation error, a finer mesh gains nothing.",
-        "set logscale xy\nset format xy '10^{%L}'\n" + range_text("x", elements, 1.5) +
-            "set xlabel 'elements s'\nset ylabel 'relative error'\n")};
+    drawing.x = {.title = "elements s", .is_logarithmic = true, .range = range_of(elements, 1.5)};
+    drawing.y = {.title = "relative error", .is_logarithmic = true};
+    return {
+        {"round_off",
+         "Floor of round-off under the errors, against the number of elements: measured on the "
+         "coupled mode sin(pi x), and as the h^-4 law of the Hermite basis predicts it. Where a "
+         "floor lies above the discretisation error, a finer mesh gains nothing.",
+         drawing}};
 }
 
 } // namespace tvbeam

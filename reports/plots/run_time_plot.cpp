@@ -32,37 +32,25 @@ std::vector<Plot> plot_of(const WorkPrecisionResult& result, const WorkPrecision
         const std::string rows = rows_of(result.schemes[j], k);
         if (rows.empty())
             continue;
-        const SeriesStyle style = series_style(j);
-        const std::string data = drawing.add_block(
+        const std::size_t data = drawing.add_block(
             block.schemes[j].name +
                 ": median of the seconds, error, lower quartile, upper quartile, elements, dt",
             rows);
-        drawing.add_curve(
-            fmt::format("{} using 1:2:3:4 with xerrorlines lc rgb '{}' pt {} ps 0.9 dt {} lw 1.6",
-                        data, style.colour, style.point, style.dash),
-            block.schemes[j].name);
+        drawing.add_curve({.block = data, .third = 3, .fourth = 4},
+                          look_of(series_style(j), CurveLook::Kind::bars), block.schemes[j].name);
     }
     if (drawing.is_empty())
         return {};
-    std::string targets;
-    if (const auto found = block.targets.find(norm.name); found != block.targets.end()) {
-        for (const double target : found->second)
-            targets += fmt::format("set arrow from graph 0,first {0} to graph 1,first {0} nohead "
-                                   "lc rgb '#555555' dt 3 lw 1.2\n",
-                                   target);
-        drawing.add_curve("NaN with lines lc rgb '#555555' dt 3 lw 1.2", "error to reach");
-    }
+    if (const auto found = block.targets.find(norm.name); found != block.targets.end())
+        drawing.add_heights(found->second, "error to reach");
     const std::string name = "run_time_" + norm.name;
-    const std::string settings = fmt::format(
-        "set logscale xy\nset format xy '10^{{%L}}'\nset xlabel 'run time in seconds, median and "
-        "quartiles'\nset ylabel {}\n{}",
-        norm.squared ? "'squared error'" : "'error'", targets);
-    return {drawing.plot(
-        name,
-        fmt::format("Error against run time: {}; medians of up to {} runs with bars from the "
-                    "lower to the upper quartile. Further left and further down is better.",
-                    norm.words, block.runs),
-        settings)};
+    drawing.x = {.title = "run time in seconds, median and quartiles", .is_logarithmic = true};
+    drawing.y = {.title = norm.squared ? "squared error" : "error", .is_logarithmic = true};
+    return {{name,
+             fmt::format("Error against run time: {}; medians of up to {} runs with bars from the "
+                         "lower to the upper quartile. Further left and further down is better.",
+                         norm.words, block.runs),
+             drawing}};
 }
 
 } // namespace

@@ -38,9 +38,9 @@ const std::vector<Parameter>& parameters() {
 
 /// A parameter's values of all cases as decades of a logarithmic axis: zero stands two decades
 /// below the smallest positive value, infinity two above the largest.
-class Axis {
+class Decades {
 public:
-    explicit Axis(const Parameter& parameter) : name(parameter.name), value_(parameter.value) {}
+    explicit Decades(const Parameter& parameter) : name(parameter.name), value_(parameter.value) {}
 
     /// Every case, before anything is asked.
     void add(const StressParameters& one) { values_.insert(value_(one)); }
@@ -79,23 +79,26 @@ public:
         return std::min(bins - 1, static_cast<int>(bins * (place - begin) / (end - begin)));
     }
 
-    [[nodiscard]] std::string ticks() const {
-        std::string text;
-        const auto add = [&text](const std::string& label, double place) {
-            text += fmt::format("{}'{}' {}", text.empty() ? "" : ", ", label, place);
-        };
+    [[nodiscard]] std::vector<Tick> ticks() const {
+        std::vector<Tick> all;
         if (has_zero)
-            add("0", zero);
+            all.push_back({zero, "0"});
         if (least) {
             const int first = static_cast<int>(std::ceil(std::log10(*least) - 1e-9));
             const int last = static_cast<int>(std::floor(std::log10(*greatest) + 1e-9));
             const int step = std::max(1, (last - first + 4) / 5);
             for (int power = first; power <= last; power += step)
-                add(fmt::format("10^{{{}}}", power), power);
+                all.push_back({static_cast<double>(power), "", power});
         }
         if (has_infinity)
-            add("none", infinity);
-        return "(" + text + ")";
+            all.push_back({infinity, "none"});
+        return all;
+    }
+
+    /// As it is drawn.
+    [[nodiscard]] Axis drawn() const {
+        const double room = 0.06 * (end - begin);
+        return {.title = name, .range = {{begin - room, end + room}}, .ticks = ticks()};
     }
 
     std::string name;
@@ -151,8 +154,8 @@ double information(const Cells& cells) {
 }
 
 /// Of the parameters that vary.
-std::vector<Axis> axes_of(const StressCases& cases) {
-    std::vector<Axis> axes;
+std::vector<Decades> axes_of(const StressCases& cases) {
+    std::vector<Decades> axes;
     for (const auto& parameter : parameters())
         axes.emplace_back(parameter);
     cases.visit([&](const StressCase& one) {
@@ -161,14 +164,14 @@ std::vector<Axis> axes_of(const StressCases& cases) {
     });
     for (auto& axis : axes)
         axis.close();
-    std::erase_if(axes, [](const Axis& axis) { return !axis.varies(); });
+    std::erase_if(axes, [](const Decades& axis) { return !axis.varies(); });
     return axes;
 }
 
 /// The two axes that tell most; none where fewer than two parameters vary. Where outcomes tell
 /// nothing, all being alike, the two with the most different values.
-std::optional<std::pair<Axis, Axis>> most_telling(const StressCases& cases) {
-    const std::vector<Axis> axes = axes_of(cases);
+std::optional<std::pair<Decades, Decades>> most_telling(const StressCases& cases) {
+    const std::vector<Decades> axes = axes_of(cases);
     std::map<std::pair<std::size_t, std::size_t>, Cells> cells;
     std::vector<int> bins(axes.size());
     cases.visit([&](const StressCase& one) {
@@ -179,7 +182,7 @@ std::optional<std::pair<Axis, Axis>> most_telling(const StressCases& cases) {
             for (std::size_t j = i + 1; j < axes.size(); ++j)
                 ++cells[{i, j}][{bins[i], bins[j]}][fate];
     });
-    std::optional<std::pair<Axis, Axis>> best;
+    std::optional<std::pair<Decades, Decades>> best;
     std::pair<double, double> most{-1.0, -1.0};
     for (const auto& [pair, counts] : cells) {
         const auto& [i, j] = pair;
@@ -195,21 +198,17 @@ std::optional<std::pair<Axis, Axis>> most_telling(const StressCases& cases) {
     return best;
 }
 
-/// Of cases that are not certified: colour, gnuplot's number of a point, its size.
-struct OutcomeStyle {
-    const char* colour;
-    int point;
-    double size;
-};
-
-OutcomeStyle style_of(Outcome outcome) {
+CurveLook look_of(Outcome outcome) {
+    using Kind = CurveLook::Kind;
     switch (outcome) {
+    case Outcome::certified:
+        return {.kind = Kind::shades, .point = 7, .size = 0.8};
     case Outcome::refused:
-        return {"#E69F00", 8, 1.1};
+        return {.kind = Kind::points, .colour = "#E69F00", .point = 8, .size = 1.1};
     case Outcome::stopped:
-        return {"#000000", 2, 1.0};
+        return {.kind = Kind::points, .colour = "#000000", .point = 2, .size = 1.0};
     default:
-        return {"#D55E00", 4, 1.5};
+        return {.kind = Kind::points, .colour = "#D55E00", .point = 4, .size = 1.5};
     }
 }
 
@@ -220,7 +219,7 @@ struct Place {
 };
 using Places = std::map<std::pair<double, double>, Place>;
 
-std::map<Outcome, Places> places_of(const StressCases& cases, const Axis& x, const Axis& y) {
+std::map<Outcome, Places> places_of(const StressCases& cases, const Decades& x, const Decades& y) {
     std::map<Outcome, Places> places;
     cases.visit([&](const StressCase& one) {
         Place& place = places[one.outcome][{x.place(one.parameters), y.place(one.parameters)}];
@@ -235,7 +234,7 @@ std::map<Outcome, Places> places_of(const StressCases& cases, const Axis& x, con
 /// Certified cases, each place in the colour of how near its checks came to a limit, the nearest on
 /// top; the others by marks.
 void add_outcome(Drawing& drawing, Outcome outcome, std::size_t count, const Places& places,
-                 const Axis& x, const Axis& y) {
+                 const Decades& x, const Decades& y) {
     std::vector<std::pair<std::pair<double, double>, Place>> sorted(places.begin(), places.end());
     std::stable_sort(sorted.begin(), sorted.end(), [](const auto& a, const auto& b) {
         return a.second.closeness < b.second.closeness;
@@ -243,18 +242,12 @@ void add_outcome(Drawing& drawing, Outcome outcome, std::size_t count, const Pla
     std::string rows;
     for (const auto& [at, place] : sorted)
         rows += fmt::format("{} {} {} {}\n", at.first, at.second, place.count, place.closeness);
-    const std::string block = drawing.add_block(
+    const std::size_t block = drawing.add_block(
         fmt::format("{}: log10 of {}, of {}, number of cases, greatest check over its limit",
                     name_of(outcome), x.name, y.name),
         rows);
-    const OutcomeStyle style = style_of(outcome);
-    const std::string title = fmt::format("{}: {}", name_of(outcome), count);
-    if (outcome == Outcome::certified)
-        drawing.add_curve(block + " using 1:2:4 with points pt 7 ps 0.8 lc palette", title);
-    else
-        drawing.add_curve(fmt::format("{} using 1:2 with points pt {} ps {} lc rgb '{}' lw 1.6",
-                                      block, style.point, style.size, style.colour),
-                          title);
+    drawing.add_curve({.block = block, .third = outcome == Outcome::certified ? 4 : 0},
+                      look_of(outcome), fmt::format("{}: {}", name_of(outcome), count));
 }
 
 } // namespace
@@ -271,24 +264,16 @@ std::vector<Plot> stress_plots(const StudyResult& result) {
     Drawing drawing;
     for (const auto& [outcome, places] : places_of(cases, x, y))
         add_outcome(drawing, outcome, cases.count(outcome), places, x, y);
-    const double room_x = 0.06 * (x.end - x.begin);
-    const double room_y = 0.06 * (y.end - y.begin);
-    const std::string settings =
-        fmt::format("set xrange [{}:{}]\nset yrange [{}:{}]\nset xtics {}\nset ytics {}\n"
-                    "set xlabel {} noenhanced\nset ylabel {} noenhanced\nset grid\n"
-                    // From yellow, far from every limit, to dark: alike in grey.
-                    "set palette defined (0 '#FDE725', 0.25 '#5EC962', 0.5 '#21918C', 0.75 "
-                    "'#3B528B', 1 '#440154')\nset cbrange [0:1]\n"
-                    "set cblabel 'greatest check over its limit'\n",
-                    x.begin - room_x, x.end + room_x, y.begin - room_y, y.end + room_y, x.ticks(),
-                    y.ticks(), gnuplot_text(x.name), gnuplot_text(y.name));
-    return {drawing.plot(
-        "stress_outcomes",
-        fmt::format("Outcomes of {} cases over the two parameters that tell most about them, "
-                    "{} and {}, on logarithmic axes. The colour of certified ones says how near "
-                    "the nearest of their checks comes to its limit, 1.",
-                    cases.size(), x.name, y.name),
-        settings)};
+    drawing.x = x.drawn();
+    drawing.y = y.drawn();
+    drawing.scale = "greatest check over its limit";
+    return {
+        {"stress_outcomes",
+         fmt::format("Outcomes of {} cases over the two parameters that tell most about them, "
+                     "{} and {}, on logarithmic axes. The colour of certified ones says how near "
+                     "the nearest of their checks comes to its limit, 1.",
+                     cases.size(), x.name, y.name),
+         drawing}};
 }
 
 } // namespace tvbeam

@@ -84,14 +84,15 @@ struct Cell {
     std::string heading;
     std::optional<double> value;
     bool is_error = false;
+    std::string words = {}; ///< of the norm
 };
 
 void add_ladder(const LadderResult& ladder, std::vector<Cell>& cells) {
     for (std::size_t k = 0; k < ladder.norms.size(); ++k) {
         const Measure& norm = ladder.norms[k].norm;
         const RungResult& finest = ladder.rungs.back();
-        cells.push_back(
-            {norm.name, norm.is_value ? "value" : "error", error_of(finest, k), !norm.is_value});
+        cells.push_back({norm.name, norm.is_value ? "value" : "error", error_of(finest, k),
+                         !norm.is_value, norm.words});
         if (norm.is_value)
             continue;
         const auto orders = observed_orders(records_of(ladder.rungs, k));
@@ -131,7 +132,7 @@ std::vector<std::vector<Cell>> rows_of(const std::vector<StudyResult>& results) 
         for (const auto& cell : rows.back())
             if (std::none_of(all.begin(), all.end(),
                              [&](const Cell& known) { return same(known, cell); }))
-                all.push_back({cell.group, cell.heading, std::nullopt, cell.is_error});
+                all.push_back({cell.group, cell.heading, std::nullopt, cell.is_error, cell.words});
     }
     for (auto& row : rows) {
         auto filled = all;
@@ -193,28 +194,25 @@ std::vector<Plot> sweep_plots(const Sweep& sweep, const std::vector<StudyResult>
         if (points.empty())
             continue;
         const std::string name = head.group.empty() ? head.heading
-                                 : has_errors       ? head.group
+                                 : has_errors       ? (head.words.empty() ? head.group : head.words)
                                                     : head.group + ": " + head.heading;
-        const SeriesStyle style = series_style(series++);
-        drawing.add_curve(drawing.add_block(name, points) +
-                              fmt::format(" using 1:2 with linespoints lc rgb '{}' pt {} ps 0.9 "
-                                          "dt {} lw 1.6",
-                                          style.colour, style.point, style.dash),
-                          name);
+        drawing.add_curve({.block = drawing.add_block(name, points)},
+                          look_of(series_style(series++)), name);
     }
     if (drawing.is_empty())
         return {};
     const auto [least, greatest] = std::minmax_element(abscissa.begin(), abscissa.end());
     constexpr double far = 20.0;
     const bool spreads = *least > 0.0 && *greatest / *least > far;
-    const std::string settings = fmt::format(
-        "{}{}{}set xlabel {} noenhanced\nset ylabel '{}'\n", spreads ? "set logscale x\n" : "",
-        has_errors ? "set logscale y\nset format y '10^{%L}'\n" : "",
-        spreads ? range_text("x", abscissa, 1.5) : "", gnuplot_text(sweep.key),
-        has_errors ? "error of the finest level" : "figure");
-    return {drawing.plot("sweep",
-                         fmt::format("{} over {}.", has_errors ? "Errors" : "Figures", sweep.key),
-                         settings)};
+    drawing.x = {.title = sweep.key, .is_logarithmic = spreads};
+    if (spreads) {
+        drawing.x.range = range_of(abscissa, 1.5);
+        drawing.x.ticks = thinned(value_ticks(abscissa), 6);
+    }
+    drawing.y = {.title = has_errors ? "error of the finest level" : "figure",
+                 .is_logarithmic = has_errors};
+    return {{"sweep", fmt::format("{} over {}.", has_errors ? "Errors" : "Figures", sweep.key),
+             drawing}};
 }
 
 bool has_defect(const std::vector<StudyResult>& results) {
@@ -258,6 +256,14 @@ std::string sweep_json(const Sweep& sweep, const std::vector<StudyResult>& resul
         json["rows"].push_back(std::move(row));
     }
     return json_text(json);
+}
+
+/// All of them, or of many how many and which are the first and the last.
+std::string values_text(const std::vector<std::string>& values) {
+    constexpr std::size_t most = 12;
+    return values.size() <= most ? fmt::format("{}", fmt::join(values, ", "))
+                                 : fmt::format("{}, {}, … {} ({} values)", values[0], values[1],
+                                               values.back(), values.size());
 }
 
 } // namespace
@@ -330,7 +336,7 @@ Reported reported(const Sweep& sweep, const std::vector<StudyResult>& results) {
     all.document.title = results.empty() ? sweep.key : results.front().scene.title;
     if (has_defect(results))
         all.document.title = std::string(defect_words) + ": " + all.document.title;
-    all.document.head = {fmt::format("{} = {}", sweep.key, fmt::join(sweep.values, ", "))};
+    all.document.head = {sweep.key + " = " + values_text(sweep.values)};
     for (const auto& result : results)
         for (const auto& remark : result.remarks)
             if (std::find(all.document.head.begin(), all.document.head.end(), remark) ==

@@ -73,7 +73,8 @@ double read_reference_dt(TableReader& table, bool richardson, const std::vector<
                        " steps; at most 1e12 are possible");
             if (std::abs(ratio - std::round(ratio)) > 1e-9 * ratio)
                 refuse(must + "divide the " + held + " into a whole number of steps, not " +
-                       message_text(ratio));
+                       message_text(ratio) + "; one that does is " +
+                       message_text(dt * ratio / std::ceil(ratio)));
         }
     return dt;
 }

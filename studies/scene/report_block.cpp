@@ -17,8 +17,8 @@ bool contains(const std::vector<std::string>& names, const std::string& name) {
 
 } // namespace
 
-bool ReportBlock::wants(const std::string& file) const {
-    return files.empty() || contains(files, file);
+bool ReportBlock::names(const std::string& file) const {
+    return contains(files, file);
 }
 
 ReportBlock read_report(TableReader table, const std::vector<std::string>& known) {
@@ -31,13 +31,13 @@ ReportBlock read_report(TableReader table, const std::vector<std::string>& known
                                   fmt::format(" names '{}'; known are '{}'{}", name,
                                               fmt::join(known, "', '"), did_you_mean(name, known)),
                                   i);
-            if (contains(report.files, name))
+            if (report.names(name))
                 throw table.error("files", " names '" + name + "' twice; remove one", i);
             report.files.push_back(name);
         }
         if (report.files.empty())
             throw table.error("files", " is empty; name what --out is to write, e.g. "
-                                       "[\"html\"], or leave it out for all");
+                                       "[\"html\"], or leave it out for all but pgfplots");
     }
     table.finish();
     return report;

@@ -415,8 +415,8 @@ Entries of_expectations() {
          {},
          "."},
         {"report", KeyType::table, "everything", "what --out writes"},
-        {"report.files", KeyType::texts, "all of them",
-         "json, csv, markdown, latex, plots, pdf, html"},
+        {"report.files", KeyType::texts, "all but pgfplots",
+         "json, csv, markdown, latex, plots, pdf, pgfplots, html"},
     };
 }
 

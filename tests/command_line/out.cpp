@@ -93,6 +93,27 @@ BOOST_AUTO_TEST_CASE(the_block_says_what_is_written_and_nothing_else_is) {
     BOOST_TEST(directory.count() == 1u);
 }
 
+BOOST_AUTO_TEST_CASE(figures_for_latex_are_written_where_they_are_asked_for_and_without_gnuplot) {
+    const TemporaryDirectory directory;
+    const Called called =
+        call(directory, small + files("'pgfplots'") + out(directory), "PATH=/nowhere ");
+    BOOST_TEST(called.exit == 0);
+    BOOST_TEST(called.errors.empty(), called.errors);
+    BOOST_TEST(
+        written(directory) ==
+            (std::set<std::string>{"plots/convergence.tex", "plots/error_surface_theta_L2L2.tex",
+                                   "plots/error_surface_u_LinfH2semi.tex"}),
+        boost::test_tools::per_element());
+    // Those of an earlier result go.
+    directory.write("r/plots/mine.tex", "\\section{Mine}");
+    BOOST_TEST(call(directory, "run fixed-point-limits --set stress.contraction.elements=4 " +
+                                   files("'pgfplots'") + out(directory))
+                   .exit == 0);
+    BOOST_TEST(written(directory) ==
+                   (std::set<std::string>{"plots/contraction.tex", "plots/mine.tex"}),
+               boost::test_tools::per_element());
+}
+
 BOOST_AUTO_TEST_CASE(what_another_scene_has_left_goes_and_what_is_not_ours_stays) {
     const TemporaryDirectory directory;
     BOOST_TEST(call(directory,

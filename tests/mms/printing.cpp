@@ -3,8 +3,10 @@
 #include "mms/expression/algebra.hpp"
 #include "mms/expression/canonical.hpp"
 #include "mms/expression/expression_parser.hpp"
+#include "mms/expression/shortened.hpp"
 #include "mms/expression/symbols.hpp"
 #include "mms/expression/tape_compiler.hpp"
+#include "mms/solution_expressions.hpp"
 
 #include <boost/test/data/monomorphic.hpp>
 #include <boost/test/data/test_case.hpp>
@@ -112,6 +114,43 @@ BOOST_DATA_TEST_CASE(derived_formulas_read_back, data::make(shipped())) {
         const Eigen::ArrayXXd both = tape.evaluate(x, ArrayXd::LinSpaced(17, 0.1, 1.9));
         const double scale = std::max(1.0, both.abs().maxCoeff());
         BOOST_TEST((both.row(0) - both.row(1)).abs().maxCoeff() <= 1e-13 * scale);
+    }
+}
+
+BOOST_AUTO_TEST_CASE(what_terms_have_in_common_is_taken_out_where_that_is_shorter) {
+    for (const auto& [given, expected] : std::vector<std::pair<std::string, std::string>>{
+             {"2*t*x + t*(x - 3)", "3*t*(x - 1)"},
+             {"2*alpha*(2*t*x + t*(x - 3))/5", "6*alpha*t*(x - 1)/5"},
+             {"exp(t)*x^2 + 2*exp(t)*x*(x - 3)", "3*exp(t)*x*(x - 2)"},
+             {"sin(t)*x + cos(t) + sin(t)*(x - 1)", "cos(t) + sin(t)*(2*x - 1)"},
+             {"pi*cos(x) + pi*sin(x)", "pi*(cos(x) + sin(x))"},
+             {"(x + 1)^9*t - t", "t*(x + 1)^9 - t"},
+             {"(x - 1)^2", "(x - 1)^2"},
+             {"x + 1", "x + 1"}})
+        BOOST_TEST(formula_text(shortened(parsed(given))) == expected);
+}
+
+// Of every shipped solution, α u_xxt + θ_x: both are sums of a few dozen terms of
+// moderate size, in different order.
+BOOST_DATA_TEST_CASE(a_shortened_formula_is_the_same_function_and_no_longer,
+                     data::make(shipped())) {
+    const SolutionExpressions solution = expressions_of(read_solution(sample));
+    const GiNaC::exmap values = beam_values({0.017, 0.1, 0.5, {-0.02, 0.1}});
+    const ModelSymbols& s = model_symbols();
+    for (const PhaseExpressions& phase : solution.phases) {
+        const GiNaC::ex curvature = derivative(derivative(phase.u, s.x), s.x);
+        const GiNaC::ex formula =
+            s.alpha * derivative(curvature, s.t) + derivative(phase.theta, s.x);
+        const GiNaC::ex brief = shortened(formula);
+        BOOST_TEST(formula_text(brief).size() <= formula_text(formula).size());
+        const auto at = [&](const GiNaC::ex& one) {
+            return substituted(substituted(one, solution.parameters), values);
+        };
+        const Tape tape = compile_tape({at(formula), at(brief)});
+        const Eigen::ArrayXXd both =
+            tape.evaluate(ArrayXd::LinSpaced(17, 0.0, 1.0), ArrayXd::LinSpaced(17, 0.1, 1.9));
+        const double scale = std::max(1.0, both.abs().maxCoeff());
+        BOOST_TEST((both.row(0) - both.row(1)).abs().maxCoeff() <= 1e-12 * scale);
     }
 }
 

@@ -3,15 +3,19 @@
 
 #include "reports/plots/gnuplot.hpp"
 #include "reports/plots/plot.hpp"
+#include "reports/plots/readable_legend.hpp"
 #include "studies/study.hpp"
 
 #include <boost/test/data/monomorphic.hpp>
 #include <boost/test/data/test_case.hpp>
 #include <boost/test/unit_test.hpp>
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <regex>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -69,7 +73,7 @@ Picture picture_of(const std::string& svg) {
             visit(*found);
     };
     each("translate\\(([-0-9.]+),([-0-9.]+)\\)( rotate\\(270\\))?\"[^>]*font-size=\"([0-9.]+)\" +"
-         "text-anchor=\"([a-z]+)\">\\s*<text>(.*?)</text>",
+         "text-anchor=\"([a-z]+)\">\\s*<text[^>]*>(.*?)</text>",
          [&](const std::smatch& found) {
              static const std::regex mark("<[^>]*>");
              const std::string words = std::regex_replace(found[6].str(), mark, "");
@@ -146,6 +150,11 @@ const std::vector<Drawn> figures = {
      "table1",
      {"ladder.printed.source='a table in an appendix of a thesis with a title that is too long'"},
      1},
+    {"runs that failed",
+     "table1",
+     {"ladder.printed={}", "scheme.algorithm=fixed-point", "beam.alpha=5",
+      "ladder.elements=[4, 4, 8]", "ladder.dt=[1, 1e-3, 5e-4]"},
+     0},
     {"a beam over time", "figure1", {"evolution.dt=0.01"}, 0},
     {"cases",
      "stress-contact",
@@ -167,6 +176,34 @@ BOOST_DATA_TEST_CASE(nothing_stands_on_something_else, data::make(figures)) {
         if (plots[i].name == "convergence")
             BOOST_TEST(picture.triangles.size() == sample.triangles);
     }
+}
+
+// A legend of every length: below the axes, whole, and of so many series as can be told apart.
+BOOST_DATA_TEST_CASE(a_legend_has_room_however_many_series_there_are,
+                     data::make({1, 2, 7, 12, 13, 100}), count) {
+    Drawing drawing;
+    drawing.x = {.title = "mesh width h   (and Δt = 0.01 h with it)", .is_logarithmic = true};
+    drawing.y = {.title = "error", .is_logarithmic = true};
+    drawing.fix_axes();
+    for (int k = 0; k < count; ++k)
+        drawing.add_curve(
+            {.block = drawing.add_block("h, error", fmt::format("0.1 {0}\n0.01 {0}e-2\n", k + 1))},
+            look_of(series_style(static_cast<std::size_t>(k))), fmt::format("L∞ of series {}", k));
+    const DrawnPlots drawn = draw({{"series", "", drawing}});
+    BOOST_REQUIRE_MESSAGE(drawn.failure.empty(), drawn.failure);
+    const Picture picture = picture_of(drawn.plots[0].svg);
+    require_clear(picture, "series");
+    const auto named =
+        std::count_if(picture.texts.begin(), picture.texts.end(), [](const Text& text) {
+            return text.words.find("of series") != std::string::npos;
+        });
+    BOOST_TEST(named == (count > 12 ? 8 : count));
+    std::set<std::string> colours;
+    const Drawing readable = with_readable_legend(drawing);
+    for (const auto& curve : readable.curves())
+        colours.insert(curve.look.colour);
+    BOOST_TEST(colours.size() == (count > 12 ? static_cast<std::size_t>(count)
+                                             : std::min<std::size_t>(7, colours.size())));
 }
 
 // The test sees what it looks for.

@@ -2,6 +2,7 @@
 
 #include "core/contraction.hpp"
 #include "reports/formats/html_report.hpp"
+#include "reports/plots/gnuplot_script.hpp"
 #include "reports/plots/plot.hpp"
 #include "reports/plots/plot_style.hpp"
 #include "studies/grid/grid.hpp"
@@ -31,12 +32,16 @@ bool has(const std::string& text, const std::string& part) {
     return text.find(part) != std::string::npos;
 }
 
+std::string script_of(const Plot& plot) {
+    return gnuplot_script(plot.drawing, plot.name);
+}
+
 using Rows = std::vector<std::vector<double>>;
 
 /// The blocks of a figure's data by their headings.
 std::map<std::string, Rows> blocks_of(const Plot& plot) {
     std::map<std::string, Rows> blocks;
-    std::istringstream lines(plot.data);
+    std::istringstream lines(gnuplot_data(plot.drawing));
     std::string heading;
     for (std::string line; std::getline(lines, line);) {
         if (line.starts_with("# ")) {
@@ -104,8 +109,8 @@ BOOST_AUTO_TEST_CASE(the_points_of_a_convergence_figure_are_the_errors_and_the_p
         BOOST_TEST(rows[i][3] ==
                    paper().scene.get<LadderBlock>()->printed->figures.at("theta_L2L2_sq").at(i));
     }
-    BOOST_TEST(has(plots[0].script, "(and Δt = 0.01 h with it)"), plots[0].script);
-    BOOST_TEST(has(plots[0].script, "published in Table 1"));
+    BOOST_TEST(has(script_of(plots[0]), "(and Δt = 0.01 h with it)"), script_of(plots[0]));
+    BOOST_TEST(has(script_of(plots[0]), "published in Table 1"));
 }
 
 BOOST_AUTO_TEST_CASE(the_triangles_of_a_convergence_figure_have_the_whole_orders_that_are_seen) {
@@ -113,8 +118,8 @@ BOOST_AUTO_TEST_CASE(the_triangles_of_a_convergence_figure_have_the_whole_orders
     const auto plots = convergence_plots(made_up(
         [](double h, std::size_t k) { return k == 0 ? 3.0 * h * h : 5e-4 * std::pow(h, 3.5); }));
     BOOST_REQUIRE(plots.size() == 1u);
-    BOOST_TEST(has(plots[0].script, "slope 2.00'"), plots[0].script);
-    BOOST_TEST(has(plots[0].script, "slope 3.50'"), plots[0].script);
+    BOOST_TEST(has(script_of(plots[0]), "slope 2.00'"), script_of(plots[0]));
+    BOOST_TEST(has(script_of(plots[0]), "slope 3.50'"), script_of(plots[0]));
     const auto blocks = blocks_of(plots[0]);
     std::size_t triangles = 0;
     for (const auto& [heading, rows] : blocks)
@@ -134,11 +139,11 @@ BOOST_AUTO_TEST_CASE(every_line_of_a_legend_is_drawn_and_differs_from_the_others
         styles.insert({style.colour, style.point, style.dash});
     }
     BOOST_TEST(styles.size() == 100U);
-    const std::string script = convergence_plots(paper()).at(0).script;
+    const std::string script = script_of(convergence_plots(paper()).at(0));
     for (std::size_t k = 0; k < 2; ++k)
-        BOOST_TEST(has(script, fmt::format("with linespoints lc rgb '{}' pt {} ps 0.9 dt {}",
-                                           series_style(k).colour, series_style(k).point,
-                                           series_style(k).dash)),
+        BOOST_TEST(has(script, fmt::format("with linespoints lc rgb '{}' dt {} lw 1.6 pt {} ps 0.9",
+                                           series_style(k).colour, series_style(k).dash,
+                                           series_style(k).point)),
                    script);
 }
 
@@ -185,7 +190,7 @@ BOOST_AUTO_TEST_CASE(where_no_model_holds_the_runs_stand_with_their_errors) {
     StudyResult result = paper();
     result.get<OrdersResult>()->norms[0].fit.failure = "none";
     const Plot plot = error_surface_plots(result).at(0);
-    BOOST_TEST(!has(plot.data, "model"));
+    BOOST_TEST(!has(gnuplot_data(plot.drawing), "model"));
     BOOST_TEST(block(blocks_of(plot), "other runs").size() ==
                result.get<OrdersResult>()->runs.size());
 }
@@ -202,10 +207,10 @@ BOOST_AUTO_TEST_CASE(the_two_parameters_that_decide_the_outcome_are_the_axes) {
                     stress_case(alpha, zeta * (1 + i++ % 3), dt,
                                 alpha > 1.0 && dt > 1.0 ? Outcome::refused : Outcome::certified));
     const Plot plot = stress_plots(result).at(0);
-    BOOST_TEST(has(plot.script, "set xlabel 'thermal expansion α'"), plot.script);
-    BOOST_TEST(has(plot.script, "set ylabel 'time step Δt'"), plot.script);
-    BOOST_TEST(has(plot.script, "'refused: 28'"), plot.script);
-    BOOST_TEST(has(plot.script, "'certified: 84'"), plot.script);
+    BOOST_TEST(has(script_of(plot), "set xlabel 'thermal expansion α'"), script_of(plot));
+    BOOST_TEST(has(script_of(plot), "set ylabel 'time step Δt'"), script_of(plot));
+    BOOST_TEST(has(script_of(plot), "'refused: 28'"), script_of(plot));
+    BOOST_TEST(has(script_of(plot), "'certified: 84'"), script_of(plot));
     const auto blocks = blocks_of(plot);
     double cases = 0;
     for (const auto& [heading, rows] : blocks)
@@ -227,8 +232,8 @@ BOOST_AUTO_TEST_CASE(zero_and_no_stops_have_places_of_their_own_on_a_logarithmic
         }
     const Plot plot = stress_plots(result).at(0);
     // A decade below 1e-2, a decade above 1.
-    BOOST_TEST(has(plot.script, "('0' -3, '10^{-2}' -2"), plot.script);
-    BOOST_TEST(has(plot.script, "'none' 1)"), plot.script);
+    BOOST_TEST(has(script_of(plot), "('0' -3, '10^{-2}' -2"), script_of(plot));
+    BOOST_TEST(has(script_of(plot), "'none' 1)"), script_of(plot));
 }
 
 BOOST_AUTO_TEST_CASE(the_lines_of_a_contraction_map_are_where_it_is_predicted) {

@@ -1,0 +1,138 @@
+#include "mms/expression/shortened.hpp"
+
+#include "mms/expression/algebra.hpp"
+#include "mms/expression/canonical.hpp"
+#include "mms/expression/printing.hpp"
+
+#include <map>
+#include <stdexcept>
+#include <utility>
+
+namespace tvbeam {
+
+using GiNaC::ex;
+using GiNaC::ex_to;
+using GiNaC::is_a;
+using GiNaC::numeric;
+
+namespace {
+
+constexpr std::size_t longest_text = 4000;
+constexpr std::size_t longest_sum = 600;
+
+/// Of two equal ones; where they are alike in length, the first.
+ex shorter(const ex& one, const ex& other) {
+    return formula_text(other).size() < formula_text(one).size() ? other : one;
+}
+
+/// Bases and exponents of a term, without its number.
+using Factors = std::map<ex, numeric, GiNaC::ex_is_less>;
+
+Factors factors_of(const ex& term) {
+    const GiNaC::exvector parts =
+        is_a<GiNaC::mul>(term) ? GiNaC::exvector(term.begin(), term.end()) : GiNaC::exvector{term};
+    Factors factors;
+    for (const ex& part : parts)
+        if (is_a<GiNaC::power>(part) && is_a<numeric>(part.op(1)))
+            factors[part.op(0)] = ex_to<numeric>(part.op(1));
+        else if (!is_a<numeric>(part))
+            factors[part] = 1;
+    return factors;
+}
+
+/// t x - t as t (x - 1). GiNaC's own (collect_common_factors) does it in another way from run to
+/// run, as its addresses fall.
+ex with_common_taken_out(const ex& sum) {
+    if (!is_a<GiNaC::add>(sum))
+        return sum;
+    Factors common = factors_of(sum.op(0));
+    for (const ex& term : sum) {
+        const Factors factors = factors_of(term);
+        Factors shared;
+        for (const auto& [base, exponent] : common)
+            if (const auto found = factors.find(base);
+                found != factors.end() && found->second.is_negative() == exponent.is_negative())
+                shared[base] =
+                    GiNaC::abs(found->second) < GiNaC::abs(exponent) ? found->second : exponent;
+        common = std::move(shared);
+    }
+    ex divisor = 1;
+    for (const auto& [base, exponent] : common)
+        divisor *= pow(base, exponent);
+    ex rest = 0;
+    for (const ex& term : sum)
+        rest += term / divisor;
+    return divisor * rest;
+}
+
+/// The same for the sums among the factors of a product.
+ex with_common_taken_out_of_factors(const ex& product) {
+    ex result = 1;
+    for (const ex& factor : product)
+        result *= with_common_taken_out(factor);
+    return result;
+}
+
+/// The shortest of a sum as it is, multiplied out, and with what its terms have in common taken
+/// out.
+ex shortest(const ex& sum) {
+    const ex expanded = moderately_expanded(sum);
+    return shorter(shorter(with_common_taken_out(sum), with_common_taken_out(expanded)),
+                   shorter(sum, expanded));
+}
+
+/// Two terms that are shorter by a fifth together are put together, those first that gain most.
+ex with_pairs_joined(ex sum) {
+    constexpr std::size_t most_terms = 12;
+    while (is_a<GiNaC::add>(sum) && sum.nops() <= most_terms) {
+        const GiNaC::exvector terms = ordered_operands(sum); // the same in every run
+        std::size_t most = 0;
+        ex joined = sum;
+        for (std::size_t i = 0; i < terms.size(); ++i)
+            for (std::size_t j = i + 1; j < terms.size(); ++j) {
+                const ex pair = terms[i] + terms[j];
+                const ex one = shortest(pair);
+                const std::size_t before = formula_text(pair).size();
+                const std::size_t after = formula_text(one).size();
+                if (5 * after <= 4 * before && before - after > most) {
+                    most = before - after;
+                    joined = sum - pair + one;
+                }
+            }
+        if (most == 0)
+            return sum;
+        sum = shorter(sum, joined);
+        if (!sum.is_equal(joined))
+            return sum;
+    }
+    return sum;
+}
+
+struct ShortenedParts final : GiNaC::map_function {
+    ex operator()(const ex& part) override {
+        const ex inside =
+            is_a<GiNaC::add>(part) || is_a<GiNaC::mul>(part) || is_a<GiNaC::power>(part)
+                ? part.map(*this)
+                : part;
+        if (formula_text(inside).size() > longest_sum)
+            return inside;
+        if (is_a<GiNaC::mul>(inside))
+            return shorter(with_common_taken_out_of_factors(inside), inside);
+        return is_a<GiNaC::add>(inside) ? shorter(shortest(inside), with_pairs_joined(inside))
+                                        : inside;
+    }
+};
+
+} // namespace
+
+ex shortened(const ex& expression) {
+    if (formula_text(expression).size() > longest_text)
+        return expression;
+    try {
+        return ShortenedParts()(expression);
+    } catch (const std::runtime_error&) { // GiNaC cannot divide all that it can hold
+        return expression;
+    }
+}
+
+} // namespace tvbeam

@@ -1,0 +1,336 @@
+#include "reports/plots/pgfplots_text.hpp"
+
+#include "reports/document/visible_text.hpp"
+#include "reports/formats/latex_report.hpp"
+#include "reports/plots/readable_legend.hpp"
+#include "studies/text/number_text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <sstream>
+
+namespace tvbeam {
+
+namespace {
+
+/// Of the frame, in widths of the line that the figure stands in.
+constexpr double frame_height =
+    (Drawing::frame.bottom - Drawing::frame.top) / static_cast<double>(Drawing::plot_width);
+constexpr double frame_width =
+    (Drawing::frame.right - Drawing::frame.left) / static_cast<double>(Drawing::plot_width);
+constexpr double frame_beside_scale = 0.58;
+
+/// gnuplot's width 1 and its point of size 1, in points of TeX.
+constexpr double line_unit = 0.55;
+constexpr double mark_unit = 2.6;
+
+/// "#D55E00" as the numbers 213, 94, 0.
+std::array<int, 3> parts_of(const std::string& colour) {
+    const auto part = [&](std::size_t at) { return std::stoi(colour.substr(at, 2), nullptr, 16); };
+    return {part(1), part(3), part(5)};
+}
+
+/// As xcolor takes it.
+std::string colour_text(const std::string& colour) {
+    const auto [red, green, blue] = parts_of(colour);
+    return fmt::format("{{rgb,255:red,{};green,{};blue,{}}}", red, green, blue);
+}
+
+/// gnuplot's dash patterns 1 to 5.
+std::string dash_text(int dash) {
+    switch (dash) {
+    case 2:
+        return "dashed";
+    case 3:
+        return "dotted";
+    case 4:
+        return "dashdotted";
+    case 5:
+        return "dashdotdotted";
+    default:
+        return "solid";
+    }
+}
+
+/// A mark by gnuplot's number of the point.
+std::string mark_text(int point) {
+    switch (point) {
+    case 2:
+        return "x";
+    case 3:
+        return "asterisk";
+    case 4:
+        return "square";
+    case 5:
+        return "square*";
+    case 6:
+        return "o";
+    case 7:
+        return "*";
+    case 8:
+    case 10:
+        return "triangle";
+    case 9:
+    case 11:
+        return "triangle*";
+    case 12:
+        return "diamond";
+    case 13:
+        return "diamond*";
+    case 14:
+        return "pentagon";
+    default:
+        return "pentagon*";
+    }
+}
+
+std::string marks_text(const CurveLook& look) {
+    const bool is_upside_down = look.point == 10 || look.point == 11;
+    return fmt::format("mark={}, mark size={:.2f}pt, mark options={{solid{}}}",
+                       mark_text(look.point), mark_unit * look.size,
+                       is_upside_down ? ", rotate=180" : "");
+}
+
+std::string look_text(const CurveLook& look) {
+    using Kind = CurveLook::Kind;
+    const std::string colour = colour_text(look.colour);
+    const std::string line =
+        fmt::format("color={}, line width={:.2f}pt", colour, line_unit * look.width);
+    switch (look.kind) {
+    case Kind::points:
+        return "only marks, " + line + ", " + marks_text(look);
+    case Kind::lines_and_points:
+    case Kind::bars:
+        return line + ", " + dash_text(look.dash) + ", " + marks_text(look);
+    case Kind::shades:
+        return "scatter, only marks, scatter src=explicit, " + marks_text(look);
+    case Kind::region:
+    case Kind::band:
+        return "draw=none, fill=" + colour + ", area legend";
+    default:
+        return line + ", " + dash_text(look.dash) + ", mark=none";
+    }
+}
+
+using Row = std::vector<std::string>;
+
+const std::string& field_of(const Row& row, int column) {
+    return row.at(static_cast<std::size_t>(column - 1));
+}
+
+double number_of(const Row& row, int column) {
+    return number_in(field_of(row, column));
+}
+
+/// The rows of a block in which the columns of a curve are finite.
+std::vector<Row> rows_of(const Drawing& drawing, const CurveData& data) {
+    std::vector<Row> rows;
+    std::istringstream lines(drawing.blocks()[*data.block].rows);
+    for (std::string line; std::getline(lines, line);) {
+        std::istringstream words(line);
+        Row row{std::istream_iterator<std::string>(words), {}};
+        if (!row.empty() && std::isfinite(number_of(row, data.x)) &&
+            std::isfinite(number_of(row, data.y)))
+            rows.push_back(std::move(row));
+    }
+    return rows;
+}
+
+/// Of a point with a bar: how far it reaches to either side.
+std::string bar_text(const Row& row, const CurveData& data) {
+    const double x = number_of(row, data.x);
+    return fmt::format(" += ({},0) -= ({},0)", number_of(row, data.fourth) - x,
+                       x - number_of(row, data.third));
+}
+
+std::string coordinates_of(const Drawing& drawing, const Curve& curve) {
+    const auto rows = rows_of(drawing, curve.data);
+    const auto& [block, x, y, third, fourth, height] = curve.data;
+    std::string text;
+    for (const auto& row : rows) {
+        text += "    (" + field_of(row, x) + "," + field_of(row, y) + ")";
+        if (curve.look.kind == CurveLook::Kind::shades)
+            text += " [" + field_of(row, third) + "]";
+        if (curve.look.kind == CurveLook::Kind::bars)
+            text += bar_text(row, curve.data);
+        text += "\n";
+    }
+    // A band: along the one edge, and back along the other.
+    if (curve.look.kind == CurveLook::Kind::band)
+        for (auto row = rows.rbegin(); row != rows.rend(); ++row)
+            text += "    (" + field_of(*row, x) + "," + field_of(*row, third) + ")\n";
+    return text;
+}
+
+/// What stands in a comment: one line.
+std::string comment_text(const std::string& text) {
+    std::string line = visible(text);
+    std::replace(line.begin(), line.end(), '\n', ' ');
+    return line;
+}
+
+/// From the least to the greatest, of an axis: as it is given, or of the data.
+using Range = std::pair<double, double>;
+
+Range range_of(const Drawing& drawing, bool is_x) {
+    if (const Axis& axis = is_x ? drawing.x : drawing.y; axis.range)
+        return *axis.range;
+    Range range{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+    const auto add = [&range](double number) {
+        range = {std::min(range.first, number), std::max(range.second, number)};
+    };
+    for (const auto& curve : drawing.curves()) {
+        if (curve.data.height && !is_x)
+            add(*curve.data.height);
+        if (!curve.data.block)
+            continue;
+        for (const auto& row : rows_of(drawing, curve.data))
+            add(number_of(row, is_x ? curve.data.x : curve.data.y));
+    }
+    return range;
+}
+
+/// On a logarithmic axis: powers of ten; where it holds fewer than two, also 2 and 5 times those.
+std::vector<Tick> ticks_within(const Range& range) {
+    constexpr std::size_t most = 7;
+    std::vector<Tick> powers;
+    std::vector<Tick> more;
+    const int last = static_cast<int>(std::floor(std::log10(range.second)));
+    for (int power = static_cast<int>(std::floor(std::log10(range.first))); power <= last; ++power)
+        for (const int times : {1, 2, 5}) {
+            const double value = number_in(fmt::format("{}e{}", times, power));
+            if (value < range.first || value > range.second)
+                continue;
+            more.push_back({value, scientific(value, 0)});
+            if (times == 1)
+                powers.push_back({value, "", power});
+        }
+    return powers.size() > 1 ? thinned(powers, most) : more;
+}
+
+/// Of a number: 10^-3 rather than 1 x 10^-3, which is wider than what gnuplot writes.
+std::string latex_label(const std::string& text) {
+    const std::string latex = latex_sentence(text);
+    const std::string one = "$1\\times";
+    return latex.starts_with(one) ? "$" + latex.substr(one.size()) : latex;
+}
+
+std::string axis_text(char name, const Axis& axis, const Range& range) {
+    std::string text =
+        fmt::format("    {}mode={},\n", name, axis.is_logarithmic ? "log" : "normal");
+    if (axis.range)
+        text += fmt::format("    {0}min={1}, {0}max={2},\n", name, range.first, range.second);
+    else if (axis.room > 0.0)
+        text += fmt::format("    enlarge {} limits={},\n", name, axis.room);
+    const auto ticks = axis.ticks            ? *axis.ticks
+                       : axis.is_logarithmic ? ticks_within(range)
+                                             : std::vector<Tick>();
+    std::string places;
+    std::string labels;
+    for (const auto& tick : ticks) {
+        places += fmt::format("{}{}", places.empty() ? "" : ",", tick.value);
+        labels += fmt::format("{}{{{}}}", labels.empty() ? "" : ",",
+                              tick.power ? fmt::format("$10^{{{}}}$", *tick.power)
+                                         : latex_label(tick.text));
+    }
+    if (!ticks.empty())
+        text +=
+            fmt::format("    {0}tick={{{1}}},\n    {0}ticklabels={{{2}}},\n", name, places, labels);
+    constexpr double rough = 0.02;
+    constexpr double large = 1e4;
+    // 0.08, not 8 x 10^-2, where four digits behind the point say it.
+    if (ticks.empty() && range.second - range.first > rough && range.second < large &&
+        range.first > -large)
+        text += fmt::format("    scaled {0} ticks=false,\n    {0}ticklabel style={{/pgf/number "
+                            "format/fixed, /pgf/number format/precision=4}},\n",
+                            name);
+    if (!axis.title.empty())
+        text += fmt::format("    {}label={{{}}},\n", name, latex_text(axis.title));
+    return text;
+}
+
+std::string curve_text(const Drawing& drawing, const Curve& curve, const Range& across) {
+    using Kind = CurveLook::Kind;
+    const auto& [block, x, y, third, fourth, height] = curve.data;
+    const std::string look = look_text(curve.look);
+    const std::string legend =
+        curve.title ? "\\addlegendentry{" + latex_text(*curve.title) + "}\n" : "";
+    if (!block && !height)
+        return "\\addlegendimage{" + look + "}\n" + legend;
+    const bool is_closed = curve.look.kind == Kind::region || curve.look.kind == Kind::band;
+    const std::string rows = height ? fmt::format("    ({},{})\n    ({},{})\n", across.first,
+                                                  *height, across.second, *height)
+                                    : coordinates_of(drawing, curve);
+    return fmt::format("{}\\addplot[{}{}{}] coordinates {{\n{}}}{};\n{}",
+                       block ? "% " + comment_text(drawing.blocks()[*block].heading) + "\n" : "",
+                       look, curve.title ? "" : ", forget plot",
+                       curve.look.kind == Kind::bars ? ", error bars/.cd, x dir=both, x explicit"
+                                                     : "",
+                       rows, is_closed ? " -- cycle" : "", legend);
+}
+
+std::string label_text(const PlotLabel& label) {
+    return fmt::format("\\node[font=\\{}, {}inner sep=1pt] at (axis cs:{},{}) "
+                       "{{{}}};\n",
+                       label.font > 15 ? "footnotesize" : "scriptsize",
+                       label.is_on_white ? "fill=white, "
+                       : label.is_above  ? "anchor=south, yshift=2pt, "
+                                         : "",
+                       label.x, label.y, latex_label(label.text));
+}
+
+std::string scale_text(const Drawing& drawing) {
+    std::string text = "    colormap={shades}{";
+    for (const auto& shade : shades()) {
+        const auto [red, green, blue] = parts_of(shade);
+        text += fmt::format("rgb255=({},{},{}) ", red, green, blue);
+    }
+    return text +
+           "},\n    point meta min=0, point meta max=1, colorbar,\n    colorbar style={ylabel={" +
+           latex_text(drawing.scale) + "}, width=0.03\\linewidth},\n";
+}
+
+std::string options_text(const Drawing& drawing, const Range& across, const Range& along) {
+    std::string text = fmt::format(
+        "    scale only axis, width={:.3f}\\linewidth, height={:.3f}\\linewidth,\n"
+        "    font=\\small, tick align=outside, tick pos=left,\n"
+        "    legend cell align=left, xlabel style={{text width=0.75\\linewidth, align=center}},\n"
+        "    legend style={{draw=none, fill=none, font=\\footnotesize, at={{(0,0)}}, "
+        "anchor=north west, yshift=-3.4em, nodes={{text width=0.68\\linewidth}}}},\n",
+        drawing.scale.empty() ? frame_width : frame_beside_scale, frame_height);
+    text += drawing.is_framed ? "    axis on top,\n"
+                              : "    axis lines*=left, grid=major, grid style={black!13},\n";
+    if (!drawing.backdrop.empty())
+        text += "    axis background/.style={fill=" + colour_text(drawing.backdrop) + "},\n";
+    if (!drawing.scale.empty())
+        text += scale_text(drawing);
+    return text + axis_text('x', drawing.x, across) + axis_text('y', drawing.y, along);
+}
+
+} // namespace
+
+std::string pgfplots_text(const Plot& plot) {
+    const Drawing drawing = with_readable_legend(plot.drawing);
+    const Range across = range_of(drawing, true);
+    std::string text =
+        fmt::format("% {0}.tex draws a figure in LaTeX: \\input{{{0}}}, where the preamble has\n"
+                    "%     \\usepackage[utf8]{{inputenc}}\n"
+                    "%     \\usepackage{{pgfplots}}\n"
+                    "%     \\pgfplotsset{{compat=1.18}}\n"
+                    "% {1}\n"
+                    "\\begin{{tikzpicture}}\n\\begin{{axis}}[\n{2}]\n",
+                    plot.name, comment_text(plot.caption),
+                    options_text(drawing, across, range_of(drawing, false)));
+    for (const auto& curve : drawing.curves())
+        text += curve_text(drawing, curve, across);
+    for (const auto& label : drawing.labels)
+        text += label_text(label);
+    return text + "\\end{axis}\n\\end{tikzpicture}\n";
+}
+
+} // namespace tvbeam
