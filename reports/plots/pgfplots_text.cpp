@@ -23,7 +23,7 @@ constexpr double frame_height =
     (Drawing::frame.bottom - Drawing::frame.top) / static_cast<double>(Drawing::plot_width);
 constexpr double frame_width =
     (Drawing::frame.right - Drawing::frame.left) / static_cast<double>(Drawing::plot_width);
-constexpr double frame_beside_scale = 0.58;
+constexpr double frame_beside_scale = 0.6;
 
 /// gnuplot's width 1 and its point of size 1, in points of TeX.
 constexpr double line_unit = 0.55;
@@ -291,7 +291,8 @@ std::string scale_text(const Drawing& drawing) {
         text += fmt::format("rgb255=({},{},{}) ", red, green, blue);
     }
     return text +
-           "},\n    point meta min=0, point meta max=1, colorbar,\n    colorbar style={ylabel={" +
+           "},\n    point meta min=0, point meta max=1, colorbar,\n    colorbar "
+           "style={at={(1.04,1)}, anchor=north west, ylabel={" +
            latex_text(drawing.scale) + "}, width=0.03\\linewidth},\n";
 }
 

@@ -34,7 +34,7 @@ Drawing with_signs() {
     Drawing drawing;
     drawing.x = {.title = signs, .is_logarithmic = true};
     drawing.y = {.title = signs, .ticks = {{{1.0, "%"}, {2.0, "1.5e-3"}, {3.0, "", -3}}}};
-    drawing.labels = {{signs, 1.0, 2.0}};
+    drawing.labels = {{signs, 10.0, 2.0}};
     const std::size_t block = drawing.add_block(signs, "1 2 1 3\n10 nan 9 11\n100 3 90 110\n");
     for (int dash = 1; dash <= 5; ++dash)
         for (int point = 2; point <= 15; point += 3)
@@ -82,7 +82,7 @@ BOOST_AUTO_TEST_CASE(every_figure_compiles_under_pdflatex) {
     add(plots_of_scene("table1-work-precision", few));
     add(plots_of_scene("stress-contact",
                        {"stress.sweep.product.sampling=each", "stress.sweep.loads.sampling=each"}));
-    add(plots_of_scene("figure1", {"evolution.dt=0.01"}));
+    add({plots_of_scene("figure1", {"evolution.dt=0.01"}).at(2)}); // with its stops
     add({{"signs", "", with_signs()}});
 
     const TemporaryDirectory directory;
