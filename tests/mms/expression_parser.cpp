@@ -107,6 +107,7 @@ const std::vector<Refused> refused = {
     {"(x t)", 4, "')'"},
     {"()", 2, "found ')'"},
     {"alhpa*x", 1, "did you mean 'alpha'?"},
+    {"θ_A*x", 1, "it is written theta_A"},
     {"x + thetaA", 5, "did you mean 'theta_A'?"},
     {"x + G2", 5, "did you mean 'g2'?"},
     {"1 + frequency", 5, "known are pi, alpha, g1, g2, t, theta_A, x, zeta"},

@@ -82,6 +82,10 @@ const std::vector<Refused> refused = {
     // Parameters.
     {good + "parameters = 3\n", ":3:14", "parameters is an integer"},
     {good + "[parameters]\nalpha = 1\n", ":4:1", "hides a known name"},
+    {good + "[parameters]\ng1 = -1\n", ":4:1", "it is the beam's, and stands in the scene"},
+    {"[parameters]\nk = 1\ntheta = \"k*x\"\nu = \"x\"\n", ":3:1",
+     "theta stands below [parameters], which makes it a parameter"},
+    {good + "theta_A = 1\n", ":3:1", "theta_A is the beam's; it stands in [beam] of the scene"},
     {good + "[parameters]\npi = 1\n", ":4:1", "hides a known name"},
     {good + "[parameters]\nsin = 1\n", ":4:1", "hides a known name"},
     {good + "[parameters]\na-b = 1\n", ":4:1", "is not a name"},

@@ -259,4 +259,23 @@ BOOST_AUTO_TEST_CASE(a_decimal_comma_changes_nothing) {
     BOOST_TEST(all() == before);
 }
 
+// The figures and their legends have the words; a table has the name, and the list of norms both.
+BOOST_AUTO_TEST_CASE(findings_begin_with_the_words_of_their_norm) {
+    Document page{"T", {}, {}, {}, {{"theta_L2L2", "temperature in L²(0,T; L²)"}}, {}};
+    page.sections.push_back(
+        {"S", {Finding{"theta_L2L2: order 2.00"}, Finding{"theta_L2L2_sq: other"}}});
+    const auto findings = findings_of(page);
+    BOOST_REQUIRE(findings.size() == 2U);
+    BOOST_TEST(findings[0].text == "temperature in L²(0,T; L²): order 2.00");
+    BOOST_TEST(findings[1].text == "theta_L2L2_sq: other");
+}
+
+BOOST_AUTO_TEST_CASE(a_page_that_shows_nothing_in_words_has_no_empty_box) {
+    HtmlContents page;
+    page.document.title = "A sweep";
+    BOOST_TEST(!has(html_report(page), "What it shows"));
+    page.failed = true;
+    BOOST_TEST(has(html_report(page), "What it shows"));
+}
+
 BOOST_AUTO_TEST_SUITE_END()
