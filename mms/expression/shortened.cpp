@@ -110,10 +110,9 @@ ex with_pairs_joined(ex sum) {
 
 struct ShortenedParts final : GiNaC::map_function {
     ex operator()(const ex& part) override {
-        const ex inside =
-            is_a<GiNaC::add>(part) || is_a<GiNaC::mul>(part) || is_a<GiNaC::power>(part)
-                ? part.map(*this)
-                : part;
+        ex inside = is_a<GiNaC::add>(part) || is_a<GiNaC::mul>(part) || is_a<GiNaC::power>(part)
+                        ? part.map(*this)
+                        : part;
         if (formula_text(inside).size() > longest_sum)
             return inside;
         if (is_a<GiNaC::mul>(inside))
