@@ -317,7 +317,8 @@ BOOST_AUTO_TEST_CASE(analyse_writes_and_gates_as_a_scene_does) {
 }
 
 BOOST_AUTO_TEST_CASE(the_examples_of_the_readme_run_as_they_stand) {
-    // Its first three TOML blocks are the solution, the scene and the expectations.
+    // Its first four TOML blocks are the solution, the scene, a solution in phases for the same
+    // scene, and the expectations of the first.
     std::ostringstream readme;
     readme << std::ifstream(TVBEAM_README).rdbuf();
     const std::string text = readme.str();
@@ -327,10 +328,14 @@ BOOST_AUTO_TEST_CASE(the_examples_of_the_readme_run_as_they_stand) {
         at += fence.size();
         blocks.push_back(text.substr(at, text.find("```", at) - at));
     }
-    BOOST_REQUIRE(blocks.size() >= 3u);
+    BOOST_REQUIRE(blocks.size() >= 4u);
     const TemporaryDirectory directory;
+    directory.write("mine.toml", blocks[2]);
+    const Called in_phases = call(directory, "run " + directory.write("in-phases.toml", blocks[1]));
+    BOOST_TEST(in_phases.exit == 0, in_phases.errors);
+    BOOST_TEST(has(in_phases.output, "theta_L2L2: order 1.99 to 2.00"), in_phases.output);
     directory.write("mine.toml", blocks[0]);
-    const std::string scene = directory.write("my-scene.toml", blocks[1] + blocks[2]);
+    const std::string scene = directory.write("my-scene.toml", blocks[1] + blocks[3]);
     for (const std::string form : {"", " --short"}) {
         const Called called = call(directory, "check " + scene + form);
         BOOST_TEST(called.exit == 0, called.output + called.errors);
