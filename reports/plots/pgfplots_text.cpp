@@ -274,7 +274,7 @@ std::string curve_text(const Drawing& drawing, const Curve& curve, const Range& 
                        rows, is_closed ? " -- cycle" : "", legend);
 }
 
-std::string label_text(const PlotLabel& label) {
+std::string node_text(const PlotLabel& label) {
     return fmt::format("\\node[font=\\{}, {}inner sep=1pt] at (axis cs:{},{}) "
                        "{{{}}};\n",
                        label.font > 15 ? "footnotesize" : "scriptsize",
@@ -330,7 +330,7 @@ std::string pgfplots_text(const Plot& plot) {
     for (const auto& curve : drawing.curves())
         text += curve_text(drawing, curve, across);
     for (const auto& label : drawing.labels)
-        text += label_text(label);
+        text += node_text(label);
     return text + "\\end{axis}\n\\end{tikzpicture}\n";
 }
 
