@@ -149,7 +149,7 @@ std::string bar_text(const Row& row, const CurveData& data) {
 }
 
 std::string coordinates_of(const Drawing& drawing, const Curve& curve) {
-    const auto rows = rows_of(drawing, curve.data);
+    auto rows = rows_of(drawing, curve.data);
     const auto& [block, x, y, third, fourth, height] = curve.data;
     std::string text;
     for (const auto& row : rows) {
@@ -161,9 +161,11 @@ std::string coordinates_of(const Drawing& drawing, const Curve& curve) {
         text += "\n";
     }
     // A band: along the one edge, and back along the other.
-    if (curve.look.kind == CurveLook::Kind::band)
-        for (auto row = rows.rbegin(); row != rows.rend(); ++row)
-            text += "    (" + field_of(*row, x) + "," + field_of(*row, third) + ")\n";
+    if (curve.look.kind == CurveLook::Kind::band) {
+        std::reverse(rows.begin(), rows.end());
+        for (const auto& row : rows)
+            text += "    (" + field_of(row, x) + "," + field_of(row, third) + ")\n";
+    }
     return text;
 }
 

@@ -174,6 +174,35 @@ BOOST_AUTO_TEST_CASE(a_jump_leaves_a_residual_in_schemes_that_look_across_it) {
     BOOST_TEST(expected_orders(solution, beam, 1.0).switches.empty());
 }
 
+// The tip is pressed on g2 up to t = 1. A jump of u_xxt at t = 2 spoils the deflection, not a
+// stress that is over; one at t = 1/2 spoils both.
+BOOST_AUTO_TEST_CASE(a_jump_after_the_last_contact_spares_the_contact_stress) {
+    const std::string start = "theta = 'cos(t)*sin(pi*x)'\n[[phase]]\n";
+    const std::string on_g2 = "u = 'g2*(3*x^2 - x^3)/2'\nsigma = 't - 1'\n[[phase]]\nuntil = ";
+    const std::string bent = "u = 'g2*(3*x^2 - x^3)/2 + g2*x^2*(1 - x)^2*(t - 1/2)'\n"
+                             "sigma = 't - 1'\n[[phase]]\n";
+    const Solution late =
+        parse_solution(start + "until = 1\n" + on_g2 +
+                           "2\nu = 'g2*(3*x^2 - x^3)/2*(1 - (t - 1)^2/4)'\n[[phase]]\n"
+                           "u = 'g2*(3*x^2 - x^3)/2*(11/4 - t)'\n",
+                       "late.toml");
+    const Solution early = parse_solution(
+        start + "until = '1/2'\n" + on_g2 + "1\n" + bent +
+            "u = 'g2*(3*x^2 - x^3)/2*(1 - (t - 1)^2/4) + g2*x^2*(1 - x)^2*(t - 1/2)'\n",
+        "early.toml");
+    const auto least_order = [](const Solution& solution, const std::string& norm) {
+        const auto orders = expected_orders(solution, suited(coupled, solution), 2.5).orders;
+        const auto row = std::find_if(orders.begin(), orders.end(),
+                                      [&](const auto& order) { return order.norm == norm; });
+        BOOST_REQUIRE(row != orders.end());
+        return row->bdf2.least;
+    };
+    BOOST_TEST(least_order(late, "u_LinfH2semi") == 1.0);
+    BOOST_TEST(least_order(late, "sigma_L2") == 2.0);
+    BOOST_TEST(least_order(early, "u_LinfH2semi") == 1.0);
+    BOOST_TEST(least_order(early, "sigma_L2") == 1.0);
+}
+
 BOOST_AUTO_TEST_CASE(a_solution_linear_in_time_has_no_time_residual) {
     const Solution solution = parse_solution("theta = 'x*(1 - x)*t'\nu = 'x^2*t/100'\n", "my.toml");
     const Beam beam = {0.4, 0.15, 0.0, {}};

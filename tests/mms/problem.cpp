@@ -1,5 +1,6 @@
 #include "mms/given_problem.hpp"
 #include "mms/manufactured_problem.hpp"
+#include "mms/problem_builder.hpp"
 #include "tests/suited_beam.hpp"
 
 #include <boost/math/quadrature/gauss_kronrod.hpp>
@@ -224,6 +225,28 @@ BOOST_AUTO_TEST_CASE(products_that_overflow_by_themselves_are_not_taken_apart) {
         BOOST_TEST(std::abs(field_value(problem.exact->theta, problem, 0.9, t) - expected) <=
                    1e-12 * expected);
     }
+}
+
+// The argument moves by 20 t along the beam: 40 are too many for a few places in x to show it.
+BOOST_AUTO_TEST_CASE(a_source_that_steepens_with_time_is_gentle_for_a_while) {
+    const ModelSymbols& symbols = model_symbols();
+    const auto is_gentle = [&](const GiNaC::ex& formula, double final_time) {
+        ProblemBuilder builder({{0.0, std::numeric_limits<double>::infinity()}}, final_time);
+        const Field field = builder.field({formula});
+        BOOST_REQUIRE(field.rest);
+        return field.gentle;
+    };
+    const GiNaC::ex slow = sin(20 * symbols.x * symbols.t);
+    BOOST_TEST(is_gentle(slow, 1.9));
+    BOOST_TEST(!is_gentle(slow, 2.1));
+    // tanh has poles: a quarter of that.
+    const GiNaC::ex layer = tanh(20 * symbols.x * symbols.t);
+    BOOST_TEST(is_gentle(layer, 0.49));
+    BOOST_TEST(!is_gentle(layer, 0.51));
+    // Powers of t add up, each at the final time; of x, by the chain rule.
+    const GiNaC::ex curved = cos(symbols.x * symbols.x * (1 + GiNaC::pow(symbols.t, 2)));
+    BOOST_TEST(is_gentle(curved, 4.3)); // 2 (1 + t^2) = 38.98
+    BOOST_TEST(!is_gentle(curved, 4.4));
 }
 
 BOOST_AUTO_TEST_CASE(a_beam_is_taken_at_its_shortest_decimal) {

@@ -1,6 +1,7 @@
 // Shipped scenes use, and expect something of, all that a scene can use.
 
 #include "studies/gates/features.hpp"
+#include "tests/temporary_directory.hpp"
 
 #include <boost/test/unit_test.hpp>
 
@@ -57,6 +58,20 @@ BOOST_AUTO_TEST_CASE(what_no_scene_uses_is_told) {
     BOOST_TEST(has(pairs, "theta_A not zero, source that does not separate"));
     BOOST_TEST(!has(pairs, "time euler, contact with two stops"));
     BOOST_TEST(!has(pairs, "mesh graded, march in sines")); // which cannot be
+}
+
+// What a run consists of counts by the expectations of its own study.
+BOOST_AUTO_TEST_CASE(a_run_in_time_counts_where_something_is_expected_of_it) {
+    const auto shipped = shipped_files(Shipped::scene);
+    const auto figure1 = std::find_if(shipped.begin(), shipped.end(),
+                                      [](const auto& file) { return file.name == "figure1"; });
+    BOOST_REQUIRE(figure1 != shipped.end());
+    const std::string pair = "time euler, contact with two stops";
+    BOOST_TEST(!has(unused(feature_table({*figure1}).pairs), pair));
+    const TemporaryDirectory directory;
+    const std::string text = directory.read(figure1->path.string()); // of an absolute path
+    const auto without = directory.write("without.toml", text.substr(0, text.find("[expect.")));
+    BOOST_TEST(has(unused(feature_table({{"without", without}}).pairs), pair));
 }
 
 BOOST_AUTO_TEST_SUITE_END()

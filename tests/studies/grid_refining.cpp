@@ -12,6 +12,8 @@
 #include "tests/studies/draw.hpp"
 #include "tests/temporary_directory.hpp"
 
+#include <Eigen/LU>
+
 #include <boost/test/data/monomorphic.hpp>
 #include <boost/test/data/test_case.hpp>
 #include <boost/test/unit_test.hpp>
@@ -375,6 +377,58 @@ BOOST_AUTO_TEST_CASE(a_line_is_chosen_by_what_it_narrows) {
     const std::vector<OpenInterval> open{{0.5, 0.1, 0.1}, {1.0, 0.8, 0.7}}; // the wider counts
     BOOST_TEST(gain_of_mesh(open, 1.0) == 0.2, boost::test_tools::tolerance(1e-12));
     BOOST_TEST(gain_of_step(open, 2.0) == 0.15, boost::test_tools::tolerance(1e-12));
+}
+
+// cov of next_line.hpp for s → 0, with J by central differences of e² = T² + 2ρTS + S² itself.
+BOOST_DATA_TEST_CASE(what_a_line_narrows_is_the_covariance_of_the_two_term_fit,
+                     data::make({true, false}) * data::make({0.3, 3.0, 30.0}), in_h, a) {
+    using Vector = Eigen::VectorXd;
+    constexpr double b = 1.0;
+    const OrdersBlock block = block_of(two_by_two + "until = { order = 0.05, runs = 100 }\n");
+    GridLines lines = lines_of(block.grid);
+    while (lines.runs() < 16)
+        lines = *with_mesh(block, *with_step(block, lines));
+    const auto log_error = [](const Vector& at, Eigen::Index mesh, Eigen::Index step,
+                              const Rung& run) {
+        const double of_h = std::exp(at[0] + at[1] * std::log(run.h()) + at[mesh]);
+        const double of_dt = std::exp(at[2] + at[3] * std::log(run.dt) + at[step]);
+        return 0.5 * std::log(of_h * of_h + 2.0 * at[4] * of_h * of_dt + of_dt * of_dt);
+    };
+    const auto standard_error = [&](const GridLines& grid) {
+        const auto meshes = static_cast<Eigen::Index>(grid.meshes.size());
+        const auto steps = static_cast<Eigen::Index>(grid.steps.size());
+        const Eigen::Index count = 5 + meshes + steps;
+        Vector exact = Vector::Zero(count);
+        exact.head(5) << std::log(a), 2.0, std::log(b), 1.0, 1.0;
+        Eigen::MatrixXd information = 1e-8 * Eigen::MatrixXd::Identity(count, count);
+        information.diagonal().tail(meshes + steps).setOnes();
+        for (Eigen::Index i = 0; i < meshes; ++i)
+            for (Eigen::Index j = 0; j < steps; ++j) {
+                const Rung run = grid.run(static_cast<std::size_t>(i), static_cast<std::size_t>(j));
+                Vector row(count);
+                for (Eigen::Index k = 0; k < count; ++k) {
+                    const Vector to = exact + 1e-5 * Vector::Unit(count, k);
+                    const Vector from = 2.0 * exact - to;
+                    row[k] = (log_error(to, 5 + i, 5 + meshes + j, run) -
+                              log_error(from, 5 + i, 5 + meshes + j, run)) /
+                             2e-5;
+                }
+                information += row * row.transpose();
+            }
+        const Vector unit = Vector::Unit(count, in_h ? 1 : 3);
+        return std::sqrt(unit.dot(information.fullPivLu().solve(unit)));
+    };
+    std::vector<RungResult> runs;
+    for (const Rung& run : lines.grid())
+        runs.push_back({.rung = run, .errors = {a * run.h() * run.h() + b * run.dt}});
+    const GridLines finer_mesh = *with_mesh(block, lines);
+    const GridLines finer_step = *with_step(block, lines);
+    const TwoTermFit fit = analyse_grid(runs, block.norms).norms[0].fit;
+    const OpenInterval open = open_order(fit, in_h, 1e-9, lines, finer_mesh, finer_step);
+    const double present = standard_error(lines);
+    const auto close = boost::test_tools::tolerance(1e-3);
+    BOOST_TEST(open.with_mesh / open.now == standard_error(finer_mesh) / present, close);
+    BOOST_TEST(open.with_step / open.now == standard_error(finer_step) / present, close);
 }
 
 // sec = 1e-3 s² n, as it is and on coarse runs longer: the last three lines count.

@@ -50,15 +50,27 @@ bool is_of(const Scene& scene, const std::string& solution) {
            scene.get<LadderBlock>() != nullptr && !scene.defect;
 }
 
+/// The shipped scenes that have expectations, read once.
+const std::vector<Scene>& expecting_scenes() {
+    static const std::vector<Scene> scenes = [] {
+        std::vector<Scene> read;
+        for (const auto& file : shipped_files(Shipped::scene)) {
+            Scene scene = read_scene(file.name, {}, {.expectations = true});
+            if (!scene.expectations.empty())
+                read.push_back(std::move(scene));
+        }
+        return read;
+    }();
+    return scenes;
+}
+
 /// The scene that studies a solution: that of its name, or else the first that names it. On uniform
 /// meshes and against the exact solution.
 Scene scene_of(const std::string& solution) {
     std::vector<Scene> scenes;
-    for (const auto& file : shipped_files(Shipped::scene)) {
-        Scene scene = read_scene(file.name, {}, {.expectations = true});
-        if (is_of(scene, solution) && !scene.expectations.empty())
-            scenes.push_back(std::move(scene));
-    }
+    for (const Scene& scene : expecting_scenes())
+        if (is_of(scene, solution))
+            scenes.push_back(scene);
     BOOST_REQUIRE_MESSAGE(!scenes.empty(), "no scene checks " << solution);
     const auto own = std::find_if(scenes.begin(), scenes.end(),
                                   [&](const Scene& scene) { return scene.name == solution; });
