@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <optional>
 #include <set>
+#include <string>
 #include <variant>
 
 namespace tvbeam {
@@ -34,13 +35,18 @@ SolutionSetting setting_of(const Scene& scene) {
     return {*solution, scene.beam, scene.longest_time(), "the beam of the scene " + scene.name};
 }
 
+bool names_solution(const std::filesystem::path& scene, const std::string& solution) {
+    return read_toml(scene.string()).table["solution"].value<std::string>() == solution;
+}
+
 /// The shipped scene that has the name of a shipped solution, or else the first that runs it.
 std::optional<Scene> scene_that_runs(const Solution& solution) {
     std::optional<Scene> first;
     for (const auto& file : shipped_files(Shipped::scene)) {
+        if (!names_solution(file.path, solution.name))
+            continue;
         Scene scene = read_scene(file.path.string());
-        const auto* own = std::get_if<Solution>(&scene.problem);
-        if (own == nullptr || own->name != solution.name || !scene.poses_problem() || scene.solver)
+        if (!scene.poses_problem() || scene.solver)
             continue;
         if (scene.name == solution.name)
             return scene;
