@@ -21,14 +21,8 @@ struct PdfFormat final : ReportFormat {
     std::vector<std::filesystem::path>
     earlier_files(const std::filesystem::path& directory) const override {
         std::vector<std::filesystem::path> files;
-        std::error_code ignored;
-        for (const auto& entry :
-             std::filesystem::directory_iterator(directory / "plots", ignored)) {
-            const std::string stem = entry.path().stem();
-            if (entry.path().extension() == ".gp" &&
-                first_line(entry.path()).starts_with("# Draws " + stem + ".svg"))
-                files.emplace_back("plots/" + stem + ".pdf");
-        }
+        for (const auto& name : earlier_drawn_figures(directory))
+            files.emplace_back("plots/" + name + ".pdf");
         return files;
     }
 };

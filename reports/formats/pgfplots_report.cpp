@@ -21,14 +21,11 @@ struct PgfplotsFormat final : ReportFormat {
     std::vector<std::filesystem::path>
     earlier_files(const std::filesystem::path& directory) const override {
         std::vector<std::filesystem::path> files;
-        std::error_code ignored;
-        for (const auto& entry :
-             std::filesystem::directory_iterator(directory / "plots", ignored)) {
-            const std::string stem = entry.path().stem();
-            if (entry.path().extension() == ".tex" &&
-                first_line(entry.path()).starts_with("% " + stem + ".tex draws a figure"))
-                files.emplace_back("plots/" + stem + ".tex");
-        }
+        const auto drawn = earlier_figures(directory, ".tex", [](const std::string& name) {
+            return "% " + name + ".tex draws a figure";
+        });
+        for (const auto& name : drawn)
+            files.emplace_back("plots/" + name + ".tex");
         return files;
     }
 };

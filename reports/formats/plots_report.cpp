@@ -28,15 +28,9 @@ struct PlotsFormat final : ReportFormat {
     std::vector<std::filesystem::path>
     earlier_files(const std::filesystem::path& directory) const override {
         std::vector<std::filesystem::path> files;
-        std::error_code ignored;
-        for (const auto& entry :
-             std::filesystem::directory_iterator(directory / "plots", ignored)) {
-            const std::string stem = entry.path().stem();
-            if (entry.path().extension() == ".gp" &&
-                first_line(entry.path()).starts_with("# Draws " + stem + ".svg"))
-                for (const char* ending : {".gp", ".dat", ".svg", ".png"})
-                    files.emplace_back("plots/" + stem + ending);
-        }
+        for (const auto& name : earlier_drawn_figures(directory))
+            for (const char* ending : {".gp", ".dat", ".svg", ".png"})
+                files.emplace_back("plots/" + name + ending);
         return files;
     }
 };

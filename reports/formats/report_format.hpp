@@ -76,4 +76,13 @@ std::vector<std::string> report_format_names();
 /// The first line of a file; empty where it cannot be read.
 std::string first_line(const std::filesystem::path& file);
 
+/// The figures that an earlier result has left in a directory, by the names of their files without
+/// ending: of those with this ending, which begin as `beginning` says of the name.
+std::vector<std::string>
+earlier_figures(const std::filesystem::path& directory, const std::string& ending,
+                const std::function<std::string(const std::string& name)>& beginning);
+
+/// Of those that gnuplot draws, by their scripts.
+std::vector<std::string> earlier_drawn_figures(const std::filesystem::path& directory);
+
 } // namespace tvbeam

@@ -56,4 +56,23 @@ std::string first_line(const std::filesystem::path& file) {
     return line;
 }
 
+std::vector<std::string>
+earlier_figures(const std::filesystem::path& directory, const std::string& ending,
+                const std::function<std::string(const std::string& name)>& beginning) {
+    std::vector<std::string> names;
+    std::error_code ignored;
+    for (const auto& entry : std::filesystem::directory_iterator(directory / "plots", ignored)) {
+        const std::string name = entry.path().stem();
+        if (entry.path().extension() == ending &&
+            first_line(entry.path()).starts_with(beginning(name)))
+            names.push_back(name);
+    }
+    return names;
+}
+
+std::vector<std::string> earlier_drawn_figures(const std::filesystem::path& directory) {
+    return earlier_figures(directory, ".gp",
+                           [](const std::string& name) { return "# Draws " + name + ".svg"; });
+}
+
 } // namespace tvbeam
