@@ -51,10 +51,10 @@ std::vector<SolutionParameter> read_parameters(TableReader& root) {
                                            "; a solution has at most " +
                                            std::to_string(most_parameters));
     for (const auto& name : names) {
-        if ((name == "theta" || name == "u") && !root.has(name) && !root.has("phase"))
+        if (name == "theta" || name == "u" || name == "sigma")
             throw InputError(table->place_of_key(name),
                              name + " stands below [parameters], which makes it a parameter; move "
-                                    "it above that line");
+                                    "it above that line, or give the parameter another name");
         require_free_name(name, table->place_of_key(name));
         result.push_back({name, *table->expression(name)});
     }

@@ -131,6 +131,8 @@ ex shortened(const ex& expression) {
         return ShortenedParts()(expression);
     } catch (const std::runtime_error&) { // GiNaC cannot divide all that it can hold
         return expression;
+    } catch (const GiNaC::pole_error&) { // in what is multiplied out, a divisor may be zero
+        return expression;
     }
 }
 

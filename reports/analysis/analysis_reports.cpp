@@ -154,7 +154,7 @@ void add_analysis(Json& json, const DataAnalysis& analysis, const ColumnAnalysis
 std::vector<Plot> value_plots(const DataAnalysis& analysis) {
     std::vector<Plot> plots;
     for (const auto& column : analysis.columns)
-        if (column.is_value)
+        if (column.is_value && !points_of(refined(analysis), column).empty())
             plots.push_back(value_plot(refined(analysis), column));
     return plots;
 }

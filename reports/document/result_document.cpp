@@ -94,12 +94,13 @@ std::string reference_line(const Scene& scene, const ReferenceResult& result) {
 
 using Rows = std::vector<std::pair<std::string, std::string>>;
 
+/// But for those of another solver, of which their names are all that is known.
 Rows norms_in_words(const StudyResult& result) {
     Rows rows;
     for (const auto& study : result.runs())
         for (const auto& norm : study.series.measures) {
             const std::pair row{norm.name, norm.words};
-            if (std::find(rows.begin(), rows.end(), row) == rows.end())
+            if (norm.words != norm.name && std::find(rows.begin(), rows.end(), row) == rows.end())
                 rows.push_back(row);
         }
     return rows;

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 
 namespace tvbeam {
 
@@ -163,18 +164,30 @@ Finding comparison(const SchemeComparison& pair, const ReachedError& error,
             4};
 }
 
-/// Which scheme reaches an error sooner.
+/// The scheme of the least median.
+std::size_t fastest_of(const ReachedError& error) {
+    const auto seconds = [](const std::optional<Timing>& time) {
+        return time ? time->median : std::numeric_limits<double>::infinity();
+    };
+    const auto least =
+        std::min_element(error.times.begin(), error.times.end(),
+                         [&](const auto& a, const auto& b) { return seconds(a) < seconds(b); });
+    return static_cast<std::size_t>(least - error.times.begin());
+}
+
+/// Which scheme reaches an error sooner: of few, every two; of many, the fastest beside each.
 std::vector<Block> comparisons(const ReachedError& error, const NormCosts& costs,
                                const WorkPrecisionBlock& block) {
     std::vector<Block> findings{
         Finding{fmt::format("To reach {} = {}:", costs.norm.name, shortest(error.error))}};
     constexpr std::size_t most_pairs = 15;
-    for (std::size_t i = 0; i < std::min(most_pairs, error.comparisons.size()); ++i)
-        findings.emplace_back(comparison(error.comparisons[i], error, block));
-    if (error.comparisons.size() > most_pairs)
-        findings.emplace_back(Finding{fmt::format("and {} more pairs, by the times in the table",
-                                                  error.comparisons.size() - most_pairs),
-                                      4});
+    const bool all = error.comparisons.size() <= most_pairs;
+    const std::size_t fastest = fastest_of(error);
+    for (const auto& pair : error.comparisons)
+        if (all || pair.faster == fastest || pair.slower == fastest)
+            findings.emplace_back(comparison(pair, error, block));
+    if (!all)
+        findings.emplace_back(Finding{"the table has the others' times", 4});
     for (std::size_t k = 0; k < block.schemes.size(); ++k)
         if (error.times[k] && error.comparisons.empty())
             findings.emplace_back(Finding{block.schemes[k].name + " alone does", 4});

@@ -71,10 +71,12 @@ void ReportDirectory::make(const std::filesystem::path& directory) {
 
 void ReportDirectory::remove_earlier(const std::set<std::string>& written) const {
     std::error_code ignored;
-    for (const auto* format : formats_)
-        for (const auto& file : format->earlier_files(path_))
-            if (!written.contains(file))
-                std::filesystem::remove(path_ / file, ignored);
+    for (const auto& format : report_formats())
+        if (!format->is_written_unasked() ||
+            std::find(formats_.begin(), formats_.end(), format.get()) != formats_.end())
+            for (const auto& file : format->earlier_files(path_))
+                if (!written.contains(file))
+                    std::filesystem::remove(path_ / file, ignored);
 }
 
 void ReportDirectory::lock() {

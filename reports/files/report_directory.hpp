@@ -20,12 +20,15 @@ struct Reported;
 ///     markdown    table.md
 ///     latex       table.tex
 ///     plots       plots/NAME.gp, .dat, .svg, .png for each figure; without gnuplot the first two
+///     pdf         plots/NAME.pdf
+///     pgfplots    plots/NAME.tex; only where it is asked for by name
 ///     html        report.html
 ///
 /// Each appears whole or not at all, and none of them before all could be brought to the disk;
 /// where one cannot be given its name, none is, on file systems that can exchange two files. A
 /// file of an earlier result is replaced, and its plots and CSV files go where this result has none
-/// of their names; kinds of files that are not asked for are left alone.
+/// of their names. Kinds of files that a block leaves out stay as they are; figures for LaTeX go
+/// unless they are asked for again, as a paper would go on to show what they were.
 class ReportDirectory {
 public:
     /// Makes the directory where it is missing, and keeps others from writing there as long as the

@@ -2,6 +2,9 @@
 #include "reports/plots/pgfplots_text.hpp"
 #include "studies/table_row.hpp"
 
+#include <algorithm>
+#include <iterator>
+
 namespace tvbeam {
 
 /// The figures as LaTeX draws them, in the letters and the width of a paper.
@@ -24,8 +27,8 @@ struct PgfplotsFormat final : ReportFormat {
         const auto drawn = earlier_figures(directory, ".tex", [](const std::string& name) {
             return "% " + name + ".tex draws a figure";
         });
-        for (const auto& name : drawn)
-            files.emplace_back("plots/" + name + ".tex");
+        std::transform(drawn.begin(), drawn.end(), std::back_inserter(files),
+                       [](const std::string& name) { return "plots/" + name + ".tex"; });
         return files;
     }
 };

@@ -141,6 +141,30 @@ std::vector<Row> rows_of(const Drawing& drawing, const CurveData& data) {
     return rows;
 }
 
+/// Of a long line the least and the greatest of each stretch: TeX's memory ends at some 20 000
+/// points, and a column is no wider than half of these are dots.
+std::vector<Row> drawn_rows(std::vector<Row> rows, const Curve& curve) {
+    constexpr std::size_t most = 4000;
+    if (curve.look.kind != CurveLook::Kind::lines || rows.size() <= most)
+        return rows;
+    const auto lower = [&curve](const Row& a, const Row& b) {
+        return number_of(a, curve.data.y) < number_of(b, curve.data.y);
+    };
+    std::vector<Row> kept{rows.front()};
+    const std::size_t stretch = 2 * rows.size() / most + 1;
+    for (std::size_t i = 1; i + 1 < rows.size(); i += stretch) {
+        const auto begin = rows.begin() + static_cast<std::ptrdiff_t>(i);
+        const auto end =
+            begin + static_cast<std::ptrdiff_t>(std::min(stretch, rows.size() - 1 - i));
+        const auto [least, greatest] = std::minmax_element(begin, end, lower);
+        kept.push_back(*std::min(least, greatest));
+        if (least != greatest)
+            kept.push_back(*std::max(least, greatest));
+    }
+    kept.push_back(rows.back());
+    return kept;
+}
+
 /// Of a point with a bar: how far it reaches to either side.
 std::string bar_text(const Row& row, const CurveData& data) {
     const double x = number_of(row, data.x);
@@ -149,9 +173,13 @@ std::string bar_text(const Row& row, const CurveData& data) {
 }
 
 std::string coordinates_of(const Drawing& drawing, const Curve& curve) {
-    auto rows = rows_of(drawing, curve.data);
+    const auto all = rows_of(drawing, curve.data);
+    auto rows = drawn_rows(all, curve);
     const auto& [block, x, y, third, fourth, height] = curve.data;
     std::string text;
+    if (rows.size() < all.size())
+        text += fmt::format("    % of {} points, the least and the greatest of each stretch\n",
+                            all.size());
     for (const auto& row : rows) {
         text += "    (" + field_of(row, x) + "," + field_of(row, y) + ")";
         if (curve.look.kind == CurveLook::Kind::shades)
@@ -176,15 +204,18 @@ std::string comment_text(const std::string& text) {
     return line;
 }
 
-/// From the least to the greatest, of an axis: as it is given, or of the data.
+/// From the least to the greatest, of an axis: as it is given, or of the data that it can show;
+/// turned round where there are none.
 using Range = std::pair<double, double>;
 
 Range range_of(const Drawing& drawing, bool is_x) {
-    if (const Axis& axis = is_x ? drawing.x : drawing.y; axis.range)
+    const Axis& axis = is_x ? drawing.x : drawing.y;
+    if (axis.range)
         return *axis.range;
     Range range{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
-    const auto add = [&range](double number) {
-        range = {std::min(range.first, number), std::max(range.second, number)};
+    const auto add = [&](double number) {
+        if (std::isfinite(number) && (!axis.is_logarithmic || number > 0.0))
+            range = {std::min(range.first, number), std::max(range.second, number)};
     };
     for (const auto& curve : drawing.curves()) {
         if (curve.data.height && !is_x)
@@ -202,6 +233,8 @@ std::vector<Tick> ticks_within(const Range& range) {
     constexpr std::size_t most = 7;
     std::vector<Tick> powers;
     std::vector<Tick> more;
+    if (!(range.first <= range.second))
+        return {};
     const int last = static_cast<int>(std::floor(std::log10(range.second)));
     for (int power = static_cast<int>(std::floor(std::log10(range.first))); power <= last; ++power)
         for (const int times : {1, 2, 5}) {

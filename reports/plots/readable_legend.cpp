@@ -13,7 +13,9 @@ constexpr std::size_t most_series = 12;
 constexpr std::size_t named_series = 8;
 
 bool is_series(const CurveLook& look) {
-    return look.kind == CurveLook::Kind::lines_and_points || look.kind == CurveLook::Kind::bars;
+    using Kind = CurveLook::Kind;
+    return look.kind == Kind::points || look.kind == Kind::lines_and_points ||
+           look.kind == Kind::bars;
 }
 
 bool alike(const CurveLook& a, const CurveLook& b) {
@@ -59,7 +61,7 @@ Drawing with_readable_legend(const Drawing& drawing) {
         const auto found = std::find_if(series.begin(), series.end(), [&](const CurveLook& look) {
             return alike(look, curve.look);
         });
-        if (!is_series(curve.look) || found == series.end())
+        if (found == series.end()) // with the lines that are fitted to a series
             continue;
         const auto k = static_cast<std::size_t>(found - series.begin());
         curve.look.colour = shade_at(static_cast<double>(k) / static_cast<double>(last));

@@ -6,21 +6,68 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <utility>
+#include <vector>
+
 namespace tvbeam {
 
 namespace {
 
-/// The rows of a scheme that were timed and have an error > 0.
+/// Whether a run can stand on the axes: a clock may show no time at all.
+bool is_drawn(const RungResult& run, const Timing& timing, std::size_t k) {
+    return timing.q1 > 0.0 && !run.errors.empty() && run.errors[k] > 0.0;
+}
+
+/// The rows of a scheme that were timed and can be drawn.
 std::string rows_of(const SchemeRuns& scheme, std::size_t k) {
     std::string rows;
     for (std::size_t i = 0; i < scheme.runs.size(); ++i) {
         const RungResult& run = scheme.runs[i];
-        const auto& timing = scheme.timings[i];
-        if (timing && !run.errors.empty() && run.errors[k] > 0.0)
+        if (const auto& timing = scheme.timings[i]; timing && is_drawn(run, *timing, k))
             rows += fmt::format("{} {} {} {} {} {}\n", timing->median, run.errors[k], timing->q1,
                                 timing->q3, run.rung.elements, run.rung.dt);
     }
     return rows;
+}
+
+/// Whether the clock has hidden a run.
+bool has_zero_time(const WorkPrecisionResult& result) {
+    return std::any_of(result.schemes.begin(), result.schemes.end(), [](const auto& scheme) {
+        return std::any_of(scheme.timings.begin(), scheme.timings.end(),
+                           [](const auto& timing) { return timing && !(timing->q1 > 0.0); });
+    });
+}
+
+/// The axes end a little beyond what is drawn: an error to reach that is far away would press the
+/// runs together.
+void set_ranges(Drawing& drawing, const WorkPrecisionResult& result, std::size_t k) {
+    std::vector<double> seconds;
+    std::vector<double> errors;
+    for (const auto& scheme : result.schemes)
+        for (std::size_t i = 0; i < scheme.runs.size(); ++i)
+            if (const auto& timing = scheme.timings[i];
+                timing && is_drawn(scheme.runs[i], *timing, k)) {
+                seconds.insert(seconds.end(), {timing->q1, timing->median, timing->q3});
+                errors.push_back(scheme.runs[i].errors[k]);
+            }
+    const auto around = [](const std::vector<double>& numbers) {
+        const auto [least, greatest] = std::minmax_element(numbers.begin(), numbers.end());
+        const double room = std::max(1.2, std::pow(*greatest / *least, 0.08));
+        return std::pair(*least / room, *greatest * room);
+    };
+    drawing.x.range = around(seconds);
+    drawing.y.range = around(errors);
+}
+
+std::vector<double> within(const std::vector<double>& numbers,
+                           const std::pair<double, double>& range) {
+    std::vector<double> inside;
+    std::copy_if(numbers.begin(), numbers.end(), std::back_inserter(inside),
+                 [&](double number) { return range.first < number && number < range.second; });
+    return inside;
 }
 
 /// None where no row can be drawn.
@@ -41,15 +88,18 @@ std::vector<Plot> plot_of(const WorkPrecisionResult& result, const WorkPrecision
     }
     if (drawing.is_empty())
         return {};
-    if (const auto found = block.targets.find(norm.name); found != block.targets.end())
-        drawing.add_heights(found->second, "error to reach");
     const std::string name = "run_time_" + norm.name;
     drawing.x = {.title = "run time in seconds, median and quartiles", .is_logarithmic = true};
     drawing.y = {.title = norm.squared ? "squared error" : "error", .is_logarithmic = true};
+    set_ranges(drawing, result, k);
+    if (const auto found = block.targets.find(norm.name); found != block.targets.end())
+        drawing.add_heights(within(found->second, *drawing.y.range), "error to reach");
     return {{name,
              fmt::format("Error against run time: {}; medians of up to {} runs with bars from the "
-                         "lower to the upper quartile. Further left and further down is better.",
-                         norm.words, block.runs),
+                         "lower to the upper quartile. Further left and further down is better.{}",
+                         norm.words, block.runs,
+                         has_zero_time(result) ? " Runs in which the clock shows 0 s are left out."
+                                               : ""),
              drawing}};
 }
 

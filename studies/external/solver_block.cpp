@@ -248,10 +248,8 @@ SolverKeys solver_keys(const SolverBlock& solver) {
     for (const bool is_value : {false, true}) {
         const FigureSource& source = is_value ? solver.values : solver.errors;
         for (const auto& pattern : source.patterns)
-            keys.measures.push_back({.name = pattern.name,
-                                     .words = is_value ? "value that the solver computes"
-                                                       : "error that the solver measures",
-                                     .is_value = is_value});
+            keys.measures.push_back(
+                {.name = pattern.name, .words = pattern.name, .is_value = is_value});
         (is_value ? keys.any_value : keys.any_error) = source.is_file();
     }
     keys.any_widths = true;

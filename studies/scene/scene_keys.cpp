@@ -414,7 +414,7 @@ Entries of_expectations() {
          "what replaces keys of the same path in `tvbeam check --short`",
          {},
          "."},
-        {"report", KeyType::table, "everything", "what --out writes"},
+        {"report", KeyType::table, "all but pgfplots", "what --out writes"},
         {"report.files", KeyType::texts, "all but pgfplots",
          "json, csv, markdown, latex, plots, pdf, pgfplots, html"},
     };

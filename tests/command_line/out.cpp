@@ -112,6 +112,10 @@ BOOST_AUTO_TEST_CASE(figures_for_latex_are_written_where_they_are_asked_for_and_
     BOOST_TEST(written(directory) ==
                    (std::set<std::string>{"plots/contraction.tex", "plots/mine.tex"}),
                boost::test_tools::per_element());
+    // And also where none are asked for: a paper would go on to show the old ones.
+    BOOST_TEST(call(directory, small + files("'json'") + out(directory)).exit == 0);
+    BOOST_TEST(written(directory) == (std::set<std::string>{"plots/mine.tex", "result.json"}),
+               boost::test_tools::per_element());
 }
 
 BOOST_AUTO_TEST_CASE(what_another_scene_has_left_goes_and_what_is_not_ours_stays) {

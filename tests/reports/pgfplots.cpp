@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <regex>
@@ -64,6 +65,34 @@ BOOST_AUTO_TEST_CASE(coordinates_are_the_errors_to_the_last_digit) {
     for (const std::string part :
          {"published in Table 1}", "slope 4.05}", "% the slope 4", "mark=square,", "xmode=log"})
         BOOST_TEST(text.find(part) != std::string::npos, part);
+}
+
+// Ticks between 0 and a number would never end.
+BOOST_AUTO_TEST_CASE(what_a_logarithmic_axis_cannot_show_takes_no_part_in_its_ticks) {
+    const auto text_of = [](const std::string& rows) {
+        Drawing drawing;
+        drawing.x.is_logarithmic = drawing.y.is_logarithmic = true;
+        drawing.add_curve({.block = drawing.add_block("seconds, error", rows)}, {}, "a");
+        return pgfplots_text({"zero", "", drawing});
+    };
+    const std::string text = text_of("0 0\n0.01 1\n1 10\n");
+    BOOST_TEST(text.find("xtick={0.01,0.1,1}") != std::string::npos, text);
+    BOOST_TEST(text_of("0 0\n").find("tick={") == std::string::npos);
+}
+
+// What TeX has no room for is thinned; what stands out is kept.
+BOOST_AUTO_TEST_CASE(a_long_line_keeps_its_ends_and_its_extremes) {
+    std::string rows;
+    for (int i = 0; i < 50'000; ++i)
+        rows += fmt::format("{} {}\n", i, i == 31'415 ? 5 : i == 27'182 ? -7 : i % 2);
+    Drawing drawing;
+    drawing.add_curve({.block = drawing.add_block("t, u", rows)}, {}, "u");
+    const std::string text = pgfplots_text({"long", "", drawing});
+    for (const std::string kept : {"(0,0)", "(49999,1)", "(31415,5)", "(27182,-7)"})
+        BOOST_TEST(text.find(kept) != std::string::npos, kept);
+    const auto points = std::count(text.begin(), text.end(), '\n');
+    BOOST_TEST(points > 3000);
+    BOOST_TEST(points < 4100);
 }
 
 BOOST_AUTO_TEST_CASE(every_figure_compiles_under_pdflatex) {

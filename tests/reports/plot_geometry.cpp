@@ -203,7 +203,7 @@ BOOST_DATA_TEST_CASE(a_legend_has_room_however_many_series_there_are,
     for (const auto& curve : readable.curves())
         colours.insert(curve.look.colour);
     BOOST_TEST(colours.size() == (count > 12 ? static_cast<std::size_t>(count)
-                                             : std::min<std::size_t>(7, colours.size())));
+                                             : static_cast<std::size_t>(std::min(7, count))));
 }
 
 // The test sees what it looks for.
