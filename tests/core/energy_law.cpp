@@ -15,6 +15,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 using namespace tvbeam;
 namespace data = boost::unit_test::data;
@@ -182,6 +183,27 @@ BOOST_AUTO_TEST_CASE(a_step_of_too_few_or_too_many_solves_is_told) {
             recorder.record(rest);
         BOOST_TEST(recorder.end_step().empty() == (solves == 2));
     }
+}
+
+// One nodal value off by δ leaves (2/h + 2ch/3) δ in its row, beside terms of sizes 4/h and ch: for
+// steps that are long beside h², δ/2ε units of round-off, on coarse and on fine meshes alike.
+BOOST_DATA_TEST_CASE(the_unit_of_the_heat_residual_is_that_of_the_fluxes, data::make({4, 32, 1024}),
+                     elements) {
+    const Mesh mesh = Mesh::uniform(elements);
+    SolveRecord record;
+    record.step = stated_step("euler", 1);
+    record.leading = 1e-6;
+    for (RecordedState* state : {&record.now, &record.star}) {
+        state->theta = Eigen::VectorXd::Zero(elements + 1);
+        state->w = certify::BrokenLinear::Zero(2, elements);
+        state->temperature_size = 1.0;
+    }
+    record.heat_load = Eigen::VectorXd::Zero(elements + 1);
+    record.moment = record.now.w;
+    const double delta = 64.0 * std::numeric_limits<double>::epsilon();
+    record.now.theta(elements / 2) = delta;
+    const double units = residuals({}, mesh, ThermalMass::consistent, record, 0.0).heat;
+    BOOST_TEST(std::abs(units / 32.0 - 1.0) < 1e-4, units);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -143,6 +143,33 @@ BOOST_DATA_TEST_CASE(errors_are_those_of_the_nodal_form,
     BOOST_TEST(form.counters().contact_steps == nodal.counters.contact_steps);
 }
 
+// Modes march in blocks of 64 steps. Here the contact ends anywhere in one: also with its last
+// step, so that the march begins the next block on a stop and finds it free throughout.
+BOOST_DATA_TEST_CASE(a_contact_may_end_with_any_step_of_a_block, data::make(TimeScheme::names()),
+                     time) {
+    const Beam beam{.alpha = 0.4, .zeta = 0.15, .stops = {-0.02, 0.1}};
+    const ProblemData problem = manufactured_problem(
+        read_solution(find_file(Shipped::solution, "released-from-g2")), beam, 2.0);
+    const auto norms = norms_of(sine_norms);
+    const Mesh mesh = resolution_of(problem, {Algorithm::direct}, norms, 2.0).on(Mesh::uniform(20));
+    Scheme scheme{Algorithm::direct, ThermalMass::consistent, 0.0, TimeScheme::named(time)};
+    bool ends_a_block = false;
+    for (std::int64_t steps = 146; steps < 160; ++steps) {
+        scheme.basis = Basis::automatic;
+        SineForm form(beam, problem, mesh, scheme, 2.0, steps, norms,
+                      ErrorNorms::needs(problem, norms));
+        BOOST_REQUIRE((form.march({}) == RunStatus::ok));
+        scheme.basis = Basis::nodal;
+        const RunResult nodal = run({beam, mesh, scheme, 2.0, steps, norms}, problem);
+        for (std::size_t k = 0; k < norms.size(); ++k)
+            BOOST_TEST(std::abs(form.errors()[k] - nodal.errors[k]) <= 1e-10 * nodal.errors[k],
+                       norms[k].name << ", " << steps << " steps");
+        ends_a_block =
+            ends_a_block || (nodal.counters.contact_steps - scheme.time.history) % 64 == 0;
+    }
+    BOOST_TEST(ends_a_block);
+}
+
 BOOST_DATA_TEST_CASE(a_wave_that_vanishes_at_the_nodes_is_not_taken_for_linear,
                      data::make({1, 2, 3, 16}), elements) {
     // 1 − cos(2sπx) heats every element alike and is zero at all nodes; so is the exact solution.

@@ -214,4 +214,26 @@ BOOST_AUTO_TEST_CASE(a_jump_of_nothing_is_none) {
     BOOST_TEST(stress.bdf2.least == 2.0);
 }
 
+// The tip meets the stop with a velocity and stops dead: u_xxt jumps at the very time of the onset,
+// so that u has an order p from 1 to 2 there. The gap ~ τ and the force ~ τ leave max(p − 1/2, p/2)
+// and max(p − 1/2, 3p/4) of it: 1/2 to 3/2.
+BOOST_AUTO_TEST_CASE(a_jump_at_the_time_of_an_onset_lowers_the_order_that_it_leaves) {
+    const Solution solution = parse_solution("theta = 'cos(t)*sin(pi*x)'\n"
+                                             "[[phase]]\nuntil = 1\n"
+                                             "u = 'g2*(3*x^2 - x^3)/2*t'\n"
+                                             "[[phase]]\n"
+                                             "u = 'g2*(3*x^2 - x^3)/2'\n"
+                                             "sigma = '-(t - 1)'\n",
+                                             "onset.toml");
+    const ExpectedOrders expected = expected_orders(solution, {0.4, 0.15, 0.0, {-0.02, 0.1}}, 2.0);
+    BOOST_REQUIRE(expected.contact.onsets.size() == 1);
+    BOOST_TEST(expected.contact.onsets[0].t == expected.switches.at(0).t);
+    const ExpectedOrder& stress = expected.orders.back();
+    BOOST_REQUIRE(stress.norm == "sigma_L2");
+    for (const Forecast& order : {stress.bdf2, stress.sdirk2}) {
+        BOOST_TEST(order.least == 0.5);
+        BOOST_TEST(order.greatest == 1.5);
+    }
+}
+
 BOOST_AUTO_TEST_SUITE_END()

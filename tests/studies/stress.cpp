@@ -434,4 +434,21 @@ BOOST_AUTO_TEST_CASE(cases_are_counted_by_regime_and_checks_by_their_extremes) {
     BOOST_TEST(std::isnan(figures.at("energy.greatest")));
 }
 
+// A stop that is not there is infinitely far: it does not say how narrow the gap to the other is.
+BOOST_AUTO_TEST_CASE(the_regime_of_stops_is_that_of_the_nearer_one) {
+    const double none = std::numeric_limits<double>::infinity();
+    const auto regime = [](const Stops& stops) {
+        StressParameters parameters;
+        parameters.stops = stops;
+        return regimes_of(parameters).at(4);
+    };
+    BOOST_TEST(regime({-none, none}) == "stops none");
+    BOOST_TEST(regime({-1e-9, none}) == "stops one, < 1e-6");
+    BOOST_TEST(regime({-none, 1e-9}) == "stops one, < 1e-6");
+    BOOST_TEST(regime({-1e-3, none}) == "stops one, >= 1e-6");
+    BOOST_TEST(regime({-1e-9, 1.0}) == "stops both, < 1e-6");
+    BOOST_TEST(regime({-1.0, 1e-9}) == "stops both, < 1e-6");
+    BOOST_TEST(regime({-1.0, 1e-3}) == "stops both, >= 1e-6");
+}
+
 BOOST_AUTO_TEST_SUITE_END()
