@@ -32,8 +32,9 @@ MomentForm::MomentForm(const Beam& beam, const ProblemData& data, const Mesh& me
             projected += projections_.back().size();
         }
     counters_.doubles_allocated = projected + 2 * factor_.order() + inverse_lengths_.size() +
-                                  loads_.size() + arm_load_.size() + response_.size() +
-                                  state_.size() + increment_.size() + balance_.size();
+                                  static_cast<std::int64_t>(loads_.size()) * increment_.size() +
+                                  arm_load_.size() + response_.size() + state_.size() +
+                                  increment_.size() + balance_.size();
 }
 
 void MomentForm::lay_out_state() {
@@ -84,7 +85,6 @@ void MomentForm::load_profiles() {
     const bool arm_used = stops_ || (coupled_ && beam_.theta_A != 0.0);
 
     tip_moments_ = Eigen::VectorXd::Zero(arm + 1);
-    std::vector<Eigen::VectorXd> loads;
     for (Eigen::Index r = 0; r <= arm; ++r) {
         const bool bends = r == arm ? arm_used : bending_ && is_bending(r);
         const bool heats = r < arm && heat_ && data_.heat_source.uses(r);
@@ -97,13 +97,10 @@ void MomentForm::load_profiles() {
             arm_load_ = profile.hat_load;
         if (heats || (bends && coupled_)) {
             columns_.push_back(r);
-            loads.emplace_back(profile.hat_load.segment(1, inner));
+            loads_.emplace_back(profile.hat_load.segment(1, inner));
         }
     }
     load_weights_ = tip_moments_;
-    loads_.resize(inner, static_cast<Eigen::Index>(loads.size()));
-    for (std::size_t k = 0; k < loads.size(); ++k)
-        loads_.col(static_cast<Eigen::Index>(k)) = loads[k];
 }
 
 /// The matrix of a solve with the coefficient c, factored, and what answers λ = 1.
@@ -197,14 +194,14 @@ void MomentForm::solve_heat(double t, const Eigen::Ref<const Eigen::VectorXd>& a
             rhs += exchange * hat_loads(mesh_, rest_change).segment(1, inner).array();
         ++counters_.coupling_updates;
     }
-    if (loads_.cols() > 0) {
+    if (!loads_.empty()) {
         load_weights_.setZero();
         for (const auto& term : data_.heat_source.terms)
             load_weights_(term.profile) += amplitudes(term.amplitude);
         if (coupled_)
             load_weights_ += exchange * weight_changes_;
         for (std::size_t k = 0; k < columns_.size(); ++k)
-            increment_ += load_weights_(columns_[k]) * loads_.col(static_cast<Eigen::Index>(k));
+            increment_ += load_weights_(columns_[k]) * loads_[k];
     }
     if (const auto& rest = data_.heat_source.rest) {
         increment_ +=

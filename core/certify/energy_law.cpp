@@ -9,7 +9,7 @@ EnergyLaw::EnergyLaw(const Beam& beam, const Mesh& mesh, ThermalMass mass, doubl
     : beam_(beam), mesh_(mesh), mass_(mass), underflow_(underflow) {}
 
 double EnergyLaw::square(const RecordedState& y) const {
-    return y.theta.dot(certify::mass_times(mesh_, mass_, y.theta)) +
+    return certify::mass_product(mesh_, mass_, y.theta, y.theta) +
            certify::product(mesh_, y.w, y.w);
 }
 
@@ -57,11 +57,11 @@ EnergyLaw::Dissipation EnergyLaw::dissipation(const SolveRecorder& recorder,
     Dissipation all;
     for (Eigen::Index k = 0; k < step.solves(); ++k) {
         const RecordedState& one = recorder.stage(k);
-        const Eigen::VectorXd massive = certify::mass_times(mesh_, mass_, one.theta - before.theta);
         for (Eigen::Index l = 0; l <= k; ++l) {
             const RecordedState& other = recorder.stage(l);
             const double term = (k == l ? 0.5 : 1.0) * n(k, l) *
-                                (massive.dot(other.theta - before.theta) +
+                                (certify::mass_product(mesh_, mass_, one.theta - before.theta,
+                                                       other.theta - before.theta) +
                                  certify::product(mesh_, one.w - before.w, other.w - before.w));
             all.sum += term;
             all.size += std::abs(term);
@@ -96,9 +96,9 @@ double EnergyLaw::end_step(const SolveRecorder& recorder, const SolveRecord& las
         // One stage, b = 1, and the form of ẏ in y^n, y^{n−1}, y^{n−2} is its G-norm's.
         const RecordedState& earlier = recorder.before(2);
         const auto combined = [&](double a, double b, double c) {
-            const Eigen::VectorXd theta = a * now.theta + b * before.theta + c * earlier.theta;
+            const auto theta = a * now.theta + b * before.theta + c * earlier.theta;
             const auto w = a * now.w + b * before.w + c * earlier.w;
-            return theta.dot(certify::mass_times(mesh_, mass_, theta)) +
+            return certify::mass_product(mesh_, mass_, theta, theta) +
                    certify::product(mesh_, w, w);
         };
         energy_ = 0.25 * (square(now) + combined(2.0, -1.0, 0.0));

@@ -8,21 +8,6 @@
 
 namespace tvbeam::certify {
 
-Eigen::VectorXd mass_times(const Mesh& mesh, ThermalMass mass, const Eigen::VectorXd& theta) {
-    const Eigen::Index s = mesh.elements();
-    if (mass == ThermalMass::consistent) {
-        const auto v = theta.array();
-        Eigen::VectorXd product = Eigen::VectorXd::Zero(s + 1);
-        product.head(s).array() += mesh.lengths / 6.0 * (2.0 * v.head(s) + v.tail(s));
-        product.tail(s).array() += mesh.lengths / 6.0 * (v.head(s) + 2.0 * v.tail(s));
-        return product;
-    }
-    Eigen::ArrayXd row_sums = Eigen::ArrayXd::Zero(s + 1);
-    row_sums.head(s) += mesh.lengths / 2.0;
-    row_sums.tail(s) += mesh.lengths / 2.0;
-    return (row_sums * theta.array()).matrix();
-}
-
 Load load_of(const Mesh& mesh, const SpaceFunction& g) {
     constexpr std::size_t points = 10;
     const std::unique_ptr<gsl_integration_glfixed_table,

@@ -24,19 +24,29 @@ double heat_residual(const Beam& beam, const Mesh& mesh, ThermalMass mass,
     const Eigen::VectorXd& theta = record.now.theta;
     if (theta(0) != 0.0 || theta(s) != 0.0) // (9), (10)
         return std::numeric_limits<double>::infinity();
-    const Eigen::VectorXd storage = certify::mass_times(mesh, mass, theta - record.star.theta);
-    const Eigen::VectorXd coupling = certify::hat_loads(mesh, record.now.w - record.star.w);
+    const auto increment = (theta - record.star.theta).array();
+    const auto bent = record.now.w - record.star.w;
     const auto flux = (theta.tail(s) - theta.head(s)).array() / mesh.lengths; // Θ_x
-    const auto residual = c * storage.segment(1, inner).array() + flux.head(inner) -
-                          flux.tail(inner) - (beam.alpha * c) * coupling.segment(1, inner).array() -
-                          record.heat_load.segment(1, inner).array();
+    const auto coupling =
+        certify::hat_loads(mesh, bent.row(0).transpose(), bent.row(1).transpose());
+    const auto largest = [&](const auto& storage) {
+        return (c * storage + flux.head(inner) - flux.tail(inner) - (beam.alpha * c) * coupling -
+                record.heat_load.segment(1, inner).array())
+            .abs()
+            .template maxCoeff<Eigen::PropagateNaN>();
+    };
+    const double residual =
+        mass == ThermalMass::consistent
+            ? largest(certify::hat_loads(mesh, increment.head(s), increment.tail(s)))
+            : largest((mesh.lengths.tail(inner) / 2.0 + mesh.lengths.head(inner) / 2.0) *
+                      increment.segment(1, inner));
     const double temperature = record.now.temperature_size + underflow;
     const double h = mesh.lengths.maxCoeff();
     const double size =
         c * h * temperature + 4.0 / mesh.lengths.minCoeff() * temperature +
         beam.alpha * c * h * (record.now.curvature_size + record.star.curvature_size + underflow) +
         record.heat_load.cwiseAbs().maxCoeff() + underflow;
-    return in_round_off(residual.abs().maxCoeff<Eigen::PropagateNaN>(), size);
+    return in_round_off(residual, size);
 }
 
 double beam_residual(const Beam& beam, const Mesh& mesh, const SolveRecord& record,

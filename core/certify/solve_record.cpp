@@ -62,8 +62,8 @@ const RecordedState& SolveRecorder::stage(Eigen::Index i) const {
 }
 
 void SolveRecorder::read_loads(double t) {
-    record_.heat_load = Eigen::VectorXd::Zero(mesh_.elements() + 1);
-    record_.moment = certify::BrokenLinear::Zero(2, mesh_.elements());
+    record_.heat_load.setZero(mesh_.elements() + 1);
+    record_.moment.setZero(2, mesh_.elements());
     Eigen::ArrayXXd amplitudes;
     if (data_.amplitudes)
         amplitudes = data_.amplitudes(Eigen::ArrayXd::Constant(1, t)) / options_.unit;
@@ -153,6 +153,9 @@ std::string SolveRecorder::end_step() {
     }
     stages_.clear();
     made_ = 0;
+    record_.star = {}; // the memory of these is for the next step of the solver
+    record_.heat_load.resize(0);
+    record_.moment.resize(2, 0);
     return difference;
 }
 

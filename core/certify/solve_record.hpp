@@ -83,8 +83,8 @@ public:
     /// Y_i of the step that the last record belongs to, i < its solves, until it ends.
     [[nodiscard]] const RecordedState& stage(Eigen::Index i) const;
 
-    /// Call when the step has ended. Returns an empty text, or how its solves differ in number from
-    /// those of the scheme.
+    /// Call when the step has ended; its records are then no longer there. Returns an empty text,
+    /// or how its solves differ in number from those of the scheme.
     std::string end_step();
 
 private:

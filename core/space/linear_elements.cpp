@@ -44,7 +44,7 @@ Eigen::VectorXd gather(const Eigen::Array2Xd& moments) {
 Tridiagonal thermal_mass_matrix(const Mesh& mesh, ThermalMass kind) {
     const Eigen::Index inner = mesh.elements() - 1;
     const auto& h = mesh.lengths;
-    const Eigen::VectorXd support = h.head(inner) + h.tail(inner);
+    const auto support = (h.head(inner) + h.tail(inner)).matrix();
     if (kind == ThermalMass::lumped)
         return {support / 2.0, Eigen::VectorXd::Zero(std::max<Eigen::Index>(inner - 1, 0)),
                 support / 2.0};
@@ -59,7 +59,7 @@ Tridiagonal thermal_mass_matrix(const Mesh& mesh, ThermalMass kind) {
 
 Tridiagonal stiffness_matrix(const Mesh& mesh) {
     const Eigen::Index inner = mesh.elements() - 1;
-    const Eigen::ArrayXd slope = mesh.lengths.inverse();
+    const auto slope = mesh.lengths.inverse();
     Eigen::VectorXd row_sums = Eigen::VectorXd::Zero(inner); // (Σ_j χ_j)' is zero but at the ends
     if (inner > 0) {
         row_sums(0) += slope(0);
@@ -75,10 +75,13 @@ Eigen::VectorXd hat_loads(const Mesh& mesh, const SpaceFunction& g) {
 }
 
 Eigen::VectorXd hat_loads(const Mesh& mesh, const DiscontinuousLinear& p) {
-    Eigen::Array2Xd moments(2, mesh.elements());
-    moments.row(0) = mesh.lengths.transpose() * (2.0 * p.row(0) + p.row(1)) / 6.0;
-    moments.row(1) = mesh.lengths.transpose() * (p.row(0) + 2.0 * p.row(1)) / 6.0;
-    return gather(moments);
+    const Eigen::Index s = mesh.elements();
+    const auto left = p.row(0).transpose();
+    const auto right = p.row(1).transpose();
+    Eigen::VectorXd loads = Eigen::VectorXd::Zero(s + 1);
+    loads.head(s).array() += mesh.lengths * (2.0 * left + right) / 6.0;
+    loads.tail(s).array() += mesh.lengths * (left + 2.0 * right) / 6.0;
+    return loads;
 }
 
 double tip_moment(const Mesh& mesh, const DiscontinuousLinear& p) {
@@ -101,10 +104,13 @@ double inner_product(const Mesh& mesh, const DiscontinuousLinear& p, const Disco
 
 DiscontinuousLinear project(const Mesh& mesh, const SpaceFunction& g) {
     // The element mass matrix h/6 [2 1; 1 2] has the inverse 2/h [2 −1; −1 2].
-    const Eigen::Array2Xd moments = end_moments(mesh, g);
-    DiscontinuousLinear p(2, mesh.elements());
-    p.row(0) = 2.0 * (2.0 * moments.row(0) - moments.row(1)) / mesh.lengths.transpose();
-    p.row(1) = 2.0 * (2.0 * moments.row(1) - moments.row(0)) / mesh.lengths.transpose();
+    DiscontinuousLinear p = end_moments(mesh, g);
+    for (Eigen::Index j = 0; j < p.cols(); ++j) {
+        const double left = p(0, j);
+        const double right = p(1, j);
+        p(0, j) = 2.0 * (2.0 * left - right) / mesh.lengths(j);
+        p(1, j) = 2.0 * (2.0 * right - left) / mesh.lengths(j);
+    }
     return p;
 }
 

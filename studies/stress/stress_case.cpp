@@ -161,10 +161,10 @@ private:
 
     /// At the end of a step.
     void add_norms(const SolveRecord& record) {
-        const Eigen::VectorXd theta =
+        const auto theta =
             record.now.theta + parameters_.theta_A / unit_ * (1.0 - mesh_.nodes).matrix();
         take(norms_[0],
-             std::sqrt(theta.dot(certify::mass_times(mesh_, ThermalMass::consistent, theta))));
+             std::sqrt(certify::mass_product(mesh_, ThermalMass::consistent, theta, theta)));
         take(norms_[1], std::sqrt(certify::product(mesh_, record.now.w, record.now.w)));
         norms_[2] += record.dt * record.stress * record.stress;
     }
