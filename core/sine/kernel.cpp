@@ -169,22 +169,22 @@ template <bool coupled>
     }
 }
 
-/// Adds the squares of the errors after a step.
-template <bool coupled>
-[[gnu::always_inline]] inline void add_squares(const SineBlock& block, const Group& group,
-                                               Index step, const Modes& theta, const Modes& bend) {
-    if (block.temperature_square != nullptr) {
+/// Adds the squares of the errors in the modes z of one group after a step.
+[[gnu::always_inline]] inline void add_squares(std::span<const SineSquare> squares,
+                                               const SineBlock& block, Index index, Index step,
+                                               const Modes& z) {
+    const Index place = index * packs_in_group;
+    for (const SineSquare& square : squares) {
         const Modes error =
-            combined(theta, block, group.table, block.temperature_weights + step,
-                     block.weight_stride, block.first_temperature_column, group.columns);
-        (error * error).add_to(block.temperature_square[step]);
+            combined(z, block, square.table + place, square.weights + step, square.weight_stride,
+                     square.first_column, square.active_columns[index]);
+        Modes weighted = error;
+        if (square.factors != nullptr)
+            weighted *= Modes(square.factors + place);
+        (error * weighted).add_to(square.squares[step]);
+        if (square.arm != nullptr)
+            (error * Modes(square.arm + place)).add_to(square.moments[step]);
     }
-    if constexpr (coupled)
-        if (block.curvature_square != nullptr) {
-            const Modes error = combined(bend, block, group.table, block.curvature_weights + step,
-                                         block.weight_stride, 0, group.columns);
-            (error * error).add_to(block.curvature_square[step]);
-        }
 }
 
 template <Index increments, bool coupled>
@@ -224,7 +224,9 @@ template <Index increments, bool coupled>
         state.theta = theta;
         if constexpr (coupled)
             state.bend = bend;
-        add_squares<coupled>(block, group, step, theta, bend);
+        add_squares(block.of_temperature, block, index, step, theta);
+        if constexpr (coupled)
+            add_squares(block.of_curvature, block, index, step, bend);
     }
     if (block.after != nullptr)
         store<increments, coupled>(state, block, place);

@@ -46,6 +46,7 @@ private:
 struct SineProfiles {
     Eigen::MatrixXd
         expansion;           ///< the profiles, then the moment arm, in the g_j; shape: J × (R + 1)
+    std::vector<SpaceFunction> functions; ///< the g_j; they refer to the profiles; empty: no norms
     Eigen::Index linear = 1; ///< how many of the g_j are 1 − x and x
     ModeArrays table;        ///< T_jk = (g_j, φ̂_k)
     std::vector<std::int64_t> active; ///< of each group: the g_j behind are zero there

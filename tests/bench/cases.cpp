@@ -114,6 +114,8 @@ void add_table1(std::vector<Case>& all, const std::vector<March>& ladder) {
     all.push_back(runs("no coupling", without_coupling(), ladder));
     all.push_back(runs("no stops", without_stops(), ladder));
     all.push_back(runs("no norms", without_norms(), ladder));
+    all.push_back(runs("all norms", with_all_norms(), ladder));
+    all.push_back(runs("nodal all norms", in_nodal_basis(with_all_norms()), ladder));
 }
 
 void add_fixed_point(std::vector<Case>& all, const std::vector<March>& marches) {

@@ -35,6 +35,14 @@ Section table1() {
             }};
 }
 
+Section all_norms() {
+    return {"Table 1 with all ten norms, over Table 1 with its two",
+            {
+                {"run()", {"all norms"}, {"full"}, at_most(3.0)},
+                {"run(), nodal basis", {"nodal all norms"}, {"nodal"}},
+            }};
+}
+
 Section left_out() {
     const Share full{"full"};
     return {"Left out, over the full scene of Table 1",
@@ -208,6 +216,7 @@ std::string row(const std::string& what, const std::string& ratio, const std::st
 std::vector<Section> sections(const Extent& extent) {
     return {table1(),
             left_out(),
+            all_norms(),
             sizes("sine", extent.sine_sizes),
             sizes("nodal", extent.nodal_sizes),
             fixed_point(extent.fixed_point),
