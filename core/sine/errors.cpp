@@ -148,8 +148,10 @@ void SineErrors::weigh(Eigen::Index steps, const TimeSeries& amplitudes,
 void SineErrors::add(Eigen::Index steps, double dt, const TimeSeries& amplitudes,
                      const Eigen::VectorXd& tips, const Eigen::VectorXd& stress) {
     for (std::size_t q = 0; q < quantity_count; ++q)
-        totals_[q] = packs_[q].empty() ? Eigen::VectorXd(Eigen::VectorXd::Zero(steps))
-                                       : totals(packs_[q], steps);
+        if (packs_[q].empty())
+            totals_[q].setZero(sums_.needed()[q] ? steps : 0);
+        else
+            find_totals(totals_[q], packs_[q], steps);
     if (needs(Quantity::theta))
         add_forms(of(Quantity::theta), temperature_weights_, profiles_.remainder, steps);
     if (slope_)
@@ -195,7 +197,8 @@ void SineErrors::add_deflections(Eigen::Index steps, const Eigen::VectorXd& tips
         Eigen::ArrayXd with_arm =
             (deflection_weights_.topRows(steps) * deflection_->arm_rest).array();
         if (!moments_.empty())
-            with_arm += totals(moments_, steps).array();
+            for (Eigen::Index n = 0; n < steps; ++n)
+                with_arm(n) += total(moments_[static_cast<std::size_t>(n)]);
         squares.array() += tip * (2.0 * with_arm + tip / 3.0); // ‖x‖² = 1/3
     }
 }

@@ -299,8 +299,11 @@ void SineForm::march_weights(std::int64_t solves, const Start& start) {
         }
         block_.changes.col(arm).head(solves) -= block_.stress.head(solves);
         next_weights_ = start.weights;
-        for (std::int64_t step = 0; step < solves / stages(); ++step)
-            step_weights(step);
+        if (stages() == 1 && increment_weights_.rows() == 0)
+            step_weights_by_one_solve_each(solves);
+        else
+            for (std::int64_t step = 0; step < solves / stages(); ++step)
+                step_weights(step);
     }
     if (!heat_)
         return;
@@ -340,6 +343,21 @@ void SineForm::step_weights(std::int64_t step) {
                 now[r] = star + change;
         }
     }
+}
+
+/// All steps of a scheme without increments.
+void SineForm::step_weights_by_one_solve_each(std::int64_t solves) {
+    const Eigen::Index times = block_.changes.rows();
+    double* now = next_weights_.data();
+    double* changes = block_.changes.data();
+    double* weights = block_.weights.data();
+    for (std::int64_t solve = 0; solve < solves; ++solve)
+        for (const Eigen::Index r : moving_) {
+            const Eigen::Index at = r * times + solve;
+            changes[at] = -kappa_ * (now[r] + changes[at]);
+            now[r] += changes[at];
+            weights[at] = now[r];
+        }
 }
 
 /// Marches the modes with the loads of the block: for the tips, for the end, which is next_ and the
@@ -388,7 +406,8 @@ bool SineForm::march_modes(std::int64_t steps, const Start& start, Wanted wanted
 Eigen::VectorXd SineForm::tips(std::int64_t solves) const {
     Eigen::VectorXd tips = block_.weights.topRows(solves) * profiles_.tip_moments;
     if (coupled_)
-        tips += totals(block_.tip, solves);
+        for (Eigen::Index n = 0; n < solves; ++n)
+            tips(n) += total(block_.tip[static_cast<std::size_t>(n)]);
     return tips;
 }
 
@@ -446,18 +465,16 @@ void SineForm::add_errors(std::int64_t steps) {
     if (errors_.sums().needed() == QuantitySet{})
         return;
     Eigen::VectorXd stress(steps);
-    Eigen::VectorXd tips = Eigen::VectorXd::Zero(steps);
-    const bool by_modes = errors_.of_deflection() && coupled_;
-    const Eigen::VectorXd all =
-        by_modes ? totals(block_.tip, steps * stages()) : Eigen::VectorXd();
-    for (std::int64_t n = 0; n < steps; ++n) {
-        const std::int64_t solve = (n + 1) * stages() - 1;
-        stress(n) = block_.stress(solve);
-        if (by_modes)
-            tips(n) = all(solve);
+    for (std::int64_t n = 0; n < steps; ++n)
+        stress(n) = block_.stress((n + 1) * stages() - 1);
+    Eigen::VectorXd tips;
+    if (errors_.of_deflection()) {
+        tips.setZero(steps);
+        for (std::int64_t n = 0; coupled_ && n < steps; ++n)
+            tips(n) = total(block_.tip[static_cast<std::size_t>((n + 1) * stages() - 1)]);
     }
-    errors_.add(steps, levels_.dt(),
-                at_step_ends(block_.amplitudes, block_.end_amplitudes, steps), tips, stress);
+    errors_.add(steps, levels_.dt(), at_step_ends(block_.amplitudes, block_.end_amplitudes, steps),
+                tips, stress);
 }
 
 /// After the step that starts a scheme with history: its increment.

@@ -82,6 +82,7 @@ private:
     void count(std::int64_t steps);
     void march_weights(std::int64_t solves, const Start& start);
     void step_weights(std::int64_t step);
+    void step_weights_by_one_solve_each(std::int64_t solves);
     bool march_modes(std::int64_t steps, const Start& start, Wanted wanted);
     [[nodiscard]] Eigen::VectorXd tips(std::int64_t solves) const;
     bool find_contact(const Eigen::VectorXd& free_tips);

@@ -12,13 +12,16 @@ namespace tvbeam {
 /// Sums of the kernel, eight lanes each.
 using PackSums = std::vector<Pack>;
 
+/// The sum of the lanes.
+inline double total(const Pack& pack) {
+    return Eigen::Map<const Eigen::Matrix<double, Pack::size, 1>>(pack.lanes).sum();
+}
+
 /// The sum of the lanes of each of the first ones.
-inline Eigen::VectorXd totals(const PackSums& packs, Eigen::Index count) {
-    return Eigen::Map<const Eigen::Matrix<double, Pack::size, Eigen::Dynamic>>(packs.data()->lanes,
-                                                                               Pack::size, count)
-        .colwise()
-        .sum()
-        .transpose();
+inline void find_totals(Eigen::VectorXd& sums, const PackSums& packs, Eigen::Index count) {
+    sums.resize(count);
+    for (Eigen::Index i = 0; i < count; ++i)
+        sums(i) = total(packs[static_cast<std::size_t>(i)]);
 }
 
 inline Pack* cleared(PackSums& packs, Eigen::Index count) {
