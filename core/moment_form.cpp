@@ -1,6 +1,7 @@
 #include "core/moment_form.hpp"
 
 #include "core/contact/contact.hpp"
+#include "core/space/column_sum.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -203,8 +204,8 @@ void MomentForm::solve_heat(double t, const Eigen::Ref<const Eigen::VectorXd>& a
             load_weights_(term.profile) += amplitudes(term.amplitude);
         if (coupled_)
             load_weights_ += exchange * weight_changes_;
-        for (std::size_t k = 0; k < columns_.size(); ++k)
-            increment_ += load_weights_(columns_[k]) * loads_.col(static_cast<Eigen::Index>(k));
+        column_weights_ = load_weights_(columns_);
+        add_columns(increment_, loads_, column_weights_);
     }
     if (const auto& rest = data_.heat_source.rest) {
         increment_ +=

@@ -98,6 +98,7 @@ private:
     Eigen::VectorXd balance_;        // a + αΘ
     Eigen::VectorXd weight_changes_; // −κ (c_r + μ_r)
     Eigen::VectorXd load_weights_;   // what each profile adds to the heat equation
+    Eigen::VectorXd column_weights_; // those of the columns of loads_
     std::vector<DiscontinuousLinear>
         projections_; // Πφ_r of those that bend, where the curvature is read in every step
 };
