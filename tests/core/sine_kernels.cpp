@@ -65,9 +65,12 @@ Written written_by(const SineKernel& kernel, std::int64_t increments, std::int64
     for (Pack& pack : inverse)
         for (double& lane : pack.lanes)
             lane /= 4.0;
-    Written result{Packs(before.size()), Packs(static_cast<std::size_t>(solves)),
-                   Packs(static_cast<std::size_t>(steps)), Packs(static_cast<std::size_t>(steps)),
-                   Packs(static_cast<std::size_t>(steps)), Packs(1)};
+    Written result{Packs(before.size()),
+                   Packs(static_cast<std::size_t>(solves)),
+                   Packs(static_cast<std::size_t>(steps)),
+                   Packs(static_cast<std::size_t>(steps)),
+                   Packs(static_cast<std::size_t>(steps)),
+                   Packs(1)};
     SineSquare of_temperature;
     of_temperature.table = table.data();
     of_temperature.active_columns = active.data();
