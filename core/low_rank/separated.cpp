@@ -213,7 +213,7 @@ public:
 
 private:
     static constexpr Index places = 16;
-    static constexpr int shifts = 15;// no power of two, which the sequence of times goes by
+    static constexpr int shifts = 15; // no power of two, which the sequence of times goes by
     std::unique_ptr<gsl_qrng, decltype(&gsl_qrng_free)> sequence_;
     std::vector<ArrayXd> x_;
     std::vector<MatrixXd> profiles_;

@@ -102,8 +102,8 @@ Eigen::VectorXd SineBasis::nodal(const Eigen::ArrayXd& coefficients) const {
     return nodal;
 }
 
-// H_k is −φ̂_k/K_k at the nodes. On an element with φ̂_k = l (1 − ξ) + r ξ it lies by h² (l β(1 − ξ) +
-// r β(ξ)), β = (ξ − ξ³)/6, below the line between them; over all elements Σ (l² + r²) = ν²s and
+// H_k is −φ̂_k/K_k at the nodes. On an element with φ̂_k = l (1 − ξ) + r ξ it lies by h² (l β(1 − ξ)
+// + r β(ξ)), β = (ξ − ξ³)/6, below the line between them; over all elements Σ (l² + r²) = ν²s and
 // Σ l r = ν²s cos(kπh)/2, and cos(kπh) = 1 − 2 sin²(kπh/2).
 Eigen::ArrayXd SineBasis::slope_squares() const {
     const Eigen::ArrayXd cosines = 1.0 - 2.0 * sines_.square();

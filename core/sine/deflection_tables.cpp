@@ -47,7 +47,8 @@ void lay_out(SineTable& table, const std::vector<ArrayXd>& columns, const ArrayX
         table.table[static_cast<Index>(j)].head(modes) = columns[j];
         for (Index k = 0; k < modes; ++k)
             if (columns[j](k) != 0.0)
-                table.active[static_cast<std::size_t>(k / group)] = static_cast<std::int64_t>(j) + 1;
+                table.active[static_cast<std::size_t>(k / group)] =
+                    static_cast<std::int64_t>(j) + 1;
     }
 }
 
@@ -118,8 +119,7 @@ DeflectionTables::DeflectionTables(const SineProfiles& profiles, const Mesh& mes
         if (j < count)
             tip_moments(j) = y.tip;
         // By parts: (y', H_k') = −(y, φ̂_k), and (y, H_k) = (Y, φ̂_k) with Y'' = y.
-        slope_columns.push_back(
-            coefficients(-basis.of_load(hat_loads(cells, y.second)), slopes));
+        slope_columns.push_back(coefficients(-basis.of_load(hat_loads(cells, y.second)), slopes));
         value_columns.push_back(coefficients(
             basis.of_load(hat_loads(cells, antiderivatives(cells, y.second).second)), values));
         // What is left of g is integrated, rather than what is left of its integrals.

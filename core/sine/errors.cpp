@@ -180,7 +180,8 @@ void SineErrors::add_slopes_of_temperature(Eigen::Index steps) {
     Eigen::VectorXd& squares = of(Quantity::theta_x);
     add_forms(squares, slope_weights_, slope_->remainder, steps);
     // The mean, which is that of −θ_A − θ̃_x.
-    squares.array() += ((slope_weights_.topRows(steps) * slope_->means).array() - theta_A_).square();
+    squares.array() +=
+        ((slope_weights_.topRows(steps) * slope_->means).array() - theta_A_).square();
 }
 
 void SineErrors::add_deflections(Eigen::Index steps, const Eigen::VectorXd& tips) {
@@ -215,8 +216,8 @@ std::int64_t SineErrors::doubles_allocated() const {
     if (slope_)
         doubles += of_table(*slope_);
     if (deflection_)
-        doubles += of_table(deflection_->slope) + of_table(deflection_->value) +
-                   deflection_->arm.size();
+        doubles +=
+            of_table(deflection_->slope) + of_table(deflection_->value) + deflection_->arm.size();
     return doubles;
 }
 

@@ -26,8 +26,8 @@ Eigen::MatrixXd by_profile(const Field& field, Eigen::Index amplitudes, Eigen::I
 ///     ‖Θ̃ − θ̃‖² = Σ_k (Θ_k + Σ_j v_j T_jk)² + vᵀ remainder v
 ///     ‖w − u_xx‖² = Σ_k (a_k + Σ_j v_j T_jk)² + vᵀ (remainder − projection) v + τᵀ projection τ
 ///
-/// where u_xx = Σ_j τ_j g_j; those of Θ̃_x, U_x and U are in deflection_tables.hpp. u and u_x are read
-/// as the integrals of u_xx. The sums over the modes are the kernel's; they read v.
+/// where u_xx = Σ_j τ_j g_j; those of Θ̃_x, U_x and U are in deflection_tables.hpp. u and u_x are
+/// read as the integrals of u_xx. The sums over the modes are the kernel's; they read v.
 class SineErrors {
 public:
     /// The quantities that it can measure.

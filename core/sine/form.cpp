@@ -179,11 +179,11 @@ void SineForm::make_room() {
     }
     if (coupled_ && (stops_ || errors_.of_deflection()))
         block_.tip.resize(static_cast<std::size_t>(solves));
-    counters_.doubles_allocated =
-        profiles_.table.size() + operators_.size() + 2 * state_.size() + 8 * basis_.size() +
-        block_.amplitudes.size() + block_.weights.size() + block_.changes.size() +
-        block_.loads.size() + errors_.doubles_allocated() +
-        static_cast<std::int64_t>(block_.tip.size()) * Pack::size;
+    counters_.doubles_allocated = profiles_.table.size() + operators_.size() + 2 * state_.size() +
+                                  8 * basis_.size() + block_.amplitudes.size() +
+                                  block_.weights.size() + block_.changes.size() +
+                                  block_.loads.size() + errors_.doubles_allocated() +
+                                  static_cast<std::int64_t>(block_.tip.size()) * Pack::size;
 }
 
 void SineForm::use(const TimeScheme& scheme) {

@@ -33,7 +33,8 @@ namespace tvbeam {
 class SineForm {
 public:
     /// Whether a run can be done in this form: a uniform mesh with a fast transform, sources that
-    /// are sums of products, as the exact solution is, and cells only where SineErrors does not mind.
+    /// are sums of products, as the exact solution is, and cells only where SineErrors does not
+    /// mind.
     static bool suits(const ProblemData& data, const Mesh& mesh, const Scheme& scheme,
                       const std::vector<Norm>& norms);
 

@@ -17,7 +17,8 @@ inline constexpr std::int64_t packs_in_group = 4;
 
 /// After every step of a block, of the modes z, which are θ or a,
 ///
-///     Σ_k η_k (z_k + Σ_j w_j T_jk)²     and, where there is an arm,     Σ_k X_k (z_k + Σ_j w_j T_jk)
+///     Σ_k η_k (z_k + Σ_j w_j T_jk)²     and, where there is an arm,     Σ_k X_k (z_k + Σ_j w_j
+///     T_jk)
 ///
 /// added to eight lanes a step. Arrays are laid out as those of SineBlock.
 struct SineSquare {
@@ -70,11 +71,11 @@ struct SineBlock {
     Pack* after = nullptr; ///< may be null where only the sums are wanted
 
     // Sums over the modes, added to eight lanes a solve or step.
-    Pack* tip = nullptr;                         ///< Σ a T_0, each solve
-    std::span<const SineSquare> of_temperature;  ///< z = θ
-    std::span<const SineSquare> of_curvature;    ///< z = a
-    std::int64_t load_stride = 0;                ///< from one column of the loads to the next
-    Pack* sum = nullptr;                         ///< Σ θ of the last step: finite if every θ is
+    Pack* tip = nullptr;                        ///< Σ a T_0, each solve
+    std::span<const SineSquare> of_temperature; ///< z = θ
+    std::span<const SineSquare> of_curvature;   ///< z = a
+    std::int64_t load_stride = 0;               ///< from one column of the loads to the next
+    Pack* sum = nullptr;                        ///< Σ θ of the last step: finite if every θ is
 };
 
 /// The most increments that march() knows.

@@ -103,8 +103,7 @@ PointValues without_projection(const Mesh& mesh, const PointValues& g) {
 }
 
 PointValues point_weights(const Mesh& mesh) {
-    return (element_rule().weights.matrix() *
-            integration_mesh(mesh).lengths.matrix().transpose())
+    return (element_rule().weights.matrix() * integration_mesh(mesh).lengths.matrix().transpose())
         .array();
 }
 
