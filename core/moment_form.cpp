@@ -1,6 +1,7 @@
 #include "core/moment_form.hpp"
 
 #include "core/contact/contact.hpp"
+#include "core/space/column_sum.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -32,9 +33,8 @@ MomentForm::MomentForm(const Beam& beam, const ProblemData& data, const Mesh& me
             projected += projections_.back().size();
         }
     counters_.doubles_allocated = projected + 2 * factor_.order() + inverse_lengths_.size() +
-                                  static_cast<std::int64_t>(loads_.size()) * increment_.size() +
-                                  arm_load_.size() + response_.size() + state_.size() +
-                                  increment_.size() + balance_.size();
+                                  loads_.size() + arm_load_.size() + response_.size() +
+                                  state_.size() + increment_.size() + balance_.size();
 }
 
 void MomentForm::lay_out_state() {
@@ -83,22 +83,28 @@ void MomentForm::load_profiles() {
     const auto arm = static_cast<Eigen::Index>(data_.profiles.size());
     const auto arm_function = [](const Eigen::ArrayXd& x) -> Eigen::ArrayXd { return 1.0 - x; };
     const bool arm_used = stops_ || (coupled_ && beam_.theta_A != 0.0);
+    const auto bends = [&](Eigen::Index r) {
+        return r == arm ? arm_used : bending_ && is_bending(r);
+    };
+    const auto heats = [&](Eigen::Index r) {
+        return r < arm && heat_ && data_.heat_source.uses(r);
+    };
 
+    for (Eigen::Index r = 0; r <= arm; ++r)
+        if (heats(r) || (bends(r) && coupled_))
+            columns_.push_back(r);
+    loads_.resize(inner, static_cast<Eigen::Index>(columns_.size()));
     tip_moments_ = Eigen::VectorXd::Zero(arm + 1);
-    for (Eigen::Index r = 0; r <= arm; ++r) {
-        const bool bends = r == arm ? arm_used : bending_ && is_bending(r);
-        const bool heats = r < arm && heat_ && data_.heat_source.uses(r);
-        if (!bends && !heats)
+    for (Eigen::Index r = 0, column = 0; r <= arm; ++r) {
+        if (!bends(r) && !heats(r))
             continue;
         LoadProfile profile = load_profile(
             mesh_, r == arm ? arm_function : data_.profiles[static_cast<std::size_t>(r)]);
         tip_moments_(r) = profile.tip_moment;
         if (r == arm && stops_)
             arm_load_ = profile.hat_load;
-        if (heats || (bends && coupled_)) {
-            columns_.push_back(r);
-            loads_.emplace_back(profile.hat_load.segment(1, inner));
-        }
+        if (column < loads_.cols() && columns_[static_cast<std::size_t>(column)] == r)
+            loads_.col(column++) = profile.hat_load.segment(1, inner);
     }
     load_weights_ = tip_moments_;
 }
@@ -194,14 +200,14 @@ void MomentForm::solve_heat(double t, const Eigen::Ref<const Eigen::VectorXd>& a
             rhs += exchange * hat_loads(mesh_, rest_change).segment(1, inner).array();
         ++counters_.coupling_updates;
     }
-    if (!loads_.empty()) {
+    if (loads_.cols() > 0) {
         load_weights_.setZero();
         for (const auto& term : data_.heat_source.terms)
             load_weights_(term.profile) += amplitudes(term.amplitude);
         if (coupled_)
             load_weights_ += exchange * weight_changes_;
-        for (std::size_t k = 0; k < columns_.size(); ++k)
-            increment_ += load_weights_(columns_[k]) * loads_[k];
+        column_weights_ = load_weights_(columns_);
+        add_columns(increment_, loads_, column_weights_);
     }
     if (const auto& rest = data_.heat_source.rest) {
         increment_ +=

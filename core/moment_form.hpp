@@ -83,12 +83,12 @@ private:
     double kappa_ = 0.0;   // κ
     TridiagonalFactor factor_;
     Eigen::ArrayXd inverse_lengths_;
-    std::vector<Eigen::Index> columns_;  // profiles with a hat load, in the order of loads_
-    std::vector<Eigen::VectorXd> loads_; // (φ_r, χ_i) at inner nodes
-    Eigen::VectorXd tip_moments_;        // (φ_r, 1 − x) of every profile and of the moment arm
-    Eigen::VectorXd arm_load_;           // (1 − x, χ_i), all nodes
-    Eigen::VectorXd response_;           // Θ that answers λ = 1
-    double compliance_ = 0.0;            // u(1) that answers λ = 1
+    std::vector<Eigen::Index> columns_; // profiles with a hat load, in the order of loads_
+    Eigen::MatrixXd loads_;             // (φ_r, χ_i) at inner nodes
+    Eigen::VectorXd tip_moments_;       // (φ_r, 1 − x) of every profile and of the moment arm
+    Eigen::VectorXd arm_load_;          // (1 − x, χ_i), all nodes
+    Eigen::VectorXd response_;          // Θ that answers λ = 1
+    double compliance_ = 0.0;           // u(1) that answers λ = 1
 
     SplitCurvature::Vector theta_{nullptr, 0}; // these two are parts of state_
     SplitCurvature w_;
@@ -97,6 +97,7 @@ private:
     Eigen::VectorXd balance_;        // a + αΘ
     Eigen::VectorXd weight_changes_; // −κ (c_r + μ_r)
     Eigen::VectorXd load_weights_;   // what each profile adds to the heat equation
+    Eigen::VectorXd column_weights_; // those of the columns of loads_
     std::vector<DiscontinuousLinear>
         projections_; // Πφ_r of those that bend, where the curvature is read in every step
 };

@@ -180,7 +180,7 @@ void add_profiles(ProblemData& data, const MatrixXd& basis) {
 }
 
 /// Where products are compared with what they stand for: at times without pattern, each time in
-/// places that are 1/32 apart.
+/// places that are 1/16 apart, 1/240 from those of other times.
 class Comparison {
 public:
     explicit Comparison(const MatrixXd& basis)
@@ -212,8 +212,8 @@ public:
     }
 
 private:
-    static constexpr Index places = 32;
-    static constexpr int shifts = 7; // no power of two, which the sequence of times goes by
+    static constexpr Index places = 16;
+    static constexpr int shifts = 15; // no power of two, which the sequence of times goes by
     std::unique_ptr<gsl_qrng, decltype(&gsl_qrng_free)> sequence_;
     std::vector<ArrayXd> x_;
     std::vector<MatrixXd> profiles_;

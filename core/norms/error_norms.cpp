@@ -2,6 +2,7 @@
 
 #include "core/moment_form.hpp"
 #include "core/space/cells.hpp"
+#include "core/space/column_sum.hpp"
 #include "core/space/deflection.hpp"
 #include "core/space/quadrature.hpp"
 
@@ -51,14 +52,13 @@ struct ProfileSelection {
     }
 };
 
-/// eᵀM_c e + 2 γ·(defectᵀe) + γᵀQγ with the nodal error e.
+/// eᵀM_c e + 2 γ·(defectᵀe) + γᵀQγ with the nodal error e; work: as long as e.
 double split_square(const Mesh& mesh, const ErrorProfiles& profiles, const Eigen::VectorXd& error,
-                    const Eigen::VectorXd& gamma, const Eigen::MatrixXd& gram) {
-    double cross = 0.0;
-    for (Eigen::Index r = 0; r < gamma.size(); ++r)
-        if (gamma(r) != 0.0)
-            cross += gamma(r) * profiles.defect_load.col(r).dot(error);
-    return squared_norm(mesh, error) + 2.0 * cross + gamma.dot(gram * gamma);
+                    const Eigen::VectorXd& gamma, const Eigen::MatrixXd& gram,
+                    Eigen::VectorXd& work) {
+    work.setZero(error.size());
+    add_columns(work, profiles.defect_load, gamma);
+    return squared_norm(mesh, error) + 2.0 * work.dot(error) + gamma.dot(gram * gamma);
 }
 
 /// A square that round-off made negative is zero; NaN stays NaN.
@@ -83,10 +83,9 @@ public:
         for (const auto& term : field_.terms)
             gamma_(selection_.column(term.profile)) -= amplitudes(term.amplitude);
         error_ = solver.temperature() + lift_;
-        for (Eigen::Index r = 0; r < gamma_.size(); ++r)
-            error_ += gamma_(r) * profiles_.nodal.col(r);
+        add_columns(error_, profiles_.nodal, gamma_);
         return non_negative(
-            split_square(mesh_, profiles_, error_, gamma_, profiles_.interpolation));
+            split_square(mesh_, profiles_, error_, gamma_, profiles_.interpolation, work_));
     }
 
     [[nodiscard]] std::int64_t size() const {
@@ -101,6 +100,7 @@ private:
     Eigen::VectorXd lift_;
     Eigen::VectorXd gamma_;
     Eigen::VectorXd error_;
+    Eigen::VectorXd work_;
 };
 
 /// ‖w − u_xx‖² for w = a + Σ c_r Πφ_r + c_arm(1 − x) and u_xx = Σ τ_r φ_r: with γ = c − τ the
@@ -127,9 +127,8 @@ public:
         error_ = w.weights.tail<1>()(0) * arm_;
         if (w.nodal.size() > 0)
             error_ += w.nodal;
-        for (Eigen::Index r = 0; r < gamma_.size(); ++r)
-            error_ += gamma_(r) * profiles_.nodal.col(r);
-        return non_negative(split_square(mesh_, profiles_, error_, gamma_, between_) +
+        add_columns(error_, profiles_.nodal, gamma_);
+        return non_negative(split_square(mesh_, profiles_, error_, gamma_, between_, work_) +
                             tau_.dot(profiles_.projection * tau_));
     }
 
@@ -148,6 +147,7 @@ private:
     Eigen::VectorXd tau_;
     Eigen::VectorXd gamma_;
     Eigen::VectorXd error_;
+    Eigen::VectorXd work_;
 };
 
 /// Squares of errors by quadrature of the pointwise error; exact functions are read through their

@@ -4,6 +4,7 @@
 
 #include <gsl/gsl_fft_real.h>
 
+#include <cmath>
 #include <memory>
 #include <new>
 #include <numbers>
@@ -90,6 +91,34 @@ Eigen::ArrayXd SineBasis::of_load(const Eigen::VectorXd& hat_load) const {
 Eigen::ArrayXd SineBasis::of_nodal(const Eigen::VectorXd& nodal) const {
     return size() == 0 ? Eigen::ArrayXd()
                        : Eigen::ArrayXd(mass_ * scale_ * transform_->sums(nodal));
+}
+
+Eigen::VectorXd SineBasis::nodal(const Eigen::ArrayXd& coefficients) const {
+    Eigen::VectorXd nodal = Eigen::VectorXd::Zero(elements_ + 1);
+    if (size() > 0) {
+        nodal.segment(1, size()) = (scale_ * coefficients).matrix();
+        nodal.segment(1, size()) = transform_->sums(nodal).matrix(); // its own inverse but for s/2
+    }
+    return nodal;
+}
+
+// H_k is −φ̂_k/K_k at the nodes. On an element with φ̂_k = l (1 − ξ) + r ξ it lies by h² (l β(1 − ξ)
+// + r β(ξ)), β = (ξ − ξ³)/6, below the line between them; over all elements Σ (l² + r²) = ν²s and
+// Σ l r = ν²s cos(kπh)/2, and cos(kπh) = 1 − 2 sin²(kπh/2).
+Eigen::ArrayXd SineBasis::slope_squares() const {
+    const Eigen::ArrayXd cosines = 1.0 - 2.0 * sines_.square();
+    const double h = 1.0 / static_cast<double>(elements_);
+    return 1.0 / stiffness_ +
+           h * h * scale_.square() * (1.0 / 45.0 + 7.0 / 360.0 * cosines); // |β'|² = 1/45, …
+}
+
+Eigen::ArrayXd SineBasis::value_squares() const {
+    const Eigen::ArrayXd cosines = 1.0 - 2.0 * sines_.square();
+    const Eigen::ArrayXd nu = scale_.square() / std::pow(static_cast<double>(elements_), 2);
+    const double h2 = 1.0 / std::pow(static_cast<double>(elements_), 2);
+    return 1.0 / stiffness_.square() +
+           2.0 * nu / stiffness_ * (1.0 / 45.0 + 7.0 / 360.0 * cosines) +
+           h2 * nu * (2.0 / 945.0 + 31.0 / 15120.0 * cosines);
 }
 
 Eigen::ArrayXd SineBasis::left_hat() const {

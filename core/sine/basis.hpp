@@ -31,6 +31,13 @@ public:
     /// The coefficients of the function of S_0^h with these nodal values, i = 0 … s.
     [[nodiscard]] Eigen::ArrayXd of_nodal(const Eigen::VectorXd& nodal) const;
 
+    /// The values at the nodes i = 0 … s of the function with these coefficients.
+    [[nodiscard]] Eigen::VectorXd nodal(const Eigen::ArrayXd& coefficients) const;
+
+    // Of H_k with H_k'' = φ̂_k, zero at both ends:
+    [[nodiscard]] Eigen::ArrayXd slope_squares() const; ///< ‖H_k'‖²
+    [[nodiscard]] Eigen::ArrayXd value_squares() const; ///< ‖H_k‖²
+
     [[nodiscard]] Eigen::ArrayXd left_hat() const;  ///< (1 − x, φ̂_k)
     [[nodiscard]] Eigen::ArrayXd right_hat() const; ///< (x, φ̂_k)
 

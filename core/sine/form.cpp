@@ -18,31 +18,22 @@ bool wants(const QuantitySet& set, Quantity quantity) {
     return set[index(quantity)];
 }
 
-/// The sum of the lanes of each pack.
-Eigen::VectorXd totals(const std::vector<Pack>& packs, Eigen::Index count) {
-    return Eigen::Map<const Eigen::Matrix<double, Pack::size, Eigen::Dynamic>>(packs.data()->lanes,
-                                                                               Pack::size, count)
-        .colwise()
-        .sum()
-        .transpose();
-}
-
-Pack* cleared(std::vector<Pack>& packs, std::int64_t count) {
-    std::fill_n(packs.begin(), count, Pack{});
-    return packs.data();
-}
-
 Eigen::Index profile_count(const ProblemData& data) {
     return static_cast<Eigen::Index>(data.profiles.size());
 }
 
-/// Whether the norms measure a field, not only the contact stress.
-bool measures_fields(const std::vector<Norm>& norms) {
-    const QuantitySet needed = quantities_of(norms);
-    return wants(needed, Quantity::theta) || wants(needed, Quantity::u_xx);
+/// Whether errors are made of that of the curvature.
+bool wants_curvature(const QuantitySet& set) {
+    return wants(set, Quantity::u) || wants(set, Quantity::u_x) || wants(set, Quantity::u_xx);
 }
 
-/// The fields that anything in the run reads.
+/// Whether the norms measure something of which the profiles of the run are a part.
+bool measures_fields(const std::vector<Norm>& norms) {
+    const QuantitySet needed = quantities_of(norms);
+    return wants(needed, Quantity::theta) || wants_curvature(needed);
+}
+
+/// The fields in whose profiles the run is written.
 std::vector<const Field*> used_fields(const ProblemData& data, const QuantitySet& needed, bool heat,
                                       bool bending) {
     std::vector<const Field*> fields;
@@ -54,7 +45,7 @@ std::vector<const Field*> used_fields(const ProblemData& data, const QuantitySet
     }
     if (wants(needed, Quantity::theta))
         fields.push_back(&data.exact->theta);
-    if (wants(needed, Quantity::u_xx))
+    if (wants_curvature(needed))
         fields.push_back(&data.exact->u_xx);
     return fields;
 }
@@ -93,9 +84,14 @@ bool SineForm::suits(const ProblemData& data, const Mesh& mesh, const Scheme& sc
         others[index(quantity)] = false;
     if (others != QuantitySet{})
         return false;
+    for (const Quantity quantity : SineErrors::on_whole_elements)
+        if (wants(needed, quantity) && mesh.cells)
+            return false;
     if (wants(needed, Quantity::theta) && !data.exact->theta.is_separable())
         return false;
-    return !wants(needed, Quantity::u_xx) || data.exact->u_xx.is_separable();
+    if (wants(needed, Quantity::theta_x) && !data.exact->theta_x.is_separable())
+        return false;
+    return !wants_curvature(needed) || data.exact->u_xx.is_separable();
 }
 
 SineForm::SineForm(const Beam& beam, const ProblemData& data, const Mesh& mesh,
@@ -108,7 +104,7 @@ SineForm::SineForm(const Beam& beam, const ProblemData& data, const Mesh& mesh,
                 used_profiles(data, used_fields(data, quantities_of(norms), heat_, bending_)),
                 heat_, measures_fields(norms)),
       levels_(data, scheme.time, final_time, steps), most_steps_(std::min(block_steps, steps)),
-      errors_(beam, data, profiles_, norms, coupled_, most_steps_) {
+      errors_(beam, data, mesh, basis_, profiles_, norms, coupled_, most_steps_) {
     find_sources();
     find_initial_state(mesh);
     make_room();
@@ -127,7 +123,10 @@ void SineForm::find_sources() {
 
     const QuantitySet& needed = errors_.sums().needed();
     std::vector<bool> read(static_cast<std::size_t>(amplitudes), false);
-    for (const Field* field : used_fields(data_, needed, heat_, bending_))
+    std::vector<const Field*> fields = used_fields(data_, needed, heat_, bending_);
+    if (wants(needed, Quantity::theta_x))
+        fields.push_back(&data_.exact->theta_x);
+    for (const Field* field : fields)
         for (const auto& term : field->terms)
             read[static_cast<std::size_t>(term.amplitude)] = true;
     if (wants(needed, Quantity::stress) && data_.exact->stress)
@@ -178,19 +177,13 @@ void SineForm::make_room() {
         block_.end_amplitudes.resize(most_steps_, amplitudes);
         block_.end_weights.resize(most_steps_, rows);
     }
-    const auto room = [](bool wanted, Eigen::Index count) {
-        return static_cast<std::size_t>(wanted ? count : 0);
-    };
-    block_.tip.resize(room(stops_ && coupled_, solves));
-    block_.temperature_square.resize(room(errors_.of_temperature(), most_steps_));
-    block_.curvature_square.resize(room(errors_.of_curvature() && coupled_, most_steps_));
-    const std::size_t packs =
-        block_.tip.size() + block_.temperature_square.size() + block_.curvature_square.size();
-    counters_.doubles_allocated =
-        profiles_.table.size() + operators_.size() + 2 * state_.size() + 8 * basis_.size() +
-        block_.amplitudes.size() + block_.weights.size() + block_.changes.size() +
-        block_.loads.size() + errors_.temperature_weights().size() +
-        errors_.curvature_weights().size() + static_cast<std::int64_t>(packs) * Pack::size;
+    if (coupled_ && (stops_ || errors_.of_deflection()))
+        block_.tip.resize(static_cast<std::size_t>(solves));
+    counters_.doubles_allocated = profiles_.table.size() + operators_.size() + 2 * state_.size() +
+                                  8 * basis_.size() + block_.amplitudes.size() +
+                                  block_.weights.size() + block_.changes.size() +
+                                  block_.loads.size() + errors_.doubles_allocated() +
+                                  static_cast<std::int64_t>(block_.tip.size()) * Pack::size;
 }
 
 void SineForm::use(const TimeScheme& scheme) {
@@ -306,8 +299,11 @@ void SineForm::march_weights(std::int64_t solves, const Start& start) {
         }
         block_.changes.col(arm).head(solves) -= block_.stress.head(solves);
         next_weights_ = start.weights;
-        for (std::int64_t step = 0; step < solves / stages(); ++step)
-            step_weights(step);
+        if (stages() == 1 && increment_weights_.rows() == 0)
+            step_weights_by_one_solve_each(solves);
+        else
+            for (std::int64_t step = 0; step < solves / stages(); ++step)
+                step_weights(step);
     }
     if (!heat_)
         return;
@@ -349,6 +345,21 @@ void SineForm::step_weights(std::int64_t step) {
     }
 }
 
+/// All steps of a scheme without increments.
+void SineForm::step_weights_by_one_solve_each(std::int64_t solves) {
+    const Eigen::Index times = block_.changes.rows();
+    double* now = next_weights_.data();
+    double* changes = block_.changes.data();
+    double* weights = block_.weights.data();
+    for (std::int64_t solve = 0; solve < solves; ++solve)
+        for (const Eigen::Index r : moving_) {
+            const Eigen::Index at = r * times + solve;
+            changes[at] = -kappa_ * (now[r] + changes[at]);
+            now[r] += changes[at];
+            weights[at] = now[r];
+        }
+}
+
 /// Marches the modes with the loads of the block: for the tips, for the end, which is next_ and the
 /// squares of the errors, or for both. False: a temperature at the end is not finite.
 bool SineForm::march_modes(std::int64_t steps, const Start& start, Wanted wanted) {
@@ -377,20 +388,14 @@ bool SineForm::march_modes(std::int64_t steps, const Start& start, Wanted wanted
     block.active_columns = profiles_.active.data();
     block.loads = block_.loads.data();
     block.load_stride = block_.loads.rows();
-    block.weight_stride = most_steps_;
     block.before = state.data();
     block.after = end ? next_.data() : nullptr;
     block.sum = &sum;
-    if (tips && coupled_)
+    if (coupled_ && (tips || errors_.of_deflection()))
         block.tip = cleared(block_.tip, steps * stages());
-    if (end && errors_.of_temperature()) {
-        block.temperature_square = cleared(block_.temperature_square, steps);
-        block.temperature_weights = errors_.temperature_weights().data();
-        block.first_temperature_column = errors_.first_temperature_column();
-    }
-    if (end && coupled_ && errors_.of_curvature()) {
-        block.curvature_square = cleared(block_.curvature_square, steps);
-        block.curvature_weights = errors_.curvature_weights().data();
+    if (end) {
+        block.of_temperature = errors_.temperature_squares();
+        block.of_curvature = errors_.curvature_squares();
     }
     tvbeam::march(block);
     return std::all_of(std::begin(sum.lanes), std::end(sum.lanes),
@@ -401,7 +406,8 @@ bool SineForm::march_modes(std::int64_t steps, const Start& start, Wanted wanted
 Eigen::VectorXd SineForm::tips(std::int64_t solves) const {
     Eigen::VectorXd tips = block_.weights.topRows(solves) * profiles_.tip_moments;
     if (coupled_)
-        tips += totals(block_.tip, solves);
+        for (Eigen::Index n = 0; n < solves; ++n)
+            tips(n) += total(block_.tip[static_cast<std::size_t>(n)]);
     return tips;
 }
 
@@ -458,15 +464,17 @@ void SineForm::weigh_errors(std::int64_t steps) {
 void SineForm::add_errors(std::int64_t steps) {
     if (errors_.sums().needed() == QuantitySet{})
         return;
-    const auto modes = [&](bool wanted, const std::vector<Pack>& sums) -> Eigen::VectorXd {
-        return wanted ? totals(sums, steps) : Eigen::VectorXd::Zero(steps);
-    };
     Eigen::VectorXd stress(steps);
     for (std::int64_t n = 0; n < steps; ++n)
         stress(n) = block_.stress((n + 1) * stages() - 1);
-    errors_.add(steps, levels_.dt(), modes(errors_.of_temperature(), block_.temperature_square),
-                modes(coupled_ && errors_.of_curvature(), block_.curvature_square),
-                at_step_ends(block_.amplitudes, block_.end_amplitudes, steps), stress);
+    Eigen::VectorXd tips;
+    if (errors_.of_deflection()) {
+        tips.setZero(steps);
+        for (std::int64_t n = 0; coupled_ && n < steps; ++n)
+            tips(n) = total(block_.tip[static_cast<std::size_t>((n + 1) * stages() - 1)]);
+    }
+    errors_.add(steps, levels_.dt(), at_step_ends(block_.amplitudes, block_.end_amplitudes, steps),
+                tips, stress);
 }
 
 /// After the step that starts a scheme with history: its increment.

@@ -33,7 +33,8 @@ namespace tvbeam {
 class SineForm {
 public:
     /// Whether a run can be done in this form: a uniform mesh with a fast transform, sources that
-    /// are sums of products, and norms of what SineErrors measures.
+    /// are sums of products, as the exact solution is, and cells only where SineErrors does not
+    /// mind.
     static bool suits(const ProblemData& data, const Mesh& mesh, const Scheme& scheme,
                       const std::vector<Norm>& norms);
 
@@ -59,9 +60,7 @@ private:
         Eigen::VectorXd stress;
         TimeSeries end_amplitudes; // these two by step, where a step has several solves
         TimeSeries end_weights;
-        std::vector<Pack> tip;
-        std::vector<Pack> temperature_square; // by step
-        std::vector<Pack> curvature_square;   // by step
+        PackSums tip; // by solve
     };
 
     /// What a march of a block begins with.
@@ -84,6 +83,7 @@ private:
     void count(std::int64_t steps);
     void march_weights(std::int64_t solves, const Start& start);
     void step_weights(std::int64_t step);
+    void step_weights_by_one_solve_each(std::int64_t solves);
     bool march_modes(std::int64_t steps, const Start& start, Wanted wanted);
     [[nodiscard]] Eigen::VectorXd tips(std::int64_t solves) const;
     bool find_contact(const Eigen::VectorXd& free_tips);

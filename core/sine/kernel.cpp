@@ -7,34 +7,54 @@ namespace tvbeam {
 namespace {
 
 using Index = std::int64_t;
-using Lanes [[gnu::vector_size(64), gnu::may_alias]] = double;
 
-/// One group of modes, in registers.
+/// A vector register of so many bytes. Wider ones than the processor has would be taken apart in
+/// memory.
+template <Index bytes>
+struct Register;
+template <>
+struct Register<64> {
+    using Lanes [[gnu::vector_size(64), gnu::may_alias]] = double;
+};
+template <>
+struct Register<32> {
+    using Lanes [[gnu::vector_size(32), gnu::may_alias]] = double;
+};
+template <>
+struct Register<16> {
+    using Lanes [[gnu::vector_size(16), gnu::may_alias]] = double;
+};
+
+constexpr Index registers = 4; ///< of one Modes
+
+/// Modes of one group, in registers: all of them where those are wide, else a part.
+template <Index bytes>
 struct Modes {
-    Lanes packs[packs_in_group] = {};
+    using Lanes = typename Register<bytes>::Lanes;
+    Lanes packs[registers] = {};
 
     Modes() = default;
 
-    [[gnu::always_inline]] explicit Modes(const Pack* from) {
-        for (Index v = 0; v < packs_in_group; ++v)
-            packs[v] = *reinterpret_cast<const Lanes*>(from + v);
+    [[gnu::always_inline]] explicit Modes(const double* from) {
+        for (Index v = 0; v < registers; ++v)
+            packs[v] = reinterpret_cast<const Lanes*>(from)[v];
     }
-    [[gnu::always_inline]] void store(Pack* to) const {
-        for (Index v = 0; v < packs_in_group; ++v)
-            *reinterpret_cast<Lanes*>(to + v) = packs[v];
+    [[gnu::always_inline]] void store(double* to) const {
+        for (Index v = 0; v < registers; ++v)
+            reinterpret_cast<Lanes*>(to)[v] = packs[v];
     }
     [[gnu::always_inline]] Modes& operator+=(const Modes& other) {
-        for (Index v = 0; v < packs_in_group; ++v)
+        for (Index v = 0; v < registers; ++v)
             packs[v] += other.packs[v];
         return *this;
     }
     [[gnu::always_inline]] Modes& operator-=(const Modes& other) {
-        for (Index v = 0; v < packs_in_group; ++v)
+        for (Index v = 0; v < registers; ++v)
             packs[v] -= other.packs[v];
         return *this;
     }
     [[gnu::always_inline]] Modes& operator*=(const Modes& other) {
-        for (Index v = 0; v < packs_in_group; ++v)
+        for (Index v = 0; v < registers; ++v)
             packs[v] *= other.packs[v];
         return *this;
     }
@@ -59,77 +79,78 @@ struct Modes {
         Modes result = right;
         return result *= factor;
     }
-    /// Adds the packs to one.
+    /// Adds all to the lanes of one pack.
     [[gnu::always_inline]] void add_to(Pack& sum) const {
-        Lanes total = packs[0];
-        for (Index v = 1; v < packs_in_group; ++v)
-            total += packs[v];
-        *reinterpret_cast<Lanes*>(&sum) += total;
+        constexpr Index in_pack = static_cast<Index>(sizeof(Pack)) / bytes;
+        for (Index part = 0; part < in_pack; ++part) {
+            Lanes total = packs[part];
+            for (Index v = part + in_pack; v < registers; v += in_pack)
+                total += packs[v];
+            reinterpret_cast<Lanes*>(&sum)[part] += total;
+        }
     }
 };
 
+/// Where arrays of modes are read: so many doubles behind their begin.
+[[gnu::always_inline]] inline const double* at(const Pack* array, Index place) {
+    return array->lanes + place;
+}
+
 /// value + Σ_j weights_j T_j over the columns first … last − 1.
-[[gnu::always_inline]] inline Modes combined(const Modes& value, const SineBlock& block,
-                                             const Pack* table, const double* weights,
-                                             Index weight_stride, Index first, Index last) {
-    Modes sum = value;
+template <typename M>
+[[gnu::always_inline]] inline M combined(const M& value, const double* table, Index stride,
+                                         const double* weights, Index weight_stride, Index first,
+                                         Index last) {
+    M sum = value;
     for (Index j = first; j < last; ++j)
-        sum += weights[j * weight_stride] * Modes(table + j * block.stride);
+        sum += weights[j * weight_stride] * M(table + j * stride);
     return sum;
 }
 
 /// θ and a of one group with their increments.
-template <Index increments>
+template <typename M, Index increments>
 struct State {
     static constexpr Index kept = increments > 0 ? increments : Index{1};
-    Modes theta;
-    Modes bend;
-    Modes theta_increments[kept];
-    Modes bend_increments[kept];
+    M theta;
+    M bend;
+    M theta_increments[kept];
+    M bend_increments[kept];
 };
 
-template <Index increments, bool coupled>
-[[gnu::always_inline]] inline void load(State<increments>& state, const SineBlock& block,
-                                        Index place) {
-    const Pack* from = block.before + place;
-    const auto next = [&] {
-        const Modes modes(from);
-        from += block.stride;
-        return modes;
-    };
-    state.theta = next();
+template <bool coupled, typename M, Index increments>
+[[gnu::always_inline]] inline void load(State<M, increments>& state, const double* from,
+                                        Index stride) {
+    constexpr Index fields = coupled ? 2 : 1;
+    state.theta = M(from);
     if constexpr (coupled)
-        state.bend = next();
+        state.bend = M(from + stride);
     for (Index e = 0; e < increments; ++e) {
-        state.theta_increments[e] = next();
+        from += fields * stride;
+        state.theta_increments[e] = M(from);
         if constexpr (coupled)
-            state.bend_increments[e] = next();
+            state.bend_increments[e] = M(from + stride);
     }
 }
 
-template <Index increments, bool coupled>
-[[gnu::always_inline]] inline void store(const State<increments>& state, const SineBlock& block,
-                                         Index place) {
-    Pack* to = block.after + place;
-    const auto next = [&](const Modes& modes) {
-        modes.store(to);
-        to += block.stride;
-    };
-    next(state.theta);
+template <bool coupled, typename M, Index increments>
+[[gnu::always_inline]] inline void store(const State<M, increments>& state, double* to,
+                                         Index stride) {
+    constexpr Index fields = coupled ? 2 : 1;
+    state.theta.store(to);
     if constexpr (coupled)
-        next(state.bend);
+        state.bend.store(to + stride);
     for (Index e = 0; e < increments; ++e) {
-        next(state.theta_increments[e]);
+        to += fields * stride;
+        state.theta_increments[e].store(to);
         if constexpr (coupled)
-            next(state.bend_increments[e]);
+            state.bend_increments[e].store(to + stride);
     }
-    state.theta.add_to(*block.sum);
 }
 
 /// Makes increment e the difference of (theta, bend) and the state at the step's begin.
-template <Index increments, bool coupled>
-[[gnu::always_inline]] inline void remember(State<increments>& state, Index e, const Modes& theta,
-                                            const Modes& bend) {
+template <bool coupled, typename M, Index increments>
+[[gnu::always_inline]] inline void remember(State<M, increments>& state, Index e, const M& theta,
+                                            const M& bend) {
     for (Index at = 0; at < increments; ++at)
         if (at == e) {
             state.theta_increments[at] = theta - state.theta;
@@ -138,66 +159,74 @@ template <Index increments, bool coupled>
         }
 }
 
-/// What a group reads in every step.
+/// What a group, or a part of it, reads in every step.
+template <typename M>
 struct Group {
-    const Pack* table;
+    Index index;
+    Index place; ///< in doubles
+    Index stride;
+    const double* table;
     Index columns;
-    Modes stiffness;
-    Modes inverse;
+    M stiffness;
+    M inverse;
 };
 
 /// One solve: θ*, a* become θ, a.
-template <bool coupled>
-[[gnu::always_inline]] inline void solve(const SineBlock& block, const Group& group, Index at,
-                                         Modes& theta, Modes& bend) {
+template <bool coupled, typename M>
+[[gnu::always_inline]] inline void solve(const SineBlock& block, const Group<M>& group, Index at,
+                                         M& theta, M& bend) {
     // The loads first: they wait for nothing, while the state of one step waits for that of the
     // step before.
-    Modes rest = combined(Modes{}, block, group.table, block.loads + at, block.load_stride, 0,
-                          group.columns);
+    M rest = combined(M{}, group.table, group.stride, block.loads + at, block.load_stride, 0,
+                      group.columns);
     rest -= group.stiffness * theta;
-    Modes balance;
+    M balance;
     if constexpr (coupled) {
         balance = bend + block.alpha * theta;
         rest -= block.exchange * balance;
     }
-    const Modes change = rest * group.inverse;
+    const M change = rest * group.inverse;
     theta += change;
     if constexpr (coupled) {
         bend -= block.kappa * (balance + block.alpha * change);
         if (block.tip != nullptr)
-            (bend * Modes(group.table)).add_to(block.tip[at]);
+            (bend * M(group.table)).add_to(block.tip[at]);
     }
 }
 
-/// Adds the squares of the errors after a step.
-template <bool coupled>
-[[gnu::always_inline]] inline void add_squares(const SineBlock& block, const Group& group,
-                                               Index step, const Modes& theta, const Modes& bend) {
-    if (block.temperature_square != nullptr) {
-        const Modes error =
-            combined(theta, block, group.table, block.temperature_weights + step,
-                     block.weight_stride, block.first_temperature_column, group.columns);
-        (error * error).add_to(block.temperature_square[step]);
+/// Adds the squares of the errors in the modes z of one group after a step.
+template <typename M>
+[[gnu::always_inline]] inline void add_squares(std::span<const SineSquare> squares,
+                                               const Group<M>& group, Index step, const M& z) {
+    for (const SineSquare& square : squares) {
+        const M error =
+            combined(z, at(square.table, group.place), group.stride, square.weights + step,
+                     square.weight_stride, square.first_column, square.active_columns[group.index]);
+        if (square.factors == nullptr)
+            (error * error).add_to(square.squares[step]);
+        else
+            (error * error * M(at(square.factors, group.place))).add_to(square.squares[step]);
+        if (square.arm != nullptr)
+            (error * M(at(square.arm, group.place))).add_to(square.moments[step]);
     }
-    if constexpr (coupled)
-        if (block.curvature_square != nullptr) {
-            const Modes error = combined(bend, block, group.table, block.curvature_weights + step,
-                                         block.weight_stride, 0, group.columns);
-            (error * error).add_to(block.curvature_square[step]);
-        }
 }
 
-template <Index increments, bool coupled>
-[[gnu::always_inline]] inline void march_group(const SineBlock& block, Index index) {
-    const Index place = index * packs_in_group;
-    const Group group{block.table + place, block.active_columns[index],
-                      Modes(block.stiffness + place), Modes(block.inverse + place)};
-    State<increments> state;
-    load<increments, coupled>(state, block, place);
+template <Index increments, bool coupled, typename M>
+[[gnu::always_inline]] inline void march_group(const SineBlock& block, Index index, Index place) {
+    const Index stride = block.stride * Pack::size;
+    const Group<M> group{index,
+                         place,
+                         stride,
+                         at(block.table, place),
+                         block.active_columns[index],
+                         M(at(block.stiffness, place)),
+                         M(at(block.inverse, place))};
+    State<M, increments> state;
+    load<coupled>(state, at(block.before, place), stride);
 
     for (Index step = 0; step < block.steps; ++step) {
-        Modes theta = state.theta;
-        Modes bend = state.bend;
+        M theta = state.theta;
+        M bend = state.bend;
         for (Index stage = 0; stage < block.stages; ++stage) {
             if (increments > 0 && stage > 0) {
                 theta = state.theta;
@@ -211,7 +240,7 @@ template <Index increments, bool coupled>
             }
             solve<coupled>(block, group, step * block.stages + stage, theta, bend);
             if (increments > 0 && stage + 1 < block.stages)
-                remember<increments, coupled>(state, block.history + stage, theta, bend);
+                remember<coupled>(state, block.history + stage, theta, bend);
         }
         if (increments > 0 && block.history > 0) {
             for (Index e = increments - 1; e > 0; --e)
@@ -219,21 +248,29 @@ template <Index increments, bool coupled>
                     state.theta_increments[e] = state.theta_increments[e - 1];
                     state.bend_increments[e] = state.bend_increments[e - 1];
                 }
-            remember<increments, coupled>(state, 0, theta, bend);
+            remember<coupled>(state, 0, theta, bend);
         }
         state.theta = theta;
         if constexpr (coupled)
             state.bend = bend;
-        add_squares<coupled>(block, group, step, theta, bend);
+        add_squares(block.of_temperature, group, step, theta);
+        if constexpr (coupled)
+            add_squares(block.of_curvature, group, step, bend);
     }
-    if (block.after != nullptr)
-        store<increments, coupled>(state, block, place);
+    if (block.after != nullptr) {
+        store<coupled>(state, block.after->lanes + place, stride);
+        state.theta.add_to(*block.sum);
+    }
 }
 
-template <Index increments, bool coupled>
+template <Index increments, bool coupled, typename M>
 [[gnu::always_inline]] inline void march_all(const SineBlock& block) {
+    constexpr Index all = packs_in_group * Pack::size;
+    constexpr Index part =
+        registers * static_cast<Index>(sizeof(typename M::Lanes) / sizeof(double));
     for (Index group = 0; group < block.groups; ++group)
-        march_group<increments, coupled>(block, group);
+        for (Index within = 0; within < all; within += part)
+            march_group<increments, coupled, M>(block, group, group * all + within);
 }
 
 /// While it lives, what is smaller than any normal number counts as zero: a mode that has decayed
@@ -261,20 +298,21 @@ struct FlushToZero {
 };
 #endif
 
-[[gnu::always_inline]] inline void march_with_these_units(const SineBlock& block) {
+template <typename M>
+[[gnu::always_inline]] inline void march_with(const SineBlock& block) {
     switch (2 * block.increments + (block.coupled ? 1 : 0)) {
     case 0:
-        return march_all<0, false>(block);
+        return march_all<0, false, M>(block);
     case 1:
-        return march_all<0, true>(block);
+        return march_all<0, true, M>(block);
     case 2:
-        return march_all<1, false>(block);
+        return march_all<1, false, M>(block);
     case 3:
-        return march_all<1, true>(block);
+        return march_all<1, true, M>(block);
     case 4:
-        return march_all<2, false>(block);
+        return march_all<2, false, M>(block);
     default:
-        return march_all<2, true>(block);
+        return march_all<2, true, M>(block);
     }
 }
 
@@ -282,14 +320,14 @@ struct FlushToZero {
 // levels.
 #if defined(__x86_64__) && !defined(__clang__)
 [[gnu::target("arch=x86-64-v4")]] void march_v4(const SineBlock& block) {
-    march_with_these_units(block);
+    march_with<Modes<64>>(block);
 }
 [[gnu::target("arch=x86-64-v3")]] void march_v3(const SineBlock& block) {
-    march_with_these_units(block);
+    march_with<Modes<32>>(block);
 }
 #endif
 void march_anywhere(const SineBlock& block) {
-    march_with_these_units(block);
+    march_with<Modes<16>>(block);
 }
 
 } // namespace

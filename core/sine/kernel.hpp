@@ -15,6 +15,24 @@ struct alignas(64) Pack {
 /// with zeros to a multiple of it.
 inline constexpr std::int64_t packs_in_group = 4;
 
+/// After every step of a block, of the modes z, which are θ or a,
+///
+///     Σ_k η_k (z_k + Σ_j w_j T_jk)²     and, where there is an arm,     Σ_k X_k (z_k + Σ_j w_j
+///     T_jk)
+///
+/// added to eight lanes a step. Arrays are laid out as those of SineBlock.
+struct SineSquare {
+    const Pack* factors = nullptr; ///< η_k; null: 1
+    const Pack* table = nullptr;
+    const std::int64_t* active_columns = nullptr; ///< of each group: those behind are zero there
+    std::int64_t first_column = 0;                ///< those before have the weight zero
+    const double* weights = nullptr;              ///< w_j; shape: steps × columns
+    std::int64_t weight_stride = 0;               ///< from one column of the weights to the next
+    Pack* squares = nullptr;
+    const Pack* arm = nullptr; ///< X_k; may be null
+    Pack* moments = nullptr;
+};
+
 /// One block of steps of the heat equation and of the nodal part a of the curvature in the sine
 /// basis, in which every mode goes its own way; see MomentForm for the equations:
 ///
@@ -53,15 +71,11 @@ struct SineBlock {
     Pack* after = nullptr; ///< may be null where only the sums are wanted
 
     // Sums over the modes, added to eight lanes a solve or step.
-    Pack* tip = nullptr;                         ///< Σ a T_0, each solve
-    Pack* temperature_square = nullptr;          ///< Σ (θ + Σ_j w_j T_j)², each step
-    Pack* curvature_square = nullptr;            ///< Σ (a + Σ_j w_j T_j)², each step
-    const double* temperature_weights = nullptr; ///< w_j; shape: steps × columns
-    const double* curvature_weights = nullptr;   ///< w_j; shape: steps × columns
-    std::int64_t load_stride = 0;                ///< from one column of the loads to the next
-    std::int64_t weight_stride = 0;              ///< the same of both weights
-    std::int64_t first_temperature_column = 0;   ///< those before have the weight zero
-    Pack* sum = nullptr;                         ///< Σ θ of the last step: finite if every θ is
+    Pack* tip = nullptr;                        ///< Σ a T_0, each solve
+    std::span<const SineSquare> of_temperature; ///< z = θ
+    std::span<const SineSquare> of_curvature;   ///< z = a
+    std::int64_t load_stride = 0;               ///< from one column of the loads to the next
+    Pack* sum = nullptr;                        ///< Σ θ of the last step: finite if every θ is
 };
 
 /// The most increments that march() knows.

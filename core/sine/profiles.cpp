@@ -184,6 +184,17 @@ Eigen::MatrixXd of_pairs(const std::vector<Column>& columns, const Entry& entry)
                                         });
 }
 
+/// The g_j.
+std::vector<SpaceFunction> functions_of(const Split& parts, bool right) {
+    std::vector<SpaceFunction> functions;
+    functions.emplace_back([](const Eigen::ArrayXd& x) -> Eigen::ArrayXd { return 1.0 - x; });
+    if (right)
+        functions.emplace_back([](const Eigen::ArrayXd& x) { return x; });
+    for (const auto& column : parts.inner)
+        functions.push_back(parts.functions[static_cast<std::size_t>(column.error)]);
+    return functions;
+}
+
 } // namespace
 
 ModeArrays::ModeArrays(Eigen::Index modes, Eigen::Index arrays) {
@@ -227,6 +238,8 @@ SineProfiles::SineProfiles(const Mesh& mesh, const SineBasis& basis,
     const bool right = (parts.at_ends.row(1).array() != 0.0).any();
     std::vector<Column> columns = linear_columns(mesh, basis, right);
     linear = static_cast<Eigen::Index>(columns.size());
+    if (with_norms)
+        functions = functions_of(parts, right);
     std::move(parts.inner.begin(), parts.inner.end(), std::back_inserter(columns));
 
     const auto count = static_cast<Eigen::Index>(columns.size());

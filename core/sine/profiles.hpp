@@ -45,10 +45,11 @@ private:
 /// φ̂_k)² + ‖v − P_0v‖².
 struct SineProfiles {
     Eigen::MatrixXd
-        expansion;           ///< the profiles, then the moment arm, in the g_j; shape: J × (R + 1)
-    Eigen::Index linear = 1; ///< how many of the g_j are 1 − x and x
-    ModeArrays table;        ///< T_jk = (g_j, φ̂_k)
-    std::vector<std::int64_t> active; ///< of each group: the g_j behind are zero there
+        expansion; ///< the profiles, then the moment arm, in the g_j; shape: J × (R + 1)
+    std::vector<SpaceFunction> functions; ///< the g_j; they refer to the profiles; empty: no norms
+    Eigen::Index linear = 1;              ///< how many of the g_j are 1 − x and x
+    ModeArrays table;                     ///< T_jk = (g_j, φ̂_k)
+    std::vector<std::int64_t> active;     ///< of each group: the g_j behind are zero there
     Eigen::VectorXd tip_moments; ///< (φ_r, 1 − x), then that of the moment arm; shape: R + 1
     Eigen::MatrixXd remainder; ///< (g_i − P_0g_i, g_j − P_0g_j); shape: J × J; empty: no norms
     Eigen::MatrixXd modes_gram; ///< Σ_k T_ik T_jk; shape and emptiness as above

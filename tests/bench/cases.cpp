@@ -1,6 +1,7 @@
 #include "tests/bench/cases.hpp"
 
 #include "core/low_rank/separated.hpp"
+#include "tests/bench/bounds.hpp"
 #include "tests/bench/process.hpp"
 #include "tests/bench/thomas.hpp"
 
@@ -114,6 +115,8 @@ void add_table1(std::vector<Case>& all, const std::vector<March>& ladder) {
     all.push_back(runs("no coupling", without_coupling(), ladder));
     all.push_back(runs("no stops", without_stops(), ladder));
     all.push_back(runs("no norms", without_norms(), ladder));
+    all.push_back(runs("all norms", with_all_norms(), ladder));
+    all.push_back(runs("nodal all norms", in_nodal_basis(with_all_norms()), ladder));
 }
 
 void add_fixed_point(std::vector<Case>& all, const std::vector<March>& marches) {
@@ -158,6 +161,23 @@ void add_second_order(std::vector<Case>& all, const March& euler,
         all.push_back(single("bdf2", with_time(without_norms(), "bdf2"), {euler.elements, n}));
 }
 
+void add_bounds(std::vector<Case>& all, std::size_t streamed) {
+    all.push_back({"vector unit", [](benchmark::State& state) {
+                       for ([[maybe_unused]] const auto iteration : state)
+                           benchmark::DoNotOptimize(fill_the_vector_unit(rounds_of_vector_unit));
+                   }});
+    all.push_back({"stream", [streamed](benchmark::State& state) {
+                       std::vector<double> a(streamed, 1.0);
+                       const std::vector<double> b(streamed, 2.0);
+                       const std::vector<double> c(streamed, 3.0);
+                       for ([[maybe_unused]] const auto iteration : state) {
+                           stream(a, b, c, 0.5);
+                           benchmark::DoNotOptimize(a.data());
+                           benchmark::ClobberMemory();
+                       }
+                   }});
+}
+
 } // namespace
 
 Extent full_extent() {
@@ -170,6 +190,7 @@ Extent full_extent() {
         .low_rank = {{160, 4000}, {1000, 4000}},
         .fine_euler = {160, 32000},
         .second_order_steps = {80, 160, 320},
+        .streamed = std::size_t{1} << 23,
         .repetitions = 7,
         .seconds = 0.02};
 }
@@ -183,6 +204,7 @@ Extent short_extent() {
             .low_rank = {{20, 100}},
             .fine_euler = {20, 400},
             .second_order_steps = {20},
+            .streamed = std::size_t{1} << 12,
             .repetitions = 1,
             .seconds = 0.0};
 }
@@ -200,6 +222,7 @@ std::vector<Case> cases(const Extent& extent) {
     add_variants(all, extent.compared);
     add_low_rank(all, extent.low_rank);
     add_second_order(all, extent.fine_euler, extent.second_order_steps);
+    add_bounds(all, extent.streamed);
     return all;
 }
 

@@ -20,6 +20,7 @@ struct Extent {
     std::vector<March> low_rank;    ///< for sources that do not separate
     March fine_euler;               ///< against few steps of second order on the same mesh
     std::vector<std::int64_t> second_order_steps;
+    std::size_t streamed; ///< numbers in each array, more than caches hold
     int repetitions;
     double seconds; ///< of one repetition, at least
 };

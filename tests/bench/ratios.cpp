@@ -1,5 +1,6 @@
 #include "tests/bench/ratios.hpp"
 
+#include "tests/bench/bounds.hpp"
 #include "tests/bench/settings.hpp"
 
 #include <fmt/format.h>
@@ -32,6 +33,14 @@ Section table1() {
                  {"process"},
                  {},
                  Reading::wall},
+            }};
+}
+
+Section all_norms() {
+    return {"Table 1 with all ten norms, over Table 1 with its two",
+            {
+                {"run()", {"all norms"}, {"full"}, at_most(3.0)},
+                {"run(), nodal basis", {"nodal all norms"}, {"nodal"}},
             }};
 }
 
@@ -142,6 +151,31 @@ Section second_order(const March& euler, const std::vector<std::int64_t>& steps)
     return section;
 }
 
+/// What one core does at most, and how near the steps come to it; README.md counts what they take.
+Section bounds(const Extent& extent) {
+    const double flops = static_cast<double>(rounds_of_vector_unit * flops_of_a_round());
+    const double bytes = static_cast<double>(streamed_bytes) * static_cast<double>(extent.streamed);
+    Section section{"Bounds of one core",
+                    {
+                        {"vector unit, Gflop/s", {""}, {"vector unit", flops / 1e9}},
+                        {"memory, GB/s", {""}, {"stream", bytes / 1e9}},
+                    }};
+    // With both norms, of the modes that only the moment arm loads, contact in 0.29 of the steps.
+    constexpr double sine_flops = 26.0;
+    for (const auto& march : extent.sine_sizes)
+        section.ratios.push_back(
+            {fmt::format("sine basis, s = {}, of its flops at that", march.elements),
+             {"vector unit", flops / sine_flops},
+             node_step("sine", march)});
+    constexpr double nodal_bytes = 8.0 * 66.0;
+    for (const auto& march : extent.nodal_sizes)
+        section.ratios.push_back(
+            {fmt::format("nodal basis, s = {}, of its bytes at that", march.elements),
+             {"stream", bytes / nodal_bytes},
+             node_step("nodal", march)});
+    return section;
+}
+
 using Pick = double (*)(std::vector<double>);
 
 double least(std::vector<double> values) {
@@ -208,12 +242,14 @@ std::string row(const std::string& what, const std::string& ratio, const std::st
 std::vector<Section> sections(const Extent& extent) {
     return {table1(),
             left_out(),
+            all_norms(),
             sizes("sine", extent.sine_sizes),
             sizes("nodal", extent.nodal_sizes),
             fixed_point(extent.fixed_point),
             variants(extent.compared),
             low_rank(extent.low_rank),
-            second_order(extent.fine_euler, extent.second_order_steps)};
+            second_order(extent.fine_euler, extent.second_order_steps),
+            bounds(extent)};
 }
 
 std::string table(const std::vector<Section>& sections, const Measurements& measurements) {

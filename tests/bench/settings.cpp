@@ -52,6 +52,14 @@ Setting without_norms() {
     return setting;
 }
 
+Setting with_all_norms() {
+    Setting setting = full();
+    setting.norms.clear();
+    for (const auto& name : Norm::names())
+        setting.norms.push_back(*Norm::named(name));
+    return setting;
+}
+
 Setting with_general_sources() {
     Setting setting = full();
     ProblemData data = *setting.data;

@@ -33,6 +33,7 @@ Setting full();
 Setting without_coupling(); ///< alpha = 0, with the data that the solution demands then
 Setting without_stops();    ///< the same data, and nothing that holds the tip
 Setting without_norms();
+Setting with_all_norms();
 Setting with_general_sources(); ///< their separation hidden, as if there were none
 Setting by_fixed_point();       ///< the paper's algorithm
 

@@ -43,7 +43,7 @@ std::vector<double> some_numbers(std::int64_t count, double seed) {
 
 /// All that one kernel writes.
 struct Written {
-    Packs after, tip, temperature_square, curvature_square, sum;
+    Packs after, tip, temperature_square, curvature_square, moments, sum;
 };
 
 /// A block of a scheme with so many increments, of which `history` are of earlier steps: Euler has
@@ -65,9 +65,23 @@ Written written_by(const SineKernel& kernel, std::int64_t increments, std::int64
     for (Pack& pack : inverse)
         for (double& lane : pack.lanes)
             lane /= 4.0;
-    Written result{Packs(before.size()), Packs(static_cast<std::size_t>(solves)),
-                   Packs(static_cast<std::size_t>(steps)), Packs(static_cast<std::size_t>(steps)),
+    Written result{Packs(before.size()),
+                   Packs(static_cast<std::size_t>(solves)),
+                   Packs(static_cast<std::size_t>(steps)),
+                   Packs(static_cast<std::size_t>(steps)),
+                   Packs(static_cast<std::size_t>(steps)),
                    Packs(1)};
+    SineSquare of_temperature;
+    of_temperature.table = table.data();
+    of_temperature.active_columns = active.data();
+    of_temperature.weights = weights.data();
+    of_temperature.weight_stride = steps;
+    SineSquare of_curvature = of_temperature;
+    of_temperature.squares = result.temperature_square.data();
+    of_curvature.squares = result.curvature_square.data();
+    of_curvature.factors = stiffness.data();
+    of_curvature.arm = inverse.data();
+    of_curvature.moments = result.moments.data();
     SineBlock block;
     block.groups = groups;
     block.stride = stride;
@@ -89,12 +103,10 @@ Written written_by(const SineKernel& kernel, std::int64_t increments, std::int64
     block.before = before.data();
     block.after = result.after.data();
     block.tip = coupled ? result.tip.data() : nullptr;
-    block.temperature_square = result.temperature_square.data();
-    block.curvature_square = coupled ? result.curvature_square.data() : nullptr;
-    block.temperature_weights = weights.data();
-    block.curvature_weights = weights.data();
+    block.of_temperature = {&of_temperature, 1};
+    if (coupled)
+        block.of_curvature = {&of_curvature, 1};
     block.load_stride = solves;
-    block.weight_stride = steps;
     block.sum = result.sum.data();
     kernel.march(block);
     return result;
@@ -139,7 +151,7 @@ BOOST_DATA_TEST_CASE(every_kernel_gives_the_same_results,
             }
             const Written found = written_by(kernel, increments, history, coupled);
             for (const auto part : {&Written::after, &Written::tip, &Written::temperature_square,
-                                    &Written::curvature_square, &Written::sum})
+                                    &Written::curvature_square, &Written::moments, &Written::sum})
                 BOOST_TEST(difference(found.*part, expected.*part) <= tolerance, kernel.name);
         }
         BOOST_TEST(difference(expected.after, Packs(expected.after.size())) > 0.0);

@@ -142,9 +142,10 @@ class Problem:
 
     def phase_at(self, t):
         for index, phase in enumerate(self.phases[:-1]):
-            # Rationals are compared as such; what is not one, to the round-off of a double.
-            slack = 0 if isinstance(t, fractions.Fraction) and isinstance(phase.end, fractions.Fraction) else 1e-13
-            if t <= phase.end or float(t) <= float(phase.end) * (1.0 + slack):
+            # A level that is the end but for a few of the last digits of a double is that end; what is not rational is
+            # known less well.
+            slack = 1e-15 if isinstance(t, fractions.Fraction) and isinstance(phase.end, fractions.Fraction) else 1e-13
+            if float(t) <= float(phase.end) * (1.0 + slack):
                 return index
         return len(self.phases) - 1
 
