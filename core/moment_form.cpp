@@ -1,7 +1,6 @@
 #include "core/moment_form.hpp"
 
 #include "core/contact/contact.hpp"
-#include "core/space/column_sum.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -207,7 +206,7 @@ void MomentForm::solve_heat(double t, const Eigen::Ref<const Eigen::VectorXd>& a
         if (coupled_)
             load_weights_ += exchange * weight_changes_;
         column_weights_ = load_weights_(columns_);
-        add_columns(increment_, loads_, column_weights_);
+        increment_.noalias() += loads_ * column_weights_;
     }
     if (const auto& rest = data_.heat_source.rest) {
         increment_ +=

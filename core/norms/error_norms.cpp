@@ -2,7 +2,6 @@
 
 #include "core/moment_form.hpp"
 #include "core/space/cells.hpp"
-#include "core/space/column_sum.hpp"
 #include "core/space/deflection.hpp"
 #include "core/space/quadrature.hpp"
 
@@ -57,7 +56,7 @@ double split_square(const Mesh& mesh, const ErrorProfiles& profiles, const Eigen
                     const Eigen::VectorXd& gamma, const Eigen::MatrixXd& gram,
                     Eigen::VectorXd& work) {
     work.setZero(error.size());
-    add_columns(work, profiles.defect_load, gamma);
+    work.noalias() += profiles.defect_load * gamma;
     return squared_norm(mesh, error) + 2.0 * work.dot(error) + gamma.dot(gram * gamma);
 }
 
@@ -83,7 +82,7 @@ public:
         for (const auto& term : field_.terms)
             gamma_(selection_.column(term.profile)) -= amplitudes(term.amplitude);
         error_ = solver.temperature() + lift_;
-        add_columns(error_, profiles_.nodal, gamma_);
+        error_.noalias() += profiles_.nodal * gamma_;
         return non_negative(
             split_square(mesh_, profiles_, error_, gamma_, profiles_.interpolation, work_));
     }
@@ -127,7 +126,7 @@ public:
         error_ = w.weights.tail<1>()(0) * arm_;
         if (w.nodal.size() > 0)
             error_ += w.nodal;
-        add_columns(error_, profiles_.nodal, gamma_);
+        error_.noalias() += profiles_.nodal * gamma_;
         return non_negative(split_square(mesh_, profiles_, error_, gamma_, between_, work_) +
                             tau_.dot(profiles_.projection * tau_));
     }
