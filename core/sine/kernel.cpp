@@ -91,9 +91,10 @@ struct Modes {
     }
 };
 
-/// Where arrays of modes are read: so many doubles behind their begin.
+/// Where arrays of modes are read: so many doubles behind their begin. A table without columns may
+/// be null.
 [[gnu::always_inline]] inline const double* at(const Pack* array, Index place) {
-    return array->lanes + place;
+    return array == nullptr ? nullptr : array->lanes + place;
 }
 
 /// value + Σ_j weights_j T_j over the columns first … last − 1.
