@@ -9,6 +9,7 @@
 #include "studies/scene/shipped.hpp"
 #include "tests/marching.hpp"
 #include "tests/suited_beam.hpp"
+#include "tests/sweep.hpp"
 
 #include <boost/test/data/monomorphic.hpp>
 #include <boost/test/data/test_case.hpp>
@@ -102,6 +103,9 @@ BOOST_AUTO_TEST_CASE(a_polynomial_comes_back_from_its_values) {
 // of the problem itself.
 BOOST_DATA_TEST_CASE(errors_are_those_of_the_functions_themselves,
                      data::make(shipped_names()) * data::make(TimeScheme::names()), name, time) {
+    if (TVBEAM_SHORT_TESTS &&
+        !is_swept(position(shipped_names(), name) + position(TimeScheme::names(), time), 3))
+        return;
     const Solution solution = read_solution(find_file(Shipped::solution, name));
     const Beam beam =
         suited({.alpha = 0.3, .zeta = 0.1, .theta_A = 0.4, .stops = {-0.02, 0.1}}, solution);
