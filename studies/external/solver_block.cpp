@@ -170,7 +170,7 @@ std::map<std::string, std::string> read_environment(TableReader& table) {
 }
 
 /// Puts the formulas of a file of equations into the command and the templates.
-void fill_in_solution(TableReader& table, SolverBlock& solver) {
+void fill_in_solution(TableReader& table, SolverBlock& solver, bool formulas_wanted) {
     const auto name = table.text("solution");
     const auto language = table.choice("language", code_language_names());
     if (!name) {
@@ -182,6 +182,8 @@ void fill_in_solution(TableReader& table, SolverBlock& solver) {
     if (!language)
         throw table.error("solution", " needs solver.language, in which its formulas are written: "
                                       "language = \"python\"");
+    if (!formulas_wanted)
+        return;
     SolutionFormulas formulas(
         find_file(Shipped::equations, *name, solver.folder, table.place("solution")),
         *code_language(code_language_names()[*language]));
@@ -204,7 +206,7 @@ std::string text_of(const Parameters& parameters) {
 
 } // namespace
 
-SolverBlock read_solver(TableReader table, const std::filesystem::path& folder) {
+SolverBlock read_solver(TableReader table, const std::filesystem::path& folder, bool formulas) {
     SolverBlock solver;
     solver.folder = folder;
     solver.command = read_command(table);
@@ -223,7 +225,7 @@ SolverBlock read_solver(TableReader table, const std::filesystem::path& folder) 
                                          "; it must be > 0, the seconds that a run may take");
     solver.environment = read_environment(table);
     solver.parameters = read_parameters(table, nullptr);
-    fill_in_solution(table, solver);
+    fill_in_solution(table, solver, formulas);
     table.finish();
     return solver;
 }

@@ -52,8 +52,9 @@ struct SolverBlock {
 ///     solution     a file of equations, or one that is shipped: placeholders (SolutionFormulas)
 ///     language     what their formulas are written in (code_language_names)
 ///
-/// Throws InputError where a value is missing or breaks its rule, or a file is not there.
-SolverBlock read_solver(TableReader table, const std::filesystem::path& folder);
+/// Without formulas the solution is not derived, and its placeholders stay. Throws InputError where
+/// a value is missing or breaks its rule, or a file is not there.
+SolverBlock read_solver(TableReader table, const std::filesystem::path& folder, bool formulas);
 
 /// What the blocks of studies may name: errors and values, and schemes that are other parameters.
 /// The block must outlive it.

@@ -145,7 +145,7 @@ std::set<std::string> naming_runs_in_short(const TomlDocument& document) {
 }
 
 /// [solver], and nothing that is about the beam.
-void read_solver_of(Scene& scene, TableReader& root) {
+void read_solver_of(Scene& scene, TableReader& root, bool formulas) {
     std::vector<std::string> foreign{"beam",     "mesh",      "scheme", "data",
                                      "solution", "reference", "defect"};
     for (const auto& kind : study_kinds())
@@ -159,8 +159,8 @@ void read_solver_of(Scene& scene, TableReader& root) {
                     (key == "reference" ? "leave it out and let the program print values: their "
                                           "limit is estimated from the levels, with its interval"
                                         : "remove one of the two"));
-    scene.solver =
-        read_solver(*root.table("solver"), std::filesystem::path(scene.file).parent_path());
+    scene.solver = read_solver(*root.table("solver"),
+                               std::filesystem::path(scene.file).parent_path(), formulas);
 }
 
 /// The blocks of the studies.
@@ -278,9 +278,10 @@ Scene read_scene(const std::string& name_or_file, const std::vector<std::string>
         !kinds.empty() && std::none_of(kinds.begin(), kinds.end(),
                                        [](const StudyKind* kind) { return kind->poses_problem(); });
     if (root.has("solver")) {
-        read_solver_of(scene, root);
+        read_solver_of(scene, root, !reading.unrun);
         read_studies(scene, root);
-        require_placeholders(*scene.solver, scene.series());
+        if (!reading.unrun)
+            require_placeholders(*scene.solver, scene.series());
     } else {
         read_problem(scene, root, !brings_its_own, reading.own_problem);
         read_studies(scene, root);

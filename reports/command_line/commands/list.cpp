@@ -116,7 +116,7 @@ int list_command() {
                                           "holds studies/scenes, in TVBEAM_DATA");
     std::array<std::vector<Line>, groups.size()> grouped;
     for (const auto& file : shipped_files(Shipped::scene)) {
-        const Scene scene = read_scene(file.path.string());
+        const Scene scene = read_scene(file.path.string(), {}, {.unrun = true});
         grouped.at(group_of(scene)).push_back({file.name, cost_of(scene), scene.title});
     }
     std::string text = "Scenes, and about how long they take on one core; tvbeam run NAME "
