@@ -65,16 +65,16 @@ double read_reference_dt(TableReader& table, bool richardson, const std::vector<
             const double ratio = rung.dt / unit;
             const double steps = rung.dt / dt * static_cast<double>(rung.steps);
             if (ratio < 1.0 - 1e-9 && richardson)
-                refuse(must + "be no larger than the " + held);
+                refuse(fmt::format("{}be no larger than the {}", must, held));
             if (ratio < 1.0 - 1e-9)
                 refuse(", coarser than the " + held + "; a reference is at least as fine");
             if (!(steps <= most_steps))
                 refuse(", which makes " + message_text(steps) +
                        " steps; at most 1e12 are possible");
             if (std::abs(ratio - std::round(ratio)) > 1e-9 * ratio)
-                refuse(must + "divide the " + held + " into a whole number of steps, not " +
-                       message_text(ratio) + "; one that does is " +
-                       message_text(dt * ratio / std::ceil(ratio)));
+                refuse(fmt::format(
+                    "{}divide the {} into a whole number of steps, not {}; one that does is {}",
+                    must, held, message_text(ratio), message_text(dt * ratio / std::ceil(ratio))));
         }
     return dt;
 }
