@@ -63,7 +63,8 @@ struct Field {
 };
 
 /// The exact solution that a run is measured against. θ̃ is the temperature of (1)–(10), not the
-/// transformed one.
+/// transformed one. The three fields of u are those of one function with u = u_x = 0 at x = 0: its
+/// errors may be found from the curvature alone.
 struct ExactSolution {
     Field theta;   ///< θ̃
     Field theta_x; ///< θ̃_x

@@ -105,6 +105,7 @@ DeflectionTables::DeflectionTables(const SineProfiles& profiles, const Mesh& mes
     const Index all = count + outside;
     const ArrayXd slopes = basis.slope_squares();
     const ArrayXd values = basis.value_squares();
+    const ArrayXd ones = ArrayXd::Ones(basis.size());
     MatrixXd slope_rest(points.size(), all);
     MatrixXd value_rest(points.size(), all);
     std::vector<ArrayXd> slope_columns;
@@ -115,17 +116,24 @@ DeflectionTables::DeflectionTables(const SineProfiles& profiles, const Mesh& mes
         PointValues g = at_points(profiles.functions[static_cast<std::size_t>(of)], points);
         if (j >= count)
             g = without_projection(cells, g);
-        const Antiderivatives y = antiderivatives(cells, g);
         if (j < count)
-            tip_moments(j) = y.tip;
-        // By parts: (y', H_k') = −(y, φ̂_k), and (y, H_k) = (Y, φ̂_k) with Y'' = y.
-        slope_columns.push_back(coefficients(-basis.of_load(hat_loads(cells, y.second)), slopes));
-        value_columns.push_back(coefficients(
-            basis.of_load(hat_loads(cells, antiderivatives(cells, y.second).second)), values));
+            tip_moments(j) = antiderivatives(cells, g).tip;
         // What is left of g is integrated, rather than what is left of its integrals.
         const auto left = [&](const ArrayXd& column) {
             return antiderivatives(cells, g - piecewise_linear(cells, basis.nodal(column)));
         };
+        // First the modes of g itself: those of its integrals fall by two or four powers of k
+        // faster and would end in round-off before the modes of the solution do, which they are to
+        // cancel.
+        const ArrayXd of_g = coefficients(basis.of_load(hat_loads(cells, g)), ones);
+        const PointValues rest = left(of_g).second;
+        // By parts: (y', H_k') = −(y, φ̂_k), and (y, H_k) = (Y, φ̂_k) with Y'' = y.
+        slope_columns.push_back(of_g +
+                                coefficients(-basis.of_load(hat_loads(cells, rest)), slopes));
+        value_columns.push_back(
+            of_g +
+            coefficients(basis.of_load(hat_loads(cells, antiderivatives(cells, rest).second)),
+                         values));
         slope_rest.col(j) = left(slope_columns.back()).first.reshaped().matrix();
         value_rest.col(j) = left(value_columns.back()).second.reshaped().matrix();
     }
