@@ -51,13 +51,11 @@ struct ProfileSelection {
     }
 };
 
-/// eᵀM_c e + 2 γ·(defectᵀe) + γᵀQγ with the nodal error e; work: as long as e.
+/// eᵀM_c e + 2 γ·(defectᵀe) + γᵀQγ with the nodal error e.
 double split_square(const Mesh& mesh, const ErrorProfiles& profiles, const Eigen::VectorXd& error,
-                    const Eigen::VectorXd& gamma, const Eigen::MatrixXd& gram,
-                    Eigen::VectorXd& work) {
-    work.setZero(error.size());
-    work.noalias() += profiles.defect_load * gamma;
-    return squared_norm(mesh, error) + 2.0 * work.dot(error) + gamma.dot(gram * gamma);
+                    const Eigen::VectorXd& gamma, const Eigen::MatrixXd& gram) {
+    return squared_norm(mesh, error) + 2.0 * gamma.dot(profiles.defect_load.transpose() * error) +
+           gamma.dot(gram * gamma);
 }
 
 /// A square that round-off made negative is zero; NaN stays NaN.
@@ -84,7 +82,7 @@ public:
         error_ = solver.temperature() + lift_;
         error_.noalias() += profiles_.nodal * gamma_;
         return non_negative(
-            split_square(mesh_, profiles_, error_, gamma_, profiles_.interpolation, work_));
+            split_square(mesh_, profiles_, error_, gamma_, profiles_.interpolation));
     }
 
     [[nodiscard]] std::int64_t size() const {
@@ -99,7 +97,6 @@ private:
     Eigen::VectorXd lift_;
     Eigen::VectorXd gamma_;
     Eigen::VectorXd error_;
-    Eigen::VectorXd work_;
 };
 
 /// ‖w − u_xx‖² for w = a + Σ c_r Πφ_r + c_arm(1 − x) and u_xx = Σ τ_r φ_r: with γ = c − τ the
@@ -127,7 +124,7 @@ public:
         if (w.nodal.size() > 0)
             error_ += w.nodal;
         error_.noalias() += profiles_.nodal * gamma_;
-        return non_negative(split_square(mesh_, profiles_, error_, gamma_, between_, work_) +
+        return non_negative(split_square(mesh_, profiles_, error_, gamma_, between_) +
                             tau_.dot(profiles_.projection * tau_));
     }
 
@@ -146,7 +143,6 @@ private:
     Eigen::VectorXd tau_;
     Eigen::VectorXd gamma_;
     Eigen::VectorXd error_;
-    Eigen::VectorXd work_;
 };
 
 /// Squares of errors by quadrature of the pointwise error; exact functions are read through their
