@@ -1,6 +1,7 @@
 #pragma once
 
 #include "tests/temporary_directory.hpp"
+#include "tests/this_build.hpp"
 
 #include <boost/test/unit_test.hpp>
 
@@ -25,8 +26,7 @@ struct Called {
 inline Called call(const TemporaryDirectory& directory, const std::string& arguments,
                    const std::string& first = "") {
     const std::string errors = (directory.path() / "stderr").string();
-    const std::string command =
-        first + std::string(TVBEAM_BINARY) + " " + arguments + " 2>" + errors;
+    const std::string command = first + tvbeam_binary + " " + arguments + " 2>" + errors;
     Called called;
     FILE* pipe = popen(command.c_str(), "r");
     BOOST_REQUIRE(pipe != nullptr);

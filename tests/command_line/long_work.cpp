@@ -2,6 +2,7 @@
 
 #include "reports/files/line_file.hpp"
 #include "tests/command_line/called_program.hpp"
+#include "tests/this_build.hpp"
 
 #include <boost/test/data/monomorphic.hpp>
 #include <boost/test/data/test_case.hpp>
@@ -189,7 +190,7 @@ BOOST_AUTO_TEST_CASE(a_directory_that_another_run_writes_to_is_refused) {
     const TemporaryDirectory directory;
     const std::string out = " --quiet --out " + (directory.path() / "out").string();
     const Called second = call(directory, ladder(directory, many) + out,
-                               "timeout -s INT 2 " TVBEAM_BINARY " " + ladder(directory, many) +
+                               "timeout -s INT 2 " + tvbeam_binary + " " + ladder(directory, many) +
                                    out + " 2>/dev/null & sleep 0.7; ");
     BOOST_TEST(second.exit == 2);
     BOOST_TEST(has(second.errors, "another tvbeam is writing there"), second.errors);
@@ -246,8 +247,8 @@ BOOST_AUTO_TEST_CASE(quiet_is_silent) {
 BOOST_AUTO_TEST_CASE(progress_and_colour_are_for_terminals) {
     const TemporaryDirectory directory;
     const auto on_a_terminal = [&](const std::string& arguments, const std::string& first) {
-        return call(directory, "--version >/dev/null; " + first +
-                                   "script -qec '" TVBEAM_BINARY " " + arguments + "' /dev/null")
+        return call(directory, "--version >/dev/null; " + first + "script -qec '" + tvbeam_binary +
+                                   " " + arguments + "' /dev/null")
             .output;
     };
     const std::string plain = call(directory, "check figure1").output;
@@ -255,7 +256,7 @@ BOOST_AUTO_TEST_CASE(progress_and_colour_are_for_terminals) {
     BOOST_TEST(has(on_a_terminal("check figure1", ""), "\033["));
     BOOST_TEST(!has(on_a_terminal("check figure1", "NO_COLOR=1 "), "\033["));
     const std::string cut =
-        "timeout -s INT 2.2 " TVBEAM_BINARY " " + ladder(directory, many) + " --json /dev/null";
+        "timeout -s INT 2.2 " + tvbeam_binary + " " + ladder(directory, many) + " --json /dev/null";
     const std::string shown =
         call(directory, "--version >/dev/null; script -qec \"" + cut + "\" /dev/null").output;
     BOOST_TEST(has(shown, " % done"), shown);
@@ -271,9 +272,9 @@ BOOST_AUTO_TEST_CASE(completion_knows_every_command_and_option_and_the_shipped_n
     BOOST_REQUIRE(call(directory, "completion > " + script).exit == 0);
     // As bash asks: the words of the line so far, and which one is being typed.
     const auto completed = [&](const std::string& words, int current) {
-        return call(directory, "--version >/dev/null; tvbeam() { " TVBEAM_BINARY
-                               " \"$@\"; }; bash -c 'export PATH=" +
-                                   std::filesystem::path(TVBEAM_BINARY).parent_path().string() +
+        return call(directory, "--version >/dev/null; tvbeam() { " + tvbeam_binary +
+                                   " \"$@\"; }; bash -c 'export PATH=" +
+                                   std::filesystem::path(tvbeam_binary).parent_path().string() +
                                    ":$PATH; source " + script + "; COMP_WORDS=(" + words +
                                    "); COMP_CWORD=" + std::to_string(current) +
                                    "; _tvbeam; echo ${COMPREPLY[@]}'")

@@ -3,6 +3,7 @@
 
 #include "tests/command_line/called_program.hpp"
 #include "tests/temporary_directory.hpp"
+#include "tests/this_build.hpp"
 
 #include <boost/test/data/monomorphic.hpp>
 #include <boost/test/data/test_case.hpp>
@@ -252,7 +253,7 @@ BOOST_AUTO_TEST_CASE(bash_completes_names_keys_and_files) {
     std::ofstream(directory.path() / "my scene.toml") << "";
     const auto completed = [&](const std::string& words) {
         std::ofstream(directory.path() / "ask.sh")
-            << "tvbeam() { " TVBEAM_BINARY " \"$@\"; }\ncompopt() { :; }\ncd '"
+            << "tvbeam() { " << tvbeam_binary << " \"$@\"; }\ncompopt() { :; }\ncd '"
             << directory.path().string() << "'\nsource ./completion\nCOMP_WORDS=(" << words
             << ")\nCOMP_CWORD=$((${#COMP_WORDS[@]} - 1))\n_tvbeam\nprintf '%s\\n' "
                "\"${COMPREPLY[@]}\" > answers\n";

@@ -2,6 +2,7 @@
 
 #include "reports/files/line_file.hpp"
 #include "tests/command_line/called_program.hpp"
+#include "tests/this_build.hpp"
 
 #include <boost/test/data/monomorphic.hpp>
 #include <boost/test/data/test_case.hpp>
@@ -247,8 +248,7 @@ BOOST_AUTO_TEST_CASE(two_programs_with_one_shard_lose_nothing) {
     const std::string scene = directory.write("scene.toml", stress);
     call(directory, "run " + scene + out(directory, "whole"));
     const std::string both = "run " + scene + out(directory, "parts") + " --shard 1/1";
-    const Called called =
-        call(directory, both, std::string(TVBEAM_BINARY) + " " + both + " & wait $!; ");
+    const Called called = call(directory, both, tvbeam_binary + " " + both + " & wait $!; ");
     BOOST_TEST(called.exit == 0, called.errors);
     BOOST_TEST(merge(directory, " --quiet").exit == 0);
     BOOST_TEST(result_in(directory, "parts") == result_in(directory, "whole"));
@@ -351,7 +351,7 @@ BOOST_AUTO_TEST_CASE(a_script_asks_for_what_is_predicted_and_runs) {
     BOOST_TEST(call(directory, script).exit == 2);
     // As the scheduler runs it, one member after another.
     directory.write("job.sh", slurm.output);
-    const std::string path = "PATH=" + std::filesystem::path(TVBEAM_BINARY).parent_path().string() +
+    const std::string path = "PATH=" + std::filesystem::path(tvbeam_binary).parent_path().string() +
                              ":$PATH; export PATH; ";
     const Called done = call(directory, "--version",
                              path + "for i in 1 2 3; do SLURM_ARRAY_TASK_ID=$i sh " +

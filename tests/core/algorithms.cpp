@@ -7,6 +7,8 @@
 #include "studies/scene/shipped.hpp"
 #include "tests/marching.hpp"
 #include "tests/suited_beam.hpp"
+#include "tests/sweep.hpp"
+#include "tests/this_build.hpp"
 
 #include <Eigen/Dense>
 #include <boost/test/data/monomorphic.hpp>
@@ -69,6 +71,11 @@ BOOST_DATA_TEST_CASE(moment_form_equals_hermite_form,
                          data::make({ThermalMass::consistent, ThermalMass::lumped}) *
                          data::make({1, 2, 5, 20}),
                      name, time, mass, elements) {
+    if (short_tests &&
+        !is_swept(position(shipped_names(), name) + position(TimeScheme::names(), time) +
+                      static_cast<std::size_t>(elements) + (mass == ThermalMass::lumped ? 1 : 0),
+                  4))
+        return;
     Beam beam = paper_beam;
     beam.theta_A = name == "heated-end" ? 0.7 : 0.0;
     beam.stops.epsilon = epsilon_for(name);
@@ -116,7 +123,7 @@ BOOST_AUTO_TEST_CASE(difference_of_the_rows_of_table_1_grows_no_faster_than_roun
     const double epsilon = std::numeric_limits<double>::epsilon();
     for (const int s : {10, 20, 40, 80, 160}) {
         // All steps of the row; under the sanitizers, which are slow, the first 400.
-        const int steps = TVBEAM_SHORT_TESTS ? 400 : 200 * s;
+        const int steps = short_tests ? 400 : 200 * s;
         const Difference largest = difference(paper_beam, problem, TimeScheme::named("euler"),
                                               ThermalMass::lumped, s, 0.01 / s, steps, 1e-13);
         // A step multiplies by B and solves with it: two such errors, and they add up over the

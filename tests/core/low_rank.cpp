@@ -10,6 +10,7 @@
 #include "tests/marching.hpp"
 #include "tests/suited_beam.hpp"
 #include "tests/sweep.hpp"
+#include "tests/this_build.hpp"
 
 #include <boost/test/data/monomorphic.hpp>
 #include <boost/test/data/test_case.hpp>
@@ -103,7 +104,7 @@ BOOST_AUTO_TEST_CASE(a_polynomial_comes_back_from_its_values) {
 // of the problem itself.
 BOOST_DATA_TEST_CASE(errors_are_those_of_the_functions_themselves,
                      data::make(shipped_names()) * data::make(TimeScheme::names()), name, time) {
-    if (TVBEAM_SHORT_TESTS &&
+    if (short_tests &&
         !is_swept(position(shipped_names(), name) + position(TimeScheme::names(), time), 3))
         return;
     const Solution solution = read_solution(find_file(Shipped::solution, name));

@@ -2,6 +2,7 @@
 
 #include "studies/stress/mode_solution.hpp"
 #include "tests/marching.hpp"
+#include "tests/this_build.hpp"
 
 #include <boost/test/data/monomorphic.hpp>
 #include <boost/test/data/test_case.hpp>
@@ -104,7 +105,7 @@ BOOST_DATA_TEST_CASE(a_million_steps_neither_grow_nor_drift, data::make(TimeSche
     // Without sources the mode sin πx obeys a recurrence in two numbers, here in long double. Its
     // energy falls in every step (Euler: energy law; the others: A-stability), and a million steps
     // add up at most a million roundings.
-    const int steps = TVBEAM_SHORT_TESTS ? 10'000 : 1'000'000;
+    const int steps = short_tests ? 10'000 : 1'000'000;
     const int elements = 4;
     const double dt = 1.0 / steps;
     const Beam beam{.alpha = 0.6, .zeta = 0.2};
@@ -185,7 +186,7 @@ BOOST_DATA_TEST_CASE(a_tip_that_rests_on_a_stop_stays_there,
                          data::make({ThermalMass::consistent, ThermalMass::lumped}),
                      time, mass) {
     // After the transient nothing moves: λ is the static one in every step, without chatter.
-    const int steps = TVBEAM_SHORT_TESTS ? 5'000 : 100'000;
+    const int steps = short_tests ? 5'000 : 100'000;
     const Beam beam{.alpha = 0.5, .zeta = 0.1, .stops = {-0.1, 0.1}};
     const ProblemData problem = constant_loads(1.0, -3.0);
     const Scheme scheme{Algorithm::direct, mass, 0.0, TimeScheme::named(time)};

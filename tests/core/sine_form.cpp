@@ -8,6 +8,7 @@
 #include "tests/marching.hpp"
 #include "tests/suited_beam.hpp"
 #include "tests/sweep.hpp"
+#include "tests/this_build.hpp"
 
 #include <boost/test/data/monomorphic.hpp>
 #include <boost/test/data/test_case.hpp>
@@ -118,7 +119,7 @@ BOOST_DATA_TEST_CASE(errors_are_those_of_the_nodal_form,
                          data::make({ThermalMass::consistent, ThermalMass::lumped}) *
                          data::make({1, 2, 3, 14, 40, 64}) * data::make({false, true}),
                      name, time, mass, elements, all) {
-    if (TVBEAM_SHORT_TESTS &&
+    if (short_tests &&
         !is_swept(position(shipped_names(), name) + position(TimeScheme::names(), time) +
                       static_cast<std::size_t>(elements) + (all ? 1 : 0) +
                       (mass == ThermalMass::lumped ? 1 : 0),

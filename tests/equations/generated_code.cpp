@@ -6,6 +6,7 @@
 #include "mms/equations/code_lines.hpp"
 #include "mms/equations/program.hpp"
 #include "mms/equations/system_checks.hpp"
+#include "tests/this_build.hpp"
 
 #include <boost/test/data/monomorphic.hpp>
 #include <boost/test/data/test_case.hpp>
@@ -273,7 +274,7 @@ BOOST_DATA_TEST_CASE(code_computes_what_the_program_does,
                      data::make(systems()) * data::make(code_language_names()), system, name) {
     const CodeLanguage language = *code_language(name);
     const bool on_demand = language == CodeLanguage::freefem && !all_systems();
-    if (TVBEAM_SHORT_TESTS || on_demand || !has_program(tools().at(language))) {
+    if (short_tests || on_demand || !has_program(tools().at(language))) {
         BOOST_TEST_MESSAGE("skipped: " << tools().at(language));
         return;
     }
@@ -307,7 +308,7 @@ BOOST_AUTO_TEST_CASE(compressible_flow_in_space_takes_less_than_300_lines_of_c) 
 }
 
 BOOST_AUTO_TEST_CASE(all_sources_at_once_are_those_one_by_one) {
-    if (TVBEAM_SHORT_TESTS || !has_program("cc"))
+    if (short_tests || !has_program("cc"))
         return;
     const Case one = case_of("maxwell");
     const Folder folder;

@@ -6,6 +6,7 @@
 #include "mms/equations/system_checks.hpp"
 #include "mms/expression/symbols.hpp"
 #include "tests/equations/counterparts.hpp"
+#include "tests/this_build.hpp"
 
 #include <boost/test/data/monomorphic.hpp>
 #include <boost/test/data/test_case.hpp>
@@ -64,7 +65,7 @@ BOOST_DATA_TEST_CASE(sources_are_those_of_differences_in_a_hundred_digits,
     const auto& counterparts = testing::counterparts().at(sample);
     const auto sources = derived.of_role(Role::source);
     BOOST_TEST(sources.size() == counterparts.size());
-    const std::size_t count = TVBEAM_SHORT_TESTS ? 3 : 100;
+    const std::size_t count = short_tests ? 3 : 100;
     for (const DerivedFunction* source : sources) {
         const Program program = program_of({source->formula}, derived.fields);
         for (const auto& point : points_inside(derived.system, count)) {

@@ -2,6 +2,7 @@
 
 #include "mms/equations/code.hpp"
 #include "mms/equations/system_checks.hpp"
+#include "tests/this_build.hpp"
 
 #include <boost/test/data/monomorphic.hpp>
 #include <boost/test/data/test_case.hpp>
@@ -171,7 +172,7 @@ BOOST_DATA_TEST_CASE(wrong_files_are_refused_in_one_line_with_their_place,
     BOOST_TEST(said.find(sample.said) != std::string::npos, said);
     BOOST_TEST(said.find('\n') == std::string::npos, said);
     const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
-    BOOST_TEST(elapsed.count() < (TVBEAM_SHORT_TESTS ? 20.0 : 1.0));
+    BOOST_TEST(elapsed.count() < (short_tests ? 20.0 : 1.0));
 }
 
 BOOST_AUTO_TEST_CASE(there_are_at_least_forty_of_them) {

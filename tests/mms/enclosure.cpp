@@ -7,6 +7,7 @@
 #include "mms/expression/tape_compiler.hpp"
 #include "mms/text/input_error.hpp"
 #include "tests/mms/random_grammar.hpp"
+#include "tests/this_build.hpp"
 
 #include <boost/test/data/monomorphic.hpp>
 #include <boost/test/data/test_case.hpp>
@@ -46,7 +47,7 @@ bool holds(const Range& range, double value, double slack) {
 } // namespace
 
 BOOST_AUTO_TEST_CASE(values_and_slopes_of_random_expressions_are_within_the_bounds) {
-    const int count = TVBEAM_SHORT_TESTS ? 100 : 2000;
+    const int count = short_tests ? 100 : 2000;
     Grammar grammar(3);
     std::mt19937_64 random(4);
     std::uniform_real_distribution<double> uniform(0.0, 2.0);

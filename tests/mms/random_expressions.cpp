@@ -6,6 +6,7 @@
 #include "mms/problem_builder.hpp"
 #include "mms/separation.hpp"
 #include "tests/mms/random_grammar.hpp"
+#include "tests/this_build.hpp"
 
 #include <boost/multiprecision/cpp_bin_float.hpp>
 #include <boost/test/unit_test.hpp>
@@ -129,7 +130,7 @@ void compare(const std::string& text, const PlainExpression& plain, const GiNaC:
 
 BOOST_AUTO_TEST_CASE(a_tape_is_what_the_text_says_or_is_refused) {
     const char* wanted = std::getenv("TVBEAM_RANDOM_EXPRESSIONS");
-    const int count = wanted ? std::atoi(wanted) : TVBEAM_SHORT_TESTS ? 50 : 600;
+    const int count = wanted ? std::atoi(wanted) : short_tests ? 50 : 600;
     Grammar grammar(1);
     Counts counts;
     for (int n = 0; n < count; ++n) {

@@ -6,6 +6,7 @@
 
 #include "studies/orders/order_engine.hpp"
 #include "studies/orders/two_term_fit.hpp"
+#include "tests/this_build.hpp"
 
 #include <boost/test/unit_test.hpp>
 
@@ -22,7 +23,7 @@ BOOST_AUTO_TEST_SUITE(coverage)
 
 namespace {
 
-constexpr int draws = TVBEAM_SHORT_TESTS ? 10 : 120;
+const int draws = short_tests ? 10 : 120;
 
 class Noise {
 public:

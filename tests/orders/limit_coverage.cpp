@@ -4,6 +4,7 @@
 // were set on another seed.
 
 #include "studies/orders/limit_engine.hpp"
+#include "tests/this_build.hpp"
 
 #include <boost/test/unit_test.hpp>
 
@@ -24,7 +25,7 @@ BOOST_AUTO_TEST_SUITE(limit_engine)
 
 namespace {
 
-constexpr int sequences = TVBEAM_SHORT_TESTS ? 300 : 2000;
+const int sequences = short_tests ? 150 : 2000;
 /// Below this the finest value is its limit, but for rounding.
 constexpr double least_error = 1e-12;
 

@@ -8,6 +8,7 @@
 #include "studies/ladder/ladder.hpp"
 #include "tests/sweep.hpp"
 #include "tests/temporary_directory.hpp"
+#include "tests/this_build.hpp"
 
 #include <boost/test/data/monomorphic.hpp>
 #include <boost/test/data/test_case.hpp>
@@ -217,8 +218,8 @@ BOOST_DATA_TEST_CASE(run_if_nothing_speaks_against_it_or_are_refused_before_anyt
                      data::make(parts), first) {
     for (const auto& base : bases)
         for (const auto& second : parts) {
-            if (TVBEAM_SHORT_TESTS && (!(first.name < second.name) ||
-                                       !is_swept(position_of(first) + position_of(second), 3)))
+            if (short_tests && (!(first.name < second.name) ||
+                                !is_swept(position_of(first) + position_of(second), 3)))
                 continue;
             const Chosen chosen(base, first, second);
             const std::string outcome = outcome_of(base.text, chosen.overrides);
@@ -230,7 +231,7 @@ BOOST_DATA_TEST_CASE(run_if_nothing_speaks_against_it_or_are_refused_before_anyt
 
 // By themselves, without a ladder beside them: a file without any study is refused, too.
 BOOST_DATA_TEST_CASE(run_or_are_refused_without_a_ladder_beside_them, data::make(parts), first) {
-    if (TVBEAM_SHORT_TESTS)
+    if (short_tests)
         return;
     for (const auto& base : bases)
         for (const auto& second : parts)

@@ -11,6 +11,7 @@
 #include "studies/scene/solution_setting.hpp"
 #include "tests/sweep.hpp"
 #include "tests/temporary_directory.hpp"
+#include "tests/this_build.hpp"
 
 #include <boost/test/data/monomorphic.hpp>
 #include <boost/test/data/test_case.hpp>
@@ -29,7 +30,7 @@ BOOST_AUTO_TEST_SUITE(error_constant)
 namespace {
 
 std::vector<std::string> shipped() {
-    if (TVBEAM_SHORT_TESTS) // the constants are those of any build
+    if (short_tests) // the constants are those of any build
         return {"end-moment"};
     std::vector<std::string> names;
     for (const auto& file : shipped_files(Shipped::solution))

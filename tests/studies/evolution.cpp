@@ -11,6 +11,7 @@
 #include "studies/study.hpp"
 #include "tests/marching.hpp"
 #include "tests/temporary_directory.hpp"
+#include "tests/this_build.hpp"
 
 #include <boost/test/data/monomorphic.hpp>
 #include <boost/test/data/test_case.hpp>
@@ -119,7 +120,7 @@ probes     = ["theta@0", "theta@0.25", "theta@0.125", "theta@1", "u@0", "u@0.4",
 // (5) and (10), whatever the mesh: its nodes are j/s, its elements 1/s long, both rounded.
 BOOST_DATA_TEST_CASE(what_is_given_at_an_end_is_read_there_to_the_last_digit,
                      data::make(all_schemes), scheme) {
-    for (int elements = 1; elements <= 60; elements += TVBEAM_SHORT_TESTS ? 7 : 1)
+    for (int elements = 1; elements <= 60; elements += short_tests ? 7 : 1)
         for (const double grading : {1.0, 1.5}) {
             Scene scene = read_scene(
                 "heated-end", {"evolution={final_time=0.04,elements=" + std::to_string(elements) +

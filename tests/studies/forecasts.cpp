@@ -8,6 +8,7 @@
 #include "studies/scene/solution_setting.hpp"
 #include "tests/slope.hpp"
 #include "tests/sweep.hpp"
+#include "tests/this_build.hpp"
 
 #include <boost/test/data/monomorphic.hpp>
 #include <boost/test/data/test_case.hpp>
@@ -133,7 +134,7 @@ void check_forecast(const Problem& problem, const std::string& scheme,
 /// A solution by one of the shipped names; the layer e^(−1000 t) is left out, which none of these
 /// steps resolves.
 std::vector<std::string> shipped() {
-    if (TVBEAM_SHORT_TESTS) // the orders are those of any build
+    if (short_tests) // the orders are those of any build
         return {"three-phases"};
     std::vector<std::string> names;
     for (const auto& file : shipped_files(Shipped::solution))
@@ -143,7 +144,7 @@ std::vector<std::string> shipped() {
 }
 
 std::vector<int> powers(int least, int greatest) {
-    if (TVBEAM_SHORT_TESTS)
+    if (short_tests)
         return {2};
     std::vector<int> result;
     for (int power = least; power <= greatest; ++power)

@@ -8,6 +8,7 @@
 #include "studies/scene/scene.hpp"
 #include "tests/studies/draw.hpp"
 #include "tests/temporary_directory.hpp"
+#include "tests/this_build.hpp"
 
 #include <boost/test/data/monomorphic.hpp>
 #include <boost/test/data/test_case.hpp>
@@ -231,9 +232,9 @@ std::ostream& operator<<(std::ostream& stream, const Score& score) {
 // 0 to 49, and a thousand of a similar make, are those that `until` was chosen by; these were kept
 // for the test.
 BOOST_AUTO_TEST_CASE(of_fifty_solvers_what_is_known_holds_and_costs_little_more_than_it_must) {
-    const Score found = score(50, TVBEAM_SHORT_TESTS ? 60 : 100);
+    const Score found = score(50, short_tests ? 60 : 100);
     BOOST_TEST_MESSAGE(found);
-    BOOST_TEST(found.known >= (TVBEAM_SHORT_TESTS ? 5 : 30));
+    BOOST_TEST(found.known >= (short_tests ? 5 : 30));
     BOOST_TEST(found.held >= 0.95 * found.known, found);
     BOOST_TEST(found.dearest <= 1.5, found);
     BOOST_TEST(found.knowable == 0, found);

@@ -10,6 +10,7 @@
 #include "studies/scene/shipped.hpp"
 #include "studies/study.hpp"
 #include "tests/marching.hpp"
+#include "tests/this_build.hpp"
 
 #include <boost/test/data/monomorphic.hpp>
 #include <boost/test/data/test_case.hpp>
@@ -41,7 +42,7 @@ std::vector<std::string> solutions() {
 
 std::vector<std::string> schemes() {
     // One scheme of two stages exercises all the code; the orders are those of any build.
-    return TVBEAM_SHORT_TESTS ? std::vector<std::string>{"sdirk2"} : TimeScheme::names();
+    return short_tests ? std::vector<std::string>{"sdirk2"} : TimeScheme::names();
 }
 
 bool is_of(const Scene& scene, const std::string& solution) {
@@ -236,7 +237,7 @@ std::vector<double> distances(const Mesh& mesh, const History& a, const History&
 
 /// The short form leaves the others to the orders on uniform meshes, which run the same code.
 std::vector<std::string> solutions_on_graded_meshes() {
-    return TVBEAM_SHORT_TESTS ? std::vector<std::string>{"impact", "moving-front"} : solutions();
+    return short_tests ? std::vector<std::string>{"impact", "moving-front"} : solutions();
 }
 
 // The same on a graded mesh. An order q seen against the step dt/r is too high by

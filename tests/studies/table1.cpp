@@ -2,6 +2,7 @@
 
 #include "studies/ladder/ladder.hpp"
 #include "studies/study.hpp"
+#include "tests/this_build.hpp"
 
 #include <boost/test/unit_test.hpp>
 
@@ -30,15 +31,14 @@ void within(const std::vector<double>& deviation, const std::vector<double>& bou
 
 /// Under the sanitizers the finest row takes too long.
 std::vector<std::string> rows() {
-    return TVBEAM_SHORT_TESTS
-               ? std::vector<std::string>{"ladder.elements=[10, 20, 40]", "ladder.dt=\"0.01/s\"",
-                                          "ladder.printed={}"}
-               : std::vector<std::string>{};
+    return short_tests ? std::vector<std::string>{"ladder.elements=[10, 20, 40]",
+                                                  "ladder.dt=\"0.01/s\"", "ladder.printed={}"}
+                       : std::vector<std::string>{};
 }
 
 template <typename Figures>
 std::vector<double> first_rows(const Figures& figures) {
-    return {figures.begin(), TVBEAM_SHORT_TESTS ? figures.begin() + 3 : figures.end()};
+    return {figures.begin(), short_tests ? figures.begin() + 3 : figures.end()};
 }
 
 } // namespace
