@@ -374,6 +374,27 @@ BOOST_AUTO_TEST_CASE(what_is_not_proven_is_said) {
     BOOST_TEST(!is_sampled("x^2*g2*(sin(3*t)^2 + cos(3*t)^2)/2"));
 }
 
+// Neither sampled time sees the peak: 1e-9 wide, upwards or downwards.
+BOOST_AUTO_TEST_CASE(a_single_stop_is_passed_by_a_narrow_peak) {
+    const auto passes = [](const std::string& peak, const Stops& stops) {
+        const Solution sharp =
+            parse_solution(solution("0", "x^2*" + peak + "*exp(-1e18*(t - 0.3333)^2)"), "my.toml");
+        try {
+            manufactured_problem(sharp, {0.017, 0.1, 0.0, stops}, 2.0);
+            return false;
+        } catch (const InputError&) {
+            return true;
+        }
+    };
+    const double none = std::numeric_limits<double>::infinity();
+    const Stops g1_alone = {-0.1, none};
+    const Stops g2_alone = {-none, 0.1};
+    BOOST_TEST(passes("1", g2_alone));
+    BOOST_TEST(passes("(-1)", g1_alone));
+    BOOST_TEST(!passes("(-1)", g2_alone));
+    BOOST_TEST(!passes("1", g1_alone));
+}
+
 BOOST_DATA_TEST_CASE(a_wrong_solution_is_told_the_nearest_repair, data::make(repairs)) {
     BOOST_CHECK_EXCEPTION(law_distance(parse_solution(sample.wrong, "my.toml"), sample.beam, 2.0),
                           InputError, [&](const InputError& error) {

@@ -1,3 +1,4 @@
+#include "mms/expression/symbols.hpp"
 #include "mms/given_problem.hpp"
 #include "mms/manufactured_problem.hpp"
 #include "mms/problem_builder.hpp"
