@@ -6,7 +6,7 @@
 
 namespace tvbeam::fuzz {
 
-void equations(std::span<const std::uint8_t> data) {
+bool equations(std::span<const std::uint8_t> data) {
     const auto& languages = code_language_names();
     const std::string language = languages[taken(data) % languages.size()];
     try {
@@ -16,7 +16,9 @@ void equations(std::span<const std::uint8_t> data) {
         require(!system_text(derived).empty() && !system_latex(derived).empty(),
                 "equations without a text");
         require(!system_code(derived, *code_language(language)).empty(), "equations without code");
+        return true;
     } catch (const InputError&) {
+        return false;
     }
 }
 

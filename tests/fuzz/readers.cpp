@@ -14,15 +14,17 @@
 
 #include <cmath>
 #include <sstream>
-#include <stdexcept>
 #include <string_view>
-
-#include <sys/mman.h>
-#include <unistd.h>
 
 namespace tvbeam::fuzz {
 
 namespace {
+
+/// The name of a file that holds the bytes until the next call.
+std::string file_of(std::span<const std::uint8_t> data, const std::string& name) {
+    static const TemporaryDirectory directory;
+    return directory.write(name, std::string(text_of(data)));
+}
 
 const Scene& kept_scene() {
     static const Scene scene = [] {
@@ -33,8 +35,8 @@ const Scene& kept_scene() {
             "dt = [0.5, 0.25]\nnorms = [\"theta_L2L2\", "
             "\"u_LinfH2semi\"]\n"
             "[stress.sweep.a]\nalpha = [0.1, 1.0, 10.0]\n";
-        const MemoryFile file({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
-        return read_scene(file.name());
+        return read_scene(file_of({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()},
+                                  "kept.toml"));
     }();
     return scene;
 }
@@ -86,35 +88,20 @@ void require_fitting(FinishedWork& work) {
 
 } // namespace
 
-MemoryFile::MemoryFile(std::span<const std::uint8_t> data)
-    : descriptor_(memfd_create("fuzz", MFD_CLOEXEC)) {
-    if (descriptor_ < 0 ||
-        ::write(descriptor_, data.data(), data.size()) != static_cast<ssize_t>(data.size()))
-        throw std::runtime_error("no file in memory");
-}
-
-MemoryFile::~MemoryFile() {
-    close(descriptor_);
-}
-
-std::string MemoryFile::name() const {
-    return "/proc/self/fd/" + std::to_string(descriptor_);
-}
-
-void scene(std::span<const std::uint8_t> data) {
-    const MemoryFile file(data);
+bool scene(std::span<const std::uint8_t> data) {
     try {
-        const Scene read = read_scene(file.name(), {}, {.expectations = true});
+        const Scene read = read_scene(file_of(data, "fuzz.toml"), {}, {.expectations = true});
         const PredictedWork predicted = predicted_work(read);
         require(predicted.seconds >= 0.0 && predicted.bytes >= 0.0, "a prediction below zero");
         require(!run_identity(read).empty(), "a scene without identity");
+        return true;
     } catch (const InputError&) {
+        return false;
     }
 }
 
-void table(std::span<const std::uint8_t> data) {
+bool table(std::span<const std::uint8_t> data) {
     const std::uint8_t choice = taken(data);
-    const MemoryFile file(data);
     DataChoice chosen;
     if ((choice & 1U) != 0U)
         chosen.dimension = 2.0;
@@ -127,7 +114,7 @@ void table(std::span<const std::uint8_t> data) {
     if ((choice & 16U) != 0U)
         chosen.sigma = "sigma";
     try {
-        const DataFile read = read_data(file.name(), chosen);
+        const DataFile read = read_data(file_of(data, "fuzz.csv"), chosen);
         const std::size_t rows = read.widths.front().numbers.size();
         for (const auto& columns : {read.widths, read.errors, read.values})
             for (const auto& column : columns)
@@ -135,7 +122,9 @@ void table(std::span<const std::uint8_t> data) {
         constexpr std::size_t short_table = 8;
         if (rows <= short_table && read.errors.size() + read.values.size() == 1)
             analyse(read);
+        return true;
     } catch (const InputError&) {
+        return false;
     }
 }
 
@@ -148,24 +137,27 @@ std::string with_seals(std::span<const std::uint8_t> data) {
     return text;
 }
 
-void kept(std::span<const std::uint8_t> data) {
+bool kept(std::span<const std::uint8_t> data) {
     const std::uint8_t kind = taken(data);
+    const Scene& scene = kept_scene();
+    const std::string& first = first_line();
     try {
         if (kind % 4 == 0) {
-            const MemoryFile file(data);
-            const Baseline baseline(file.name());
+            const Baseline baseline(file_of(data, "baseline.json"));
             const auto checked =
                 baseline.check({"table1", {"fuzz"}, {{"a", 1.0}, {"b", 2.0}}}, 1e-6);
             require(!checked.empty(), "a baseline that nothing is held against");
         } else {
             static const TemporaryDirectory directory;
-            directory.write("unfinished.jsonl", kind % 4 == 1 ? std::string(text_of(data))
-                                                              : first_line() + with_seals(data));
-            FinishedWork work(kept_scene(), {});
+            directory.write("unfinished.jsonl",
+                            kind % 4 == 1 ? std::string(text_of(data)) : first + with_seals(data));
+            FinishedWork work(scene, {});
             work.read(directory.path() / "unfinished.jsonl");
             require_fitting(work);
         }
+        return true;
     } catch (const InputError&) {
+        return false;
     }
 }
 

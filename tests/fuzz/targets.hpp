@@ -8,28 +8,28 @@
 
 namespace tvbeam::fuzz {
 
-// Each takes bytes from anywhere. A refusal (InputError) is an answer; any other exception, a
-// crash, and a broken promise are not, and end the program.
+// Each takes bytes from anywhere, and says whether it took them. A refusal (InputError) is an
+// answer; any other exception, a crash, and a broken promise are not, and end the program.
 
 /// A solution on one of several beams, as the first byte says: parsed, derived, checked.
-void solution(std::span<const std::uint8_t> data);
+bool solution(std::span<const std::uint8_t> data);
 
 /// Equations of one's own, derived, checked, and written in the language that the first byte says.
-void equations(std::span<const std::uint8_t> data);
+bool equations(std::span<const std::uint8_t> data);
 
 /// A scene, read with its expectations, and what is predicted of it.
-void scene(std::span<const std::uint8_t> data);
+bool scene(std::span<const std::uint8_t> data);
 
 /// A table of errors; the first byte says how its columns are chosen. Short ones are analysed.
-void table(std::span<const std::uint8_t> data);
+bool table(std::span<const std::uint8_t> data);
 
 /// A baseline, or, behind a first line that fits, the lines of a checkpoint: whatever is kept of
 /// them has the lengths that the scene asks for.
-void kept(std::span<const std::uint8_t> data);
+bool kept(std::span<const std::uint8_t> data);
 
 /// An expression that the bytes choose from the grammar, evaluated as it is chosen in 60 digits: a
 /// tape is that, or the comparison with the text alarms.
-void grammar(std::span<const std::uint8_t> data);
+bool grammar(std::span<const std::uint8_t> data);
 
 inline std::string_view text_of(std::span<const std::uint8_t> data) {
     return {reinterpret_cast<const char*>(data.data()), data.size()};
@@ -43,22 +43,6 @@ inline std::uint8_t taken(std::span<const std::uint8_t>& data) {
     data = data.subspan(1);
     return first;
 }
-
-/// A file in memory for readers that want a name.
-class MemoryFile {
-public:
-    explicit MemoryFile(std::span<const std::uint8_t> data);
-    ~MemoryFile();
-    MemoryFile(const MemoryFile&) = delete;
-    MemoryFile& operator=(const MemoryFile&) = delete;
-    MemoryFile(MemoryFile&&) = delete;
-    MemoryFile& operator=(MemoryFile&&) = delete;
-
-    [[nodiscard]] std::string name() const;
-
-private:
-    int descriptor_;
-};
 
 /// Ends the program unless it holds.
 void require(bool holds, const std::string& what);
