@@ -8,6 +8,8 @@
 #include "mms/sample_points.hpp"
 #include "mms/text/error_text.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -331,6 +333,17 @@ std::vector<std::string> reasons(const ExpectedOrders& known, const Beam& beam) 
 }
 
 } // namespace
+
+std::string words_of(const Forecast& forecast) {
+    if (!forecast.has_error())
+        return "-";
+    if (!forecast.is_known())
+        return "not known";
+    const auto text = [](double order) { return fmt::format("{:.3g}", order); };
+    return forecast.least == forecast.greatest
+               ? text(forecast.least)
+               : text(forecast.least) + " to " + text(forecast.greatest);
+}
 
 ExpectedOrders expected_orders(const Solution& solution, const Beam& beam, double final_time) {
     const DerivedSolution derived = derive_on(solution, beam);

@@ -33,6 +33,9 @@ struct Forecast {
     [[nodiscard]] bool is_known() const { return kind == Kind::between; }
 };
 
+/// "2", "1 to 2", "-" where there is no error, or "not known".
+std::string words_of(const Forecast& forecast);
+
 /// The orders that a norm's error shows once the asymptotic range is reached.
 struct ExpectedOrder {
     std::string norm;

@@ -4,6 +4,7 @@
 #include "core/space/linear_elements.hpp"
 #include "mms/solution.hpp"
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -21,6 +22,10 @@ struct Residual {
     std::optional<double> heat_order; ///< against the refinement before; none: first, or zero
     std::optional<double> beam_order;
 };
+
+/// The refinements at which the residuals are shown, and their last orders expected.
+inline constexpr std::array<std::int64_t, 4> shown_elements{8, 16, 32, 64};
+inline constexpr std::array<std::int64_t, 4> shown_steps{64, 128, 256, 512};
 
 /// In space, the time derivatives exact: with the nodal interpolant I, the L² projection Π on
 /// P1disc,

@@ -59,8 +59,9 @@ std::string space_table(const SolutionSetting& setting) {
     Table::Column heat_order{"ord.", {}};
     Table::Column beam{"beam", {}};
     Table::Column beam_order{"ord.", {}};
-    for (const Residual& row : space_residuals(setting.solution, setting.beam, setting.final_time,
-                                               ThermalMass::consistent, {8, 16, 32, 64})) {
+    for (const Residual& row :
+         space_residuals(setting.solution, setting.beam, setting.final_time,
+                         ThermalMass::consistent, {shown_elements.begin(), shown_elements.end()})) {
         s.cells.push_back(std::to_string(row.count));
         heat.cells.push_back(scientific(row.heat, 1));
         heat_order.cells.push_back(fixed(row.heat_order, 2));
@@ -71,7 +72,7 @@ std::string space_table(const SolutionSetting& setting) {
 }
 
 std::string time_table(const SolutionSetting& setting) {
-    const std::vector<std::int64_t> steps = {64, 128, 256, 512};
+    const std::vector<std::int64_t> steps(shown_steps.begin(), shown_steps.end());
     Table::Column dt{"dt", {}};
     for (const std::int64_t count : steps)
         dt.cells.push_back(shortest(setting.final_time / static_cast<double>(count)));
@@ -94,16 +95,6 @@ std::string time_table(const SolutionSetting& setting) {
 }
 
 std::string orders_table(const ExpectedOrders& expected) {
-    const auto order = [](const Forecast& forecast) -> std::string {
-        if (!forecast.has_error())
-            return "-";
-        if (!forecast.is_known())
-            return "not known";
-        const auto text = [](double value) { return fmt::format("{:.3g}", value); };
-        return forecast.least == forecast.greatest
-                   ? text(forecast.least)
-                   : text(forecast.least) + " to " + text(forecast.greatest);
-    };
     Table::Column norm{"norm", {}};
     Table::Column in_h{"in h", {}};
     Table::Column euler{"in dt: euler", {}};
@@ -111,10 +102,10 @@ std::string orders_table(const ExpectedOrders& expected) {
     Table::Column sdirk2{"sdirk2", {}};
     for (const ExpectedOrder& row : expected.orders) {
         norm.cells.push_back(row.norm);
-        in_h.cells.push_back(order(row.in_h));
-        euler.cells.push_back(order(row.euler));
-        bdf2.cells.push_back(order(row.bdf2));
-        sdirk2.cells.push_back(order(row.sdirk2));
+        in_h.cells.push_back(words_of(row.in_h));
+        euler.cells.push_back(words_of(row.euler));
+        bdf2.cells.push_back(words_of(row.bdf2));
+        sdirk2.cells.push_back(words_of(row.sdirk2));
     }
     std::string text = text_table({"", {"", {norm}}, {{"", {in_h, euler, bdf2, sdirk2}}}});
     if (!expected.reasons.empty())

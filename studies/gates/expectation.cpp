@@ -46,9 +46,8 @@ CheckedExpectation same(const std::string& what, const std::vector<std::string>&
 
 Expectation all_of(const TableReader& table, const std::string& key,
                    const std::vector<std::string>& wanted, const Words& found) {
-    // "expect.left_out" is left_out of the result.
-    return [what = table.full(key).substr(std::string("expect.").size()), wanted,
-            place = table.place(key), found](const StudyResult& result) {
+    return [what = what_of(table, key), wanted, place = table.place(key),
+            found](const StudyResult& result) {
         return std::vector{same(what, wanted, found(result), place)};
     };
 }
@@ -89,6 +88,10 @@ CheckedExpectation held(const Metric& metric, double lowest, double highest, con
             .place = place,
             // A figure that is not a number lies in no band.
             .holds = metric.value && *metric.value >= lowest && *metric.value <= highest};
+}
+
+std::string what_of(const TableReader& table, const std::string& key) {
+    return table.full(key).substr(std::string("expect.").size());
 }
 
 std::string metric_text(double value) {

@@ -36,6 +36,9 @@ struct CheckedExpectation {
 /// A metric held against a band. One that has no value does not meet any.
 CheckedExpectation held(const Metric& metric, double lowest, double highest, const Place& place);
 
+/// What a key of [expect] is about: of "expect.left_out" left_out.
+std::string what_of(const TableReader& table, const std::string& key);
+
 /// What a scene expects of its result, held against it.
 using Expectation = std::function<std::vector<CheckedExpectation>(const StudyResult&)>;
 

@@ -120,11 +120,11 @@ void add_functions(const Scene& scene, Uses& uses) {
     }
 }
 
-/// Norms and probes whose figures the scene expects.
+/// Norms and probes whose figures the scene expects, of its runs.
 void add_measures(const Scene& scene, const AskedKeys& asked, Uses& uses) {
     std::set<std::string> expected; // words of the paths in [expect]
     for (const auto& [path, key] : asked)
-        if (key.given && path.starts_with("expect.")) {
+        if (key.given && path.starts_with("expect.") && !path.starts_with("expect.derive.")) {
             const auto words = words_of(path);
             expected.insert(words.begin(), words.end());
         }

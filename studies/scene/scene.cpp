@@ -4,6 +4,7 @@
 #include "mms/manufactured_problem.hpp"
 #include "mms/text/toml_reader.hpp"
 #include "studies/external/external_runs.hpp"
+#include "studies/gates/derived_expectation.hpp"
 #include "studies/reference/reference_solution.hpp"
 #include "studies/runs/beam_runs.hpp"
 #include "studies/scene/model_keys.hpp"
@@ -204,7 +205,7 @@ std::string part_of(const std::string& sentence) {
     return sentence.substr(0, sentence.find(':'));
 }
 
-/// [expect]: what is left out, the reference, a table for each study.
+/// [expect]: what is left out, the reference, what is derived, a table for each study.
 void read_expectations(Scene& scene, TableReader expect) {
     expect_words(expect, "left_out", scene.expectations, [](const StudyResult& result) {
         std::vector<std::string> parts;
@@ -220,6 +221,11 @@ void read_expectations(Scene& scene, TableReader expect) {
                                             "scene does not have");
         const std::size_t before = scene.expectations.size();
         expect_reference(*table, scene.expectations);
+        finish_expecting(*table, before, scene.expectations);
+    }
+    if (auto table = expect.table("derive")) {
+        const std::size_t before = scene.expectations.size();
+        expect_derived(*table, scene, scene.expectations);
         finish_expecting(*table, before, scene.expectations);
     }
     for (const auto& kind : study_kinds()) {

@@ -408,6 +408,43 @@ Entries of_expectations() {
          "bdf2.refused\"); CHECK.count, .least and .greatest of energy, heat_residual, "
          "beam_residual, penetration, wrong_sign, complementarity, path, error, order_defect; of "
          "the other tables those that a message lists where a name is none"},
+    };
+}
+
+Entries of_what_is_derived() {
+    Entries entries{
+        {"expect.derive", KeyType::table, "anything",
+         "what theory says of the solution before any run, as `tvbeam derive` prints it"},
+        {"expect.derive.exercises", KeyType::texts, "anything",
+         "terms that the solution exercises, by their names there"},
+        {"expect.derive.untested", KeyType::texts, "anything", "terms that it leaves untested"},
+        {"expect.derive.reasons", KeyType::texts, "anything",
+         "all reasons of the orders, each by how it begins"},
+        {"expect.derive.space_residual", KeyType::band, "anything",
+         "the last orders of the residual in space, of the heat and of the beam equation"},
+        {"expect.derive.time_residual", KeyType::table, "anything",
+         "the same in time, by time scheme"},
+        {"expect.derive.NORM", KeyType::table, "anything", "of a norm of the table of orders"},
+        {"expect.derive.NORM.h", KeyType::word, "anything",
+         "the order to expect in h: 2, \"1 to 2\", \"-\" without an error, \"not known\""},
+        {"expect.derive.NORM.a", KeyType::band, "anything",
+         "the size to expect of h^p, with the scene's mass matrix"},
+        {"expect.derive.NORM.b", KeyType::table, "anything",
+         "the size to expect of dt^q, by time scheme"},
+    };
+    for (const auto& time : TimeScheme::names()) {
+        entries.push_back({"expect.derive.time_residual." + time, KeyType::band, "anything",
+                           "of this time scheme"});
+        entries.push_back({"expect.derive.NORM." + time, KeyType::word, "anything",
+                           "the order to expect in dt of this time scheme"});
+        entries.push_back(
+            {"expect.derive.NORM.b." + time, KeyType::band, "anything", "of this time scheme"});
+    }
+    return entries;
+}
+
+Entries of_what_is_written() {
+    return {
         {"short",
          KeyType::table,
          "the scene itself",
@@ -422,8 +459,9 @@ Entries of_expectations() {
 
 Entries all_entries() {
     Entries all;
-    for (auto&& part : {of_the_whole(), of_the_beam(), of_the_solver(), of_ladders_and_grids(),
-                        of_other_studies(), of_expectations()})
+    for (auto&& part :
+         {of_the_whole(), of_the_beam(), of_the_solver(), of_ladders_and_grids(),
+          of_other_studies(), of_expectations(), of_what_is_derived(), of_what_is_written()})
         all.insert(all.end(), part.begin(), part.end());
     return all;
 }

@@ -60,6 +60,20 @@ BOOST_AUTO_TEST_CASE(what_no_scene_uses_is_told) {
     BOOST_TEST(!has(pairs, "mesh graded, march in sines")); // which cannot be
 }
 
+// A norm of which only theory is expected is not one that a run measures.
+BOOST_AUTO_TEST_CASE(what_is_derived_of_a_norm_does_not_stand_for_its_errors) {
+    const TemporaryDirectory directory;
+    const auto file = directory.write(
+        "derived.toml", "solution = 'free-oscillation'\n[beam]\nalpha = 0.3\nzeta = 0.05\n"
+                        "[ladder]\nfinal_time = 1\nelements = [4]\ndt = [0.5]\n"
+                        "norms = ['u_L2H2', 'theta_L2L2']\n[expect.derive.u_L2H2]\nh = 2\n"
+                        "[expect.ladder.theta_L2L2]\nerrors = [1.0]\n");
+    const auto missed = unused(feature_table({{"derived", file}}).features);
+    BOOST_TEST(has(missed, "norm u_L2H2"));
+    BOOST_TEST(!has(missed, "norm theta_L2L2"));
+    BOOST_TEST(!has(missed, "key expect.derive.NORM.h"));
+}
+
 // What a run consists of counts by the expectations of its own study.
 BOOST_AUTO_TEST_CASE(a_run_in_time_counts_where_something_is_expected_of_it) {
     const auto shipped = shipped_files(Shipped::scene);

@@ -1,0 +1,218 @@
+#include "studies/gates/derived_expectation.hpp"
+
+#include "core/time/time_scheme.hpp"
+#include "mms/admissible/consistency.hpp"
+#include "mms/coverage.hpp"
+#include "mms/expected_orders.hpp"
+#include "mms/forecast/error_constants.hpp"
+#include "mms/text/nearest_name.hpp"
+#include "mms/text/toml_reader.hpp"
+#include "studies/scene/scene.hpp"
+#include "studies/text/number_text.hpp"
+
+#include <boost/algorithm/string/join.hpp>
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace tvbeam {
+
+namespace {
+
+const Solution& solution_of(const TableReader& table, const Scene& scene) {
+    const auto* solution = std::get_if<Solution>(&scene.problem);
+    if (scene.solver || !scene.poses_problem() || solution == nullptr || solution->phases.empty())
+        throw table.error("", " expects something of what is derived from a solution, and the "
+                              "scene runs none");
+    return *solution;
+}
+
+/// What is derived of the solution of a scene, each part when it is first asked for.
+class DerivedParts {
+public:
+    DerivedParts(const Solution& solution, const Scene& scene)
+        : solution_(solution), scene_(scene), final_time_(scene.longest_time()) {}
+
+    [[nodiscard]] std::vector<TermUse> terms() const {
+        return coverage(solution_, scene_.beam, final_time_);
+    }
+
+    const ExpectedOrders& orders() {
+        if (!orders_)
+            orders_ = expected_orders(solution_, scene_.beam, final_time_);
+        return *orders_;
+    }
+
+    /// With the scene's mass matrix.
+    const ErrorConstants& sizes(const std::string& time) {
+        auto known = sizes_.find(time);
+        if (known == sizes_.end())
+            known = sizes_
+                        .emplace(time, error_constants(solution_, scene_.beam, final_time_, time,
+                                                       scene_.scheme.thermal_mass))
+                        .first;
+        return known->second;
+    }
+
+    /// At the last two of the refinements that are shown.
+    [[nodiscard]] Residual last_in_space() const {
+        return space_residuals(solution_, scene_.beam, final_time_, ThermalMass::consistent,
+                               {shown_elements.end() - 2, shown_elements.end()})
+            .back();
+    }
+    [[nodiscard]] Residual last_in_time(const std::string& time) const {
+        return time_residuals(solution_, scene_.beam, final_time_, time,
+                              {shown_steps.end() - 2, shown_steps.end()})
+            .back();
+    }
+
+private:
+    const Solution& solution_;
+    const Scene& scene_;
+    double final_time_;
+    std::optional<ExpectedOrders> orders_;
+    std::map<std::string, ErrorConstants> sizes_; ///< by time scheme
+};
+
+/// One table of [expect.derive], what it says and where that goes.
+struct DerivedTable {
+    TableReader& table;
+    DerivedParts& parts;
+    std::vector<Expectation>& expectations;
+
+    /// A table within it.
+    template <typename Read>
+    void within(const std::string& key, const Read& read) const {
+        if (auto inner = table.table(key)) {
+            const std::size_t before = expectations.size();
+            read(DerivedTable{*inner, parts, expectations});
+            finish_expecting(*inner, before, expectations);
+        }
+    }
+
+    void add(CheckedExpectation checked) const {
+        expectations.push_back([checked = std::move(checked)](const StudyResult& /*result*/) {
+            return std::vector{checked};
+        });
+    }
+};
+
+void expect_terms(const DerivedTable& of, const std::string& key, bool exercised,
+                  const std::vector<TermUse>& terms) {
+    const auto wanted = of.table.texts(key);
+    if (!wanted)
+        return;
+    std::vector<std::string> names;
+    names.reserve(terms.size());
+    for (const auto& term : terms)
+        names.push_back(term.term);
+    for (std::size_t i = 0; i < wanted->size(); ++i) {
+        const std::string& name = (*wanted)[i];
+        const auto use = std::ranges::find(terms, name, &TermUse::term);
+        if (use == terms.end())
+            throw of.table.error(key,
+                                 " holds '" + name + "', which is no term" +
+                                     did_you_mean(name, names) + "; they are " +
+                                     boost::algorithm::join(names, ", "),
+                                 i);
+        of.add({.what = what_of(of.table, key) + ": " + name,
+                .expected = exercised ? "exercised" : "untested",
+                .found = use->is_exercised() ? "exercised, up to " + metric_text(use->largest)
+                                             : "untested: " + use->why_not,
+                .place = of.table.place(key, i),
+                .holds = use->is_exercised() == exercised});
+    }
+}
+
+template <typename Last>
+void expect_residual(const DerivedTable& of, const std::string& key, const Last& last) {
+    const auto band = of.table.band(key);
+    if (!band)
+        return;
+    const Residual residual = last();
+    for (const auto& [equation, order] :
+         {std::pair("heat", residual.heat_order), std::pair("beam", residual.beam_order)})
+        of.add(held({what_of(of.table, key) + ": last order of the " + equation + " equation",
+                     order, "none: the residual is zero"},
+                    band->lowest, band->highest, of.table.place(key)));
+}
+
+void expect_order(const DerivedTable& of, const std::string& key, const Forecast& order) {
+    if (const auto wanted = of.table.word(key)) {
+        const std::string found = words_of(order);
+        of.add({what_of(of.table, key), *wanted, found, of.table.place(key), found == *wanted});
+    }
+}
+
+void expect_size(const DerivedTable& of, const std::string& key, const std::string& norm,
+                 const std::string& time, std::optional<LeadingTerm> NormConstants::*term) {
+    const auto band = of.table.band(key);
+    if (!band)
+        return;
+    const ErrorConstants& sizes = of.parts.sizes(time);
+    const NormConstants* row = sizes.of(norm);
+    const auto& size = row == nullptr ? std::optional<LeadingTerm>() : row->*term;
+    of.add(held({what_of(of.table, key), size ? std::optional(size->constant) : std::nullopt,
+                 sizes.unknown.empty() ? "no error of that kind" : "not known: " + sizes.unknown},
+                band->lowest, band->highest, of.table.place(key)));
+}
+
+void expect_norm(const DerivedTable& of, const ExpectedOrder& order) {
+    expect_order(of, "h", order.in_h);
+    expect_order(of, "euler", order.euler);
+    expect_order(of, "bdf2", order.bdf2);
+    expect_order(of, "sdirk2", order.sdirk2);
+    expect_size(of, "a", order.norm, "euler", &NormConstants::in_h);
+    of.within("b", [&](const DerivedTable& inner) {
+        for (const auto& time : TimeScheme::names())
+            expect_size(inner, time, order.norm, time, &NormConstants::in_dt);
+    });
+}
+
+void expect_norms(const DerivedTable& of) {
+    const auto unread = of.table.unread();
+    const auto is_table = [&](const std::string& key) { return of.table.is_table(key); };
+    if (std::ranges::none_of(unread, is_table))
+        return;
+    std::vector<std::string> norms;
+    for (const auto& order : of.parts.orders().orders) {
+        norms.push_back(order.norm);
+        of.within(order.norm, [&](const DerivedTable& inner) { expect_norm(inner, order); });
+    }
+    for (const auto& name : of.table.unread())
+        if (is_table(name))
+            throw InputError(of.table.place_of_key(name),
+                             of.table.full(name) +
+                                 " expects something of a norm of which nothing "
+                                 "is derived" +
+                                 did_you_mean(name, norms) + "; the norms are " +
+                                 boost::algorithm::join(norms, ", "));
+}
+
+} // namespace
+
+void expect_derived(TableReader& table, const Scene& scene,
+                    std::vector<Expectation>& expectations) {
+    DerivedParts parts(solution_of(table, scene), scene);
+    const DerivedTable whole{table, parts, expectations};
+    const std::vector<TermUse> terms =
+        table.has("exercises") || table.has("untested") ? parts.terms() : std::vector<TermUse>();
+    expect_terms(whole, "exercises", true, terms);
+    expect_terms(whole, "untested", false, terms);
+    expect_sentences(
+        table, "reasons", expectations,
+        [reasons = table.has("reasons") ? parts.orders().reasons : std::vector<std::string>()](
+            const StudyResult& /*result*/) { return reasons; });
+    expect_residual(whole, "space_residual", [&] { return parts.last_in_space(); });
+    whole.within("time_residual", [&](const DerivedTable& inner) {
+        for (const auto& time : TimeScheme::names())
+            expect_residual(inner, time, [&] { return parts.last_in_time(time); });
+    });
+    expect_norms(whole);
+}
+
+} // namespace tvbeam
