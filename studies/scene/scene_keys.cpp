@@ -4,6 +4,8 @@
 #include "core/time/time_scheme.hpp"
 #include "mms/equations/code.hpp"
 
+#include <fmt/format.h>
+
 #include <iterator>
 
 namespace tvbeam {
@@ -412,7 +414,13 @@ Entries of_expectations() {
 }
 
 Entries of_what_is_derived() {
-    Entries entries{
+    Entries entries;
+    const auto add_of_each_scheme = [&](const std::string& table, KeyType type,
+                                        const std::string& meaning) {
+        for (const auto& time : TimeScheme::names())
+            entries.push_back({fmt::format("{}.{}", table, time), type, "anything", meaning});
+    };
+    entries = {
         {"expect.derive", KeyType::table, "anything",
          "what theory says of the solution before any run, as `tvbeam derive` prints it"},
         {"expect.derive.exercises", KeyType::texts, "anything",
@@ -424,22 +432,19 @@ Entries of_what_is_derived() {
          "the last orders of the residual in space, of the heat and of the beam equation"},
         {"expect.derive.time_residual", KeyType::table, "anything",
          "the same in time, by time scheme"},
-        {"expect.derive.NORM", KeyType::table, "anything", "of a norm of the table of orders"},
-        {"expect.derive.NORM.h", KeyType::word, "anything",
-         "the order to expect in h: 2, \"1 to 2\", \"-\" without an error, \"not known\""},
-        {"expect.derive.NORM.a", KeyType::band, "anything",
-         "the size to expect of h^p, with the scene's mass matrix"},
-        {"expect.derive.NORM.b", KeyType::table, "anything",
-         "the size to expect of dt^q, by time scheme"},
     };
-    for (const auto& time : TimeScheme::names()) {
-        entries.push_back({"expect.derive.time_residual." + time, KeyType::band, "anything",
-                           "of this time scheme"});
-        entries.push_back({"expect.derive.NORM." + time, KeyType::word, "anything",
-                           "the order to expect in dt of this time scheme"});
-        entries.push_back(
-            {"expect.derive.NORM.b." + time, KeyType::band, "anything", "of this time scheme"});
-    }
+    add_of_each_scheme("expect.derive.time_residual", KeyType::band, "of this time scheme");
+    entries.insert(
+        entries.end(),
+        {{"expect.derive.NORM", KeyType::table, "anything", "of a norm of the table of orders"},
+         {"expect.derive.NORM.h", KeyType::word, "anything",
+          "the order to expect in h: 2, \"1 to 2\", \"-\" without an error, \"not known\""}});
+    add_of_each_scheme("expect.derive.NORM", KeyType::word, "that in dt of this time scheme");
+    entries.insert(entries.end(), {{"expect.derive.NORM.a", KeyType::band, "anything",
+                                    "the size to expect of h^p, with the scene's mass matrix"},
+                                   {"expect.derive.NORM.b", KeyType::table, "anything",
+                                    "the size to expect of dt^q, by time scheme"}});
+    add_of_each_scheme("expect.derive.NORM.b", KeyType::band, "of this time scheme");
     return entries;
 }
 
