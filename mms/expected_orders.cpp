@@ -11,8 +11,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <limits>
+#include <string_view>
 #include <utility>
 
 namespace tvbeam {
@@ -343,6 +345,29 @@ std::string words_of(const Forecast& forecast) {
     return forecast.least == forecast.greatest
                ? text(forecast.least)
                : text(forecast.least) + " to " + text(forecast.greatest);
+}
+
+std::optional<Forecast> forecast_of(const std::string& words) {
+    if (words == "-")
+        return no_error;
+    if (words == "not known")
+        return Forecast{.kind = Forecast::Kind::unknown};
+    const auto order = [](std::string_view text) -> std::optional<double> {
+        double value = 0.0;
+        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+        const bool is_order = error == std::errc() && end == text.data() + text.size() &&
+                              std::isfinite(value) && value >= 0.0;
+        return is_order ? std::optional(value) : std::nullopt;
+    };
+    constexpr std::string_view to = " to ";
+    const std::size_t middle = words.find(to);
+    const auto least = order(std::string_view(words).substr(0, middle));
+    const auto greatest = middle == std::string::npos
+                              ? least
+                              : order(std::string_view(words).substr(middle + to.size()));
+    if (!least || !greatest || *least > *greatest)
+        return std::nullopt;
+    return between(*least, *greatest);
 }
 
 ExpectedOrders expected_orders(const Solution& solution, const Beam& beam, double final_time) {

@@ -36,6 +36,9 @@ struct Forecast {
 /// "2", "1 to 2", "-" where there is no error, or "not known".
 std::string words_of(const Forecast& forecast);
 
+/// The forecast that these words say; none where they are no such words.
+std::optional<Forecast> forecast_of(const std::string& words);
+
 /// The orders that a norm's error shows once the asymptotic range is reached.
 struct ExpectedOrder {
     std::string norm;

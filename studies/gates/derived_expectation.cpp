@@ -47,13 +47,15 @@ public:
         return *orders_;
     }
 
-    /// With the scene's mass matrix.
+    /// With the scene's mass matrix, on uniform meshes.
     const ErrorConstants& sizes(const std::string& time) {
         auto known = sizes_.find(time);
         if (known == sizes_.end())
             known = sizes_
-                        .emplace(time, error_constants(solution_, scene_.beam, final_time_, time,
-                                                       scene_.scheme.thermal_mass))
+                        .emplace(time, scene_.mesh.is_uniform()
+                                           ? error_constants(solution_, scene_.beam, final_time_,
+                                                             time, scene_.scheme.thermal_mass)
+                                           : ErrorConstants{"the meshes are not uniform", {}})
                         .first;
         return known->second;
     }
@@ -106,6 +108,8 @@ void expect_terms(const DerivedTable& of, const std::string& key, bool exercised
     const auto wanted = of.table.texts(key);
     if (!wanted)
         return;
+    if (wanted->empty())
+        throw of.table.error(key, " is empty, and expects nothing; name a term");
     std::vector<std::string> names;
     names.reserve(terms.size());
     for (const auto& term : terms)
@@ -143,8 +147,14 @@ void expect_residual(const DerivedTable& of, const std::string& key, const Last&
 
 void expect_order(const DerivedTable& of, const std::string& key, const Forecast& order) {
     if (const auto wanted = of.table.word(key)) {
+        const auto forecast = forecast_of(*wanted);
+        if (!forecast)
+            throw of.table.error(key, " is '" + *wanted +
+                                          "'; it must be an order, as 2 or \"1 to 2\", \"-\" "
+                                          "without an error, or \"not known\"");
+        const std::string expected = words_of(*forecast);
         const std::string found = words_of(order);
-        of.add({what_of(of.table, key), *wanted, found, of.table.place(key), found == *wanted});
+        of.add({what_of(of.table, key), expected, found, of.table.place(key), found == expected});
     }
 }
 

@@ -161,7 +161,12 @@ void expect_words(TableReader& table, const std::string& key,
 
 void expect_sentences(TableReader& table, const std::string& key,
                       std::vector<Expectation>& expectations, const Words& found) {
-    expect_words(table, key, expectations, [found, wanted = table.texts(key)](const auto& result) {
+    const auto wanted = table.texts(key);
+    if (wanted && std::ranges::find(*wanted, "") != wanted->end())
+        throw table.error(key,
+                          " has a text without a letter, with which any sentence begins; write "
+                          "how the sentence begins");
+    expect_words(table, key, expectations, [found, wanted](const auto& result) {
         auto sentences = found(result);
         for (std::size_t i = 0; i < sentences.size() && i < wanted->size(); ++i)
             if (sentences[i].starts_with((*wanted)[i]))

@@ -89,6 +89,7 @@ const std::vector<Claim> of_the_paper_s{
     {"exercises = ['a force at the stop g2', 'a free tip between stops']", ""},
     {"sigma_L2 = { h = '1 to 2', euler = '0.5 to 0.75', bdf2 = 1.5, sdirk2 = 1.5 }", ""},
     {"sigma_L2 = { euler = 0.5 }", "0.5 to 0.75"},
+    {"sigma_L2 = { euler = '0.50 to 0.750', bdf2 = '1.5 to 1.5' }", ""},
     {"theta_L2L2 = { a = [0, 10] }", "not known: a contact begins at t = 1.41421"},
     {"theta_L2L2 = { b = { euler = [0, 10] } }", "not known: a contact begins at t = 1.41421"},
 };
@@ -171,6 +172,13 @@ BOOST_AUTO_TEST_CASE(sizes_are_those_of_the_scene_s_mass_matrix) {
     check_claim(oscillation, {"theta_L2L2 = { a = [1.016, 1.020] }", "1.05"}, {lumped});
 }
 
+// What a size multiplies, a power of h, is of uniform meshes.
+BOOST_AUTO_TEST_CASE(no_size_is_known_on_graded_meshes) {
+    for (const std::string size : {"a = [1.016, 1.020]", "b = { euler = [0.2218, 0.2226] }"})
+        check_claim(oscillation, {"theta_L2L2 = { " + size + " }", "the meshes are not uniform"},
+                    {"mesh.grading=3"});
+}
+
 // Fitted to runs on fine meshes: 0.2222, 0.3565 and 0.1493.
 BOOST_AUTO_TEST_CASE(each_time_scheme_has_a_size_of_its_own) {
     check_claim(oscillation, {"theta_L2L2 = { b = { euler = [0.2218, 0.2226], bdf2 = [0.3558, "
@@ -195,6 +203,10 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_claimed_is_refused_at_its_place) {
     for (const std::string table : {"time_residual", "theta_L2L2", "theta_L2L2.b"})
         said(fmt::format("space_residual = [1.9, 2.1]\n{} = {{}}", table),
              fmt::format("expect.derive.{} expects nothing", table));
+    for (const std::string order : {"'two'", "'1 To 2'", "'2 to 1'", "-1", "true", "'2 '", "''"})
+        said("theta_L2L2 = { h = " + order + " }", "it must be an order, as 2 or");
+    said("exercises = ['theta_t']\nuntested = []", "untested is empty, and expects nothing");
+    said("reasons = ['']", "a text without a letter");
     said("space_residual = 2", "a gate has two sides");
     said("theta_L2L2 = { b = { euler = 0.2 } }", "a gate has two sides");
     said("time_residual = { rk4 = [3.9, 4.1] }", "unknown key");
