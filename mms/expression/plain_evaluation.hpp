@@ -22,8 +22,8 @@ namespace tvbeam {
 /// A decimal, rounded to Real.
 template <typename Real>
 Real decimal(const std::string& text) {
-    if constexpr (std::is_same_v<Real, long double>) {
-        long double value = 0;
+    if constexpr (std::is_floating_point_v<Real>) {
+        Real value = 0;
         std::from_chars(text.data(), text.data() + text.size(), value);
         return value;
     } else {
