@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace tvbeam {
 
@@ -96,22 +97,53 @@ Residual space_residual(const PiecewiseTape& tape, const Beam& beam, const Mesh&
             .beam_order = std::nullopt};
 }
 
-/// The defects of θ̃ and u_xx in one step, of t_n at the end; shape: 2 × points.
-Eigen::ArrayXXd step_defect(const PiecewiseTape& tape, const ArrayXd& x, const TimeScheme& scheme,
-                            double t, double dt) {
-    const auto state = [&](double time) -> Eigen::ArrayXXd { return tape.at(x, time).topRows(2); };
-    std::vector<Eigen::ArrayXXd> increments;
-    for (int j = 1; j <= scheme.history; ++j)
-        increments.emplace_back(state(t - j * dt) - state(t - (j + 1) * dt));
-    for (const Stage& stage : scheme.stages) {
-        const double time = t - (1.0 - stage.fraction) * dt;
-        Eigen::ArrayXXd increment = dt / stage.leading * tape.at(x, time).middleRows(2, 2);
-        for (std::size_t j = 0; j < stage.weights.size(); ++j)
-            increment += stage.weights[j] * increments[j];
-        increments.push_back(increment);
+/// θ̃, u_xx and their rates at every level and point: each is a step's end and the next one's begin.
+class Levels {
+public:
+    Levels(const PiecewiseTape& tape, ArrayXd x, double final_time, std::int64_t steps)
+        : tape_(tape), x_(std::move(x)), final_time_(final_time),
+          steps_(static_cast<double>(steps)) {
+        for (std::int64_t n = 0; n <= steps; ++n)
+            levels_.push_back(tape_.at(x_, time(static_cast<double>(n))));
     }
-    return scheme.stages.back().leading / dt * (increments.back() - (state(t) - state(t - dt)));
-}
+
+    /// Shape: 4 × points.
+    [[nodiscard]] const Eigen::ArrayXXd& at(std::int64_t level) const {
+        return levels_[static_cast<std::size_t>(level)];
+    }
+
+    /// The defects of θ̃ and u_xx in the step that ends at level n; shape: 2 × points.
+    [[nodiscard]] Eigen::ArrayXXd defect(const TimeScheme& scheme, std::int64_t n) const {
+        const double dt = final_time_ / steps_;
+        const auto difference = [&](std::int64_t level) -> Eigen::ArrayXXd {
+            return at(level).topRows(2) - at(level - 1).topRows(2);
+        };
+        std::vector<Eigen::ArrayXXd> increments;
+        for (int j = 1; j <= scheme.history; ++j)
+            increments.push_back(difference(n - j));
+        for (const Stage& stage : scheme.stages) {
+            Eigen::ArrayXXd increment = dt / stage.leading * rates(n, stage.fraction);
+            for (std::size_t j = 0; j < stage.weights.size(); ++j)
+                increment += stage.weights[j] * increments[j];
+            increments.push_back(increment);
+        }
+        return scheme.stages.back().leading / dt * (increments.back() - difference(n));
+    }
+
+private:
+    [[nodiscard]] double time(double level) const { return final_time_ * level / steps_; }
+
+    [[nodiscard]] Eigen::ArrayXXd rates(std::int64_t n, double fraction) const {
+        if (fraction == 1.0)
+            return at(n).bottomRows(2);
+        return tape_.at(x_, time(static_cast<double>(n) - (1.0 - fraction))).bottomRows(2);
+    }
+
+    const PiecewiseTape& tape_;
+    ArrayXd x_;
+    double final_time_, steps_;
+    std::vector<Eigen::ArrayXXd> levels_;
+};
 
 double root_mean_square(const ArrayXd& values) {
     return std::sqrt(values.square().mean());
@@ -150,7 +182,6 @@ std::vector<Residual> time_residuals(const Solution& solution, const Beam& beam,
     const DerivedSolution derived = derive_on(solution, beam);
     const PiecewiseTape tape = rows(derived, solution, false);
     const TimeScheme& method = TimeScheme::named(scheme);
-    const ArrayXd x = sample_points(0.0, 1.0);
     std::vector<Residual> result;
     std::vector<Sizes> terms;
     for (const std::int64_t count : steps) {
@@ -158,13 +189,13 @@ std::vector<Residual> time_residuals(const Solution& solution, const Beam& beam,
         Sizes size;
         residual.count = count;
         const double dt = final_time / static_cast<double>(count);
+        const Levels levels(tape, sample_points(0.0, 1.0), final_time, count);
         for (std::int64_t n = 1 + method.history; n <= count; ++n) {
-            const double t = final_time * static_cast<double>(n) / static_cast<double>(count);
-            const Eigen::ArrayXXd defect = step_defect(tape, x, method, t, dt);
+            const Eigen::ArrayXXd defect = levels.defect(method, n);
             residual.heat = std::max(residual.heat,
                                      root_mean_square(defect.row(0) - beam.alpha * defect.row(1)));
             residual.beam = std::max(residual.beam, beam.zeta * root_mean_square(defect.row(1)));
-            const ArrayXd sizes = tape.at(x, t).abs().rowwise().maxCoeff();
+            const ArrayXd sizes = levels.at(n).abs().rowwise().maxCoeff();
             size.heat = std::max(size.heat, (sizes(theta) + beam.alpha * sizes(u_xx)) / dt);
             size.beam = std::max(size.beam, beam.zeta * sizes(u_xx) / dt);
         }

@@ -171,7 +171,11 @@ toml::table parse(const std::string& text, const std::string& file) {
 } // namespace
 
 TomlDocument read_toml(const std::string& file) {
-    return parse_toml(file_text(file, largest_file), file);
+    return parse_toml(toml_text(file), file);
+}
+
+std::string toml_text(const std::string& file) {
+    return file_text(file, largest_file);
 }
 
 TomlDocument parse_toml(std::string text, const std::string& file) {

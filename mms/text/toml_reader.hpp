@@ -25,9 +25,10 @@ struct TomlDocument {
     AskedKeys* asked = nullptr; ///< where its readers note it; null: nowhere
 };
 
-/// Reads a file, or a text that is said to be one. Throws InputError when it is missing, too large
-/// or not TOML.
+/// Reads a file, its text alone, or a text that is said to be one. Throws InputError when it is
+/// missing, too large or not TOML.
 TomlDocument read_toml(const std::string& file);
+std::string toml_text(const std::string& file);
 TomlDocument parse_toml(std::string text, const std::string& file);
 
 /// Replaces or adds the key `a.b.c` of the document; `assignment` is "a.b.c=value" with a TOML

@@ -9,6 +9,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 #include <variant>
 
 namespace tvbeam {
@@ -36,24 +37,24 @@ SolutionSetting setting_of(const Scene& scene) {
 }
 
 bool names_solution(const std::filesystem::path& scene, const std::string& solution) {
-    return read_toml(scene.string()).table["solution"].value<std::string>() == solution;
+    std::string text = toml_text(scene.string());
+    // Most of what is shipped need not be parsed.
+    return text.find(solution) != std::string::npos &&
+           parse_toml(std::move(text), scene.string()).table["solution"].value<std::string>() ==
+               solution;
 }
 
 /// The shipped scene that has the name of a shipped solution, or else the first that runs it.
 std::optional<Scene> scene_that_runs(const Solution& solution) {
-    std::optional<Scene> first;
-    for (const auto& file : shipped_files(Shipped::scene)) {
-        if (!names_solution(file.path, solution.name))
-            continue;
-        Scene scene = read_scene(file.path.string());
-        if (!scene.poses_problem() || scene.solver)
-            continue;
-        if (scene.name == solution.name)
-            return scene;
-        if (!first)
-            first = std::move(scene);
-    }
-    return first;
+    auto scenes = shipped_files(Shipped::scene);
+    std::stable_partition(scenes.begin(), scenes.end(),
+                          [&](const ShippedFile& file) { return file.name == solution.name; });
+    for (const auto& file : scenes)
+        if (names_solution(file.path, solution.name))
+            if (Scene scene = read_scene(file.path.string());
+                scene.poses_problem() && !scene.solver)
+                return scene;
+    return std::nullopt;
 }
 
 /// Whether a scene runs the solution of that file.
