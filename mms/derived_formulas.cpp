@@ -5,8 +5,13 @@
 #include "mms/expression/printing.hpp"
 #include "mms/expression/shortened.hpp"
 #include "mms/expression/symbols.hpp"
+#include "mms/expression/tape_compiler.hpp"
+#include "mms/sample_points.hpp"
+#include "mms/text/error_text.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <map>
 #include <string_view>
 
@@ -69,6 +74,24 @@ ex at_start(const ex& expression, const SourceText& source) {
     }
 }
 
+/// A formula's text as a solution file would be read that holds it, with the beam's numbers.
+ex read_again(const std::string& text, const Solution& solution, const Beam& beam) {
+    const SourceText zero("0", {solution.name, 1, 1});
+    Solution one = solution;
+    one.phases = {
+        {.until = {}, .theta = SourceText(text, {solution.name, 1, 1}), .u = zero, .sigma = zero}};
+    return expressions_on(one, beam).phases.front().theta;
+}
+
+/// What a run makes of the formula of that symbol.
+ex computed(const std::string& symbol, const DerivedPhase& phase) {
+    static const std::map<std::string, ex DerivedPhase::*> parts = {
+        {"f", &DerivedPhase::heat_source}, {"G", &DerivedPhase::couple_load},
+        {"q", &DerivedPhase::body_force},  {"m", &DerivedPhase::end_moment},
+        {"theta0", &DerivedPhase::theta},  {"u0", &DerivedPhase::u}};
+    return phase.*parts.at(symbol);
+}
+
 } // namespace
 
 std::vector<DerivedFormula> derived_formulas(const Solution& solution, bool penalised_stops) {
@@ -107,6 +130,43 @@ std::vector<DerivedFormula> derived_formulas(const Solution& solution, bool pena
         at_start(expressions.phases.front().theta, solution.phases.front().theta));
     add("u0", at_zero, at_start(expressions.phases.front().u, solution.phases.front().u));
     return formulas;
+}
+
+double distance_of_formulas(const Solution& solution, const Beam& beam, double final_time) {
+    const bool penalised = beam.stops.epsilon > 0.0;
+    const DerivedSolution derived = derive_on(solution, beam);
+    std::size_t next = 0; // the phase that the next f is of
+    double distance = 0.0;
+    double greatest = 0.0;
+    for (const auto& formula : derived_formulas(solution, penalised)) {
+        const bool at_start = formula.interval == "t = 0";
+        next += formula.symbol == "f" ? 1 : 0;
+        const std::size_t i = at_start ? 0 : next - 1;
+        const bool by_law = penalised && !solution.phases[i].sigma;
+        const double begin = derived.phases[i].begin_value;
+        if (begin >= final_time || formula.symbol == "sigma" || (formula.symbol == "G" && by_law))
+            continue;
+        const double end = at_start ? 0.0 : std::min(derived.phases[i].end_value, final_time);
+        const Tape tape = located(solution.phases[i].u, "the solution", [&] {
+            return compile_tape({read_again(formula.text, solution, beam),
+                                 computed(formula.symbol, derived.derived[i])});
+        });
+        for (const double t : sample_points(begin, end)) {
+            const Eigen::ArrayXXd both =
+                tape.evaluate(sample_points(0.0, 1.0), Eigen::ArrayXd::Constant(1, t));
+            for (Eigen::Index k = 0; k < both.cols(); ++k) {
+                // Neither may have a value, as 1/sqrt(t) at t = 0.
+                const bool is_finite = std::isfinite(both(1, k));
+                if (std::isfinite(both(0, k)) != is_finite)
+                    return std::numeric_limits<double>::infinity();
+                if (!is_finite)
+                    continue;
+                distance = std::max(distance, std::abs(both(0, k) - both(1, k)));
+                greatest = std::max(greatest, std::abs(both(1, k)));
+            }
+        }
+    }
+    return greatest > 0.0 ? distance / greatest : distance;
 }
 
 } // namespace tvbeam

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/problem.hpp"
 #include "mms/solution.hpp"
 
 #include <string>
@@ -30,5 +31,11 @@ struct DerivedFormula {
 /// an expression is too large to be differentiated.
 std::vector<DerivedFormula> derived_formulas(const Solution& solution,
                                              bool penalised_stops = false);
+
+/// How far these texts, read again with the beam's numbers, are from what a run of the solution up
+/// to final_time is driven by: the greatest difference of any of them on a grid of [0,1] × its
+/// times, over the greatest value of any. A G that holds `sigma` is passed over. Throws InputError
+/// as derive_on does.
+double distance_of_formulas(const Solution& solution, const Beam& beam, double final_time);
 
 } // namespace tvbeam

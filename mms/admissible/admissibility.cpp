@@ -256,15 +256,14 @@ private:
             return tape.evaluate(x, ArrayXd::Constant(1, t)).row(1).abs().maxCoeff();
         };
         const double last = std::min(derived_.phases[i + 1].end_value, final_time_);
-        const auto meeting = meeting_time(distance, phase.begin_value, last, 1e-9 * scale);
+        const auto meeting =
+            meeting_time(distance, phase.begin_value, last, relative_tolerance * scale);
         throw InputError(
             source.begin(),
             jump_text(equation + ": " + what, values(largest), phase.end_value, x(largest)) +
                 subtraction(at_time, "the difference of the phases there",
                             what + " of the later phase") +
-                (meeting && *meeting > phase.begin_value
-                     ? ", or move until to " + number_text(*meeting) + ", where the phases meet"
-                     : ""));
+                (meeting ? ", or move until to " + *meeting + ", where the phases meet" : ""));
     }
 
     const Solution& solution_;

@@ -1,9 +1,12 @@
 #include "mms/admissible/repair.hpp"
 
 #include "mms/expression/printing.hpp"
+#include "mms/text/number_text.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
+#include <limits>
 
 namespace tvbeam {
 
@@ -51,8 +54,8 @@ double switch_time(const std::function<bool(double t)>& state, double begin, dou
     return 0.5 * (begin + end);
 }
 
-std::optional<double> meeting_time(const std::function<double(double t)>& distance, double begin,
-                                   double end, double tolerance) {
+std::optional<std::string> meeting_time(const std::function<double(double t)>& distance,
+                                        double begin, double end, double tolerance) {
     constexpr int samples = 256;
     const double width = (end - begin) / samples;
     double nearest = begin;
@@ -75,10 +78,16 @@ std::optional<double> meeting_time(const std::function<double(double t)>& distan
         else
             left += third;
     }
-    const double found = 0.5 * (left + right);
-    if (!(distance(found) <= tolerance))
-        return std::nullopt;
-    return found;
+    constexpr int fewest_digits = 6;
+    for (int digits = fewest_digits; digits <= std::numeric_limits<double>::max_digits10;
+         ++digits) {
+        const std::string text = number_text(0.5 * (left + right), digits);
+        double written = 0.0;
+        std::from_chars(text.data(), text.data() + text.size(), written);
+        if (written > begin && distance(written) <= tolerance)
+            return text;
+    }
+    return std::nullopt;
 }
 
 } // namespace tvbeam

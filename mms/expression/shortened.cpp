@@ -6,6 +6,7 @@
 
 #include <map>
 #include <stdexcept>
+#include <string>
 #include <utility>
 
 namespace tvbeam {
@@ -108,6 +109,10 @@ ex with_pairs_joined(ex sum) {
     return sum;
 }
 
+ex shortest_by_any(const ex& sum) {
+    return shorter(shortest(sum), with_pairs_joined(sum));
+}
+
 struct ShortenedParts final : GiNaC::map_function {
     ex operator()(const ex& part) override {
         ex inside = is_a<GiNaC::add>(part) || is_a<GiNaC::mul>(part) || is_a<GiNaC::power>(part)
@@ -117,8 +122,15 @@ struct ShortenedParts final : GiNaC::map_function {
             return inside;
         if (is_a<GiNaC::mul>(inside))
             return shorter(with_common_taken_out_of_factors(inside), inside);
-        return is_a<GiNaC::add>(inside) ? shorter(shortest(inside), with_pairs_joined(inside))
-                                        : inside;
+        if (!is_a<GiNaC::add>(inside))
+            return inside;
+        // GiNaC has a sum that is a factor with the one or the other sign, as its addresses fall.
+        const ex one = shortest_by_any(inside);
+        const ex other = -shortest_by_any(-inside);
+        const std::string text = formula_text(one);
+        const std::string other_text = formula_text(other);
+        return std::pair(other_text.size(), other_text) < std::pair(text.size(), text) ? other
+                                                                                       : one;
     }
 };
 

@@ -3,6 +3,7 @@
 #include "core/time/time_scheme.hpp"
 #include "mms/admissible/consistency.hpp"
 #include "mms/coverage.hpp"
+#include "mms/derived_formulas.hpp"
 #include "mms/expected_orders.hpp"
 #include "mms/forecast/error_constants.hpp"
 #include "mms/text/nearest_name.hpp"
@@ -58,6 +59,10 @@ public:
                                            : ErrorConstants{"the meshes are not uniform", {}})
                         .first;
         return known->second;
+    }
+
+    [[nodiscard]] double distance_of_formulas() const {
+        return tvbeam::distance_of_formulas(solution_, scene_.beam, final_time_);
     }
 
     /// At the last two of the refinements that are shown.
@@ -130,6 +135,18 @@ void expect_terms(const DerivedTable& of, const std::string& key, bool exercised
                 .place = of.table.place(key, i),
                 .holds = use->is_exercised() == exercised});
     }
+}
+
+void expect_formulas(const DerivedTable& of, const std::string& key) {
+    const auto within = of.table.number(key);
+    if (!within)
+        return;
+    if (!(*within > 0.0 && *within <= widest_part))
+        throw of.table.error(key, " is " + message_text(*within) +
+                                      "; it must be > 0 and at most 0.5: a part of the greatest "
+                                      "value");
+    of.add(held({what_of(of.table, key), of.parts.distance_of_formulas(), ""}, 0.0, *within,
+                of.table.place(key)));
 }
 
 template <typename Last>
@@ -217,6 +234,7 @@ void expect_derived(TableReader& table, const Scene& scene,
         table, "reasons", expectations,
         [reasons = table.has("reasons") ? parts.orders().reasons : std::vector<std::string>()](
             const StudyResult& /*result*/) { return reasons; });
+    expect_formulas(whole, "formulas_within");
     expect_residual(whole, "space_residual", [&] { return parts.last_in_space(); });
     whole.within("time_residual", [&](const DerivedTable& inner) {
         for (const auto& time : TimeScheme::names())

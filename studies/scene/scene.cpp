@@ -5,6 +5,7 @@
 #include "mms/text/toml_reader.hpp"
 #include "studies/external/external_runs.hpp"
 #include "studies/gates/derived_expectation.hpp"
+#include "studies/gates/refused_expectation.hpp"
 #include "studies/reference/reference_solution.hpp"
 #include "studies/runs/beam_runs.hpp"
 #include "studies/scene/model_keys.hpp"
@@ -205,8 +206,10 @@ std::string part_of(const std::string& sentence) {
     return sentence.substr(0, sentence.find(':'));
 }
 
-/// [expect]: what is left out, the reference, what is derived, a table for each study.
-void read_expectations(Scene& scene, TableReader expect) {
+/// [expect]: what is left out, the reference, what is derived, what is refused, a table for each
+/// study.
+void read_expectations(Scene& scene, TableReader expect, const Reading& reading) {
+    expect_refused(expect, scene, reading, scene.expectations);
     expect_words(expect, "left_out", scene.expectations, [](const StudyResult& result) {
         std::vector<std::string> parts;
         for (const auto& sentence : result.left_out)
@@ -309,7 +312,7 @@ Scene read_scene(const std::string& name_or_file, const std::vector<std::string>
     });
     if (auto expect = root.table("expect");
         expect && (reading.expectations || judging != kinds.end()))
-        read_expectations(scene, *std::move(expect));
+        read_expectations(scene, *std::move(expect), reading);
     if (judging != kinds.end() && scene.expectations.empty())
         throw InputError(root.place((*judging)->name()),
                          (*judging)->name() + " asks what the scene's expectations catch, and it "

@@ -428,6 +428,9 @@ Entries of_what_is_derived() {
         {"expect.derive.untested", KeyType::texts, "anything", "terms that it leaves untested"},
         {"expect.derive.reasons", KeyType::texts, "anything",
          "all reasons of the orders, each by how it begins"},
+        {"expect.derive.formulas_within", KeyType::number, "anything",
+         "how far the printed formulas, read again, may be from what runs, as a part of the "
+         "greatest"},
         {"expect.derive.space_residual", KeyType::band, "anything",
          "the last orders of the residual in space, of the heat and of the beam equation"},
         {"expect.derive.time_residual", KeyType::table, "anything",
@@ -448,6 +451,19 @@ Entries of_what_is_derived() {
     return entries;
 }
 
+Entries of_what_is_refused() {
+    return {
+        {"expect.refused", KeyType::tables, "anything",
+         "changes with which the scene is refused before anything runs"},
+        {"expect.refused.set", KeyType::texts, "nothing",
+         "the keys that are changed: \"KEY=VALUE\""},
+        {"expect.refused.solution", KeyType::text, "the scene's",
+         "the text of a solution that stands in its place"},
+        {"expect.refused.says", KeyType::texts, required,
+         "words that the message holds, all of them"},
+    };
+}
+
 Entries of_what_is_written() {
     return {
         {"short",
@@ -464,9 +480,9 @@ Entries of_what_is_written() {
 
 Entries all_entries() {
     Entries all;
-    for (auto&& part :
-         {of_the_whole(), of_the_beam(), of_the_solver(), of_ladders_and_grids(),
-          of_other_studies(), of_expectations(), of_what_is_derived(), of_what_is_written()})
+    for (auto&& part : {of_the_whole(), of_the_beam(), of_the_solver(), of_ladders_and_grids(),
+                        of_other_studies(), of_expectations(), of_what_is_derived(),
+                        of_what_is_refused(), of_what_is_written()})
         all.insert(all.end(), part.begin(), part.end());
     return all;
 }

@@ -272,6 +272,17 @@ const std::vector<Repair> repairs = {
      "exp(-1)*x*(x - 1) to theta of the later phase",
      phases("theta = \"sin(pi*x)\"\nu = 0\n",
             "theta = \"t*sin(pi*x) + exp(-t)*x*(1 - x) + exp(-1)*x*(x - 1)\"\nu = 0\n")},
+    // As near as that they meet only where it is written with more digits; what differs by a
+    // constant meets nowhere.
+    {sine + phases("u = \"x^2*t/100\"\n", "u = \"x^2*(1/100 + 1e-9)\"\n"), between_stops,
+     "6:6: (3): u jumps by 1e-09 at t = 1, x = 1; it must be continuous: subtract x^2/1000000000 "
+     "from u of the later phase, or move until to 1.0000001, where the phases meet",
+     sine + "[[phase]]\nuntil = 1.0000001\nu = \"x^2*t/100\"\n[[phase]]\n"
+            "u = \"x^2*(1/100 + 1e-9)\"\n"},
+    {sine + phases("u = \"x^2/100\"\n", "u = \"x^2*(1/100 + 1e-11)\"\n"), between_stops,
+     "6:6: (3): u jumps by 1e-11 at t = 1, x = 1; it must be continuous: subtract "
+     "x^2/100000000000 from u of the later phase",
+     sine + phases("u = \"x^2/100\"\n", "u = \"x^2*(1/100 + 1e-11) - x^2/100000000000\"\n")},
     // No finite value.
     {solution("sin(pi*x)", "x^2*log(1 - t)"), without_stops,
      "2:6: u is not finite at x = 0, t = 1 (it is nan); write it so that it and its derivatives "

@@ -117,6 +117,22 @@ BOOST_DATA_TEST_CASE(derived_formulas_read_back, data::make(shipped())) {
     }
 }
 
+// What derive prints is what a run is driven by, to rounding of sums of a few dozen terms.
+BOOST_DATA_TEST_CASE(derived_formulas_are_what_runs, data::make(shipped())) {
+    const Solution solution = read_solution(sample);
+    const Beam beam{0.4, 0.15, 0.5, {-0.02, 0.1}};
+    Beam yielding = beam;
+    yielding.stops.epsilon = 0.1;
+    BOOST_TEST(distance_of_formulas(solution, beam, 2.0) <= 1e-14);
+    BOOST_TEST(distance_of_formulas(solution, yielding, 2.0) <= 1e-14);
+}
+
+// Neither has a value at t = 0, where f is like 1/sqrt(t).
+BOOST_AUTO_TEST_CASE(formulas_agree_where_neither_has_a_value) {
+    const Solution solution = parse_solution("theta = 'sqrt(t)*sin(pi*x)'\nu = 0\n", "my.toml");
+    BOOST_TEST(distance_of_formulas(solution, {0.4, 0.15, 0.0, {}}, 1.0) <= 1e-14);
+}
+
 BOOST_AUTO_TEST_CASE(what_terms_have_in_common_is_taken_out_where_that_is_shorter) {
     for (const auto& [given, expected] : std::vector<std::pair<std::string, std::string>>{
              {"2*t*x + t*(x - 3)", "3*t*(x - 1)"},

@@ -70,6 +70,8 @@ const std::vector<Claim> of_the_oscillation{
     {"reasons = ['u is cubic in x', 'The tip never reaches a stop']", ""},
     {"reasons = ['u is cubic in x']", "The tip never reaches a stop"},
     {"reasons = []", "u is cubic in x"},
+    {"formulas_within = 1e-14", ""},
+    {"formulas_within = 1e-30", "e-1"},
     {"space_residual = [1.9, 2.1]", ""},
     {"time_residual = { euler = [0.9, 1.1], bdf2 = [1.9, 2.1], sdirk2 = [1.9, 2.1] }", ""},
     {"theta_L2H1 = { h = 1, euler = 1, bdf2 = 2, sdirk2 = 2.0 }", ""},
