@@ -1,6 +1,7 @@
 #include "studies/gates/refused_expectation.hpp"
 
 #include "mms/text/toml_reader.hpp"
+#include "studies/gates/check.hpp"
 #include "studies/predicted_work.hpp"
 #include "studies/scene/scene.hpp"
 #include "studies/study.hpp"
@@ -15,27 +16,48 @@ namespace tvbeam {
 
 namespace {
 
-/// What a scene is refused with before anything runs; nothing: it would run.
-std::optional<std::string> refusal(const Scene& scene, const std::vector<std::string>& set,
-                                   const std::optional<std::string>& solution, Reading reading) {
+/// A change of a scene.
+struct Variant {
+    std::string file;
+    std::vector<std::string> overrides;
+    std::optional<std::string> solution; ///< in place of the scene's
+    Reading reading;
+};
+
+/// What it is refused with, or why its first run that fails does, or what of its own expectations
+/// is violated first; nothing: none of them.
+std::optional<std::string> refusal(const Variant& variant) {
+    try {
+        Scene scene = read_scene(variant.file, variant.overrides, variant.reading);
+        if (variant.solution)
+            scene.problem = parse_solution(*variant.solution, "solution");
+        require_short_enough(scene, predicted_work(scene));
+        const StudyResult result = run_study(scene);
+        if (result.failed())
+            return result.ending().reason;
+        for (const auto& one : check(result))
+            if (!one.holds)
+                return one.what + ": expected " + one.expected + ", found " + one.found;
+        return std::nullopt;
+    } catch (const InputError& error) {
+        return error.what();
+    }
+}
+
+Variant read_variant(TableReader& table, const Scene& scene, Reading reading) {
+    const auto set = table.texts("set").value_or(std::vector<std::string>());
+    auto solution = table.text("solution");
+    if (set.empty() && !solution)
+        throw table.error("", " changes nothing; give it set = [\"KEY=VALUE\"] or the text of a "
+                              "solution");
     // Of its expectations only those that are changed are read.
     std::vector<std::string> overrides = scene.overrides;
     overrides.emplace_back("expect={}");
     overrides.insert(overrides.end(), set.begin(), set.end());
+    reading.asked = nullptr;
     reading.expectations = std::ranges::any_of(
         set, [](const std::string& assignment) { return assignment.starts_with("expect."); });
-    try {
-        Scene variant = read_scene(scene.file, overrides, reading);
-        if (solution)
-            variant.problem = parse_solution(*solution, "solution");
-        require_short_enough(variant, predicted_work(variant));
-        require_runnable(variant);
-        if (variant.poses_problem() && !variant.solver)
-            require_runnable(variant, problem_of(variant, variant.longest_time()));
-    } catch (const InputError& error) {
-        return error.what();
-    }
-    return std::nullopt;
+    return {scene.file, std::move(overrides), std::move(solution), std::move(reading)};
 }
 
 } // namespace
@@ -43,26 +65,24 @@ std::optional<std::string> refusal(const Scene& scene, const std::vector<std::st
 void expect_refused(TableReader& expect, const Scene& scene, const Reading& reading,
                     std::vector<Expectation>& expectations) {
     for (auto& table : expect.tables("refused")) {
-        const auto set = table.texts("set").value_or(std::vector<std::string>());
-        const auto solution = table.text("solution");
-        const auto says = table.texts("says").value_or(std::vector<std::string>());
-        if (set.empty() && !solution)
-            throw table.error("", " changes nothing; give it set = [\"KEY=VALUE\"] or the text of "
-                                  "a solution");
+        Variant variant = read_variant(table, scene, reading);
+        auto says = table.texts("says").value_or(std::vector<std::string>());
         if (says.empty() || std::ranges::any_of(says, &std::string::empty))
             throw table.error("says", " must hold words of the message that is expected");
         table.finish();
-        const auto found = refusal(scene, set, solution, reading);
-        for (const auto& words : says) {
-            CheckedExpectation checked{.what = table.full("says"),
-                                       .expected = "a message with \"" + words + "\"",
-                                       .found = found.value_or("it is not refused"),
-                                       .place = table.place("says"),
-                                       .holds = found && found->find(words) != std::string::npos};
-            expectations.push_back([checked = std::move(checked)](const StudyResult& /*result*/) {
-                return std::vector{checked};
-            });
-        }
+        expectations.push_back([variant = std::move(variant), says = std::move(says),
+                                what = table.full("says"),
+                                place = table.place("says")](const StudyResult& /*result*/) {
+            const auto found = refusal(variant);
+            std::vector<CheckedExpectation> checked;
+            for (const auto& words : says)
+                checked.push_back({.what = what,
+                                   .expected = "a message with \"" + words + "\"",
+                                   .found = found.value_or("it is not refused"),
+                                   .place = place,
+                                   .holds = found && found->find(words) != std::string::npos});
+            return checked;
+        });
     }
 }
 

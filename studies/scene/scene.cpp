@@ -79,7 +79,9 @@ void check_meshes(const Scene& scene, const TableReader& root) {
 
 std::string json_of(const toml::table& table) {
     std::ostringstream text;
-    text << toml::json_formatter{table, toml::format_flags::quote_infinities_and_nans};
+    // What is beyond ASCII stays: escaped, a character beyond 16 bits would be no JSON.
+    text << toml::json_formatter{table, toml::format_flags::quote_infinities_and_nans |
+                                            toml::format_flags::allow_unicode_strings};
     return text.str();
 }
 

@@ -454,7 +454,8 @@ Entries of_what_is_derived() {
 Entries of_what_is_refused() {
     return {
         {"expect.refused", KeyType::tables, "anything",
-         "changes with which the scene is refused before anything runs"},
+         "changes with which the scene is refused before anything runs, or a run of it fails, or "
+         "an expectation among them is violated"},
         {"expect.refused.set", KeyType::texts, "nothing",
          "the keys that are changed: \"KEY=VALUE\""},
         {"expect.refused.solution", KeyType::text, "the scene's",

@@ -57,6 +57,18 @@ BOOST_AUTO_TEST_CASE(json_has_the_keys_of_its_schema_and_reads_back_exactly) {
                boost::test_tools::tolerance(1e-14));
 }
 
+// Two, three and four bytes of UTF-8, a character that JSON escapes, and one that only TOML must.
+BOOST_AUTO_TEST_CASE(every_letter_of_a_title_reaches_the_json_and_kept_runs) {
+    const TemporaryDirectory directory;
+    const std::string title = "\u00e9 \u20ac \U0001f642 \" \u2028 \x7f";
+    const std::string run = small + R"( --set 'title="é € 🙂 \" \u2028 \u007f"')";
+    const auto json = nlohmann::json::parse(call(directory, run + " --json -").output);
+    BOOST_TEST(json.at("scene").at("title") == title);
+    const std::string out = (directory.path() / "out").string();
+    BOOST_TEST(call(directory, run + " --out " + out).exit == 0);
+    BOOST_TEST(std::filesystem::exists(out + "/result.json"));
+}
+
 // BDF2 looks across the end at t = 1 in every run; one sentence says so for all.
 BOOST_AUTO_TEST_CASE(what_the_end_of_a_phase_costs_is_said_once) {
     const TemporaryDirectory directory;

@@ -58,9 +58,23 @@ const std::vector<Claim> claims{
      "says = ['(6): u(1,t)', 'at most g2 = 0.005']",
      ""},
     {"set = ['ladder.elements=[10000000]', 'ladder.dt=[1e-9]']\nsays = ['long = true']", ""},
+    // By a run: α²Δt/((Δt + ζ)(1 + λ₁Δt)) is 6.25/(6·11) = 0.0947 for α = 2.5, Δt = 1 and ζ = 5,
+    // and
+    // 2.5²·0.1/(0.1·2) = 3.1 with Δt = 0.1 and ζ = 0; λ₁ ≈ 10.
+    {"set = ['beam.alpha=2.5', 'beam.zeta=0', 'scheme.algorithm=fixed-point']\n"
+     "says = ['would not contract']",
+     ""},
+    {"set = ['beam.alpha=2.5', 'beam.zeta=5', 'ladder.dt=[1]', 'scheme.algorithm=fixed-point']\n"
+     "says = ['would not contract']",
+     "it is not refused"},
     // What is wrong may be an expectation; those of the scene itself are not read again.
     {"set = ['expect.ladder.theta_L2L2.orders=[2, 1]']\nsays = ['lowest value is not below']", ""},
     {"set = ['expect.ladder.u_L2H2.orders=[1, 2]']\nsays = ['it measures theta_L2L2']", ""},
+    // Or what it comes to: a single level has no order, and its error is not 1 but below.
+    {"set = ['expect.ladder.theta_L2L2.orders=[1, 2]']\nsays = ['a ladder of one rung']", ""},
+    {"set = ['expect.ladder.theta_L2L2.errors=[1]']\nsays = ['expected 0.999 to 1.001, found']",
+     ""},
+    {"set = ['expect.derive.theta_L2L2.h=2']\nsays = ['expected']", "it is not refused"},
 };
 
 } // namespace
