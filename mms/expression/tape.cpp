@@ -1,6 +1,7 @@
 #include "mms/expression/tape.hpp"
 
 #include <algorithm>
+#include <cfenv>
 #include <cmath>
 #include <stdexcept>
 
@@ -15,6 +16,15 @@ template <typename Real, typename Function>
 void each(const Real* left, Real* target, Eigen::Index size, const Function& function) {
     for (Eigen::Index i = 0; i < size; ++i)
         target[i] = function(left[i]);
+}
+
+/// Whether something was too large for its type since this was last asked.
+bool overflowed() {
+    constexpr int too_large = FE_OVERFLOW | FE_DIVBYZERO;
+    const bool result = std::fetestexcept(too_large) != 0;
+    if (result)
+        std::feclearexcept(too_large);
+    return result;
 }
 
 } // namespace
@@ -112,9 +122,29 @@ Eigen::ArrayXXd Tape::evaluate(const Eigen::ArrayXd& x, const Eigen::ArrayXd& t)
     Eigen::ArrayXXd values(output_count(), points);
     if (points > 0 && wide_)
         evaluate_in<long double>(x, t, values);
-    else if (points > 0)
+    else if (points > 0) {
+        overflowed();
         evaluate_in<double>(x, t, values);
+        if (overflowed())
+            repeat_what_overflows(x, t, values);
+    }
     return values;
+}
+
+// Each point by itself, so that the others stay as they are wherever they stand in the array.
+void Tape::repeat_what_overflows(const Eigen::ArrayXd& x, const Eigen::ArrayXd& t,
+                                 Eigen::ArrayXXd& values) const {
+    Eigen::ArrayXXd value(output_count(), 1);
+    for (Eigen::Index k = 0; k < values.cols(); ++k) {
+        const Eigen::ArrayXd at_x = x.segment(x.size() == 1 ? 0 : k, 1);
+        const Eigen::ArrayXd at_t = t.segment(t.size() == 1 ? 0 : k, 1);
+        evaluate_in<double>(at_x, at_t, value);
+        if (overflowed()) {
+            evaluate_in<long double>(at_x, at_t, value);
+            overflowed();
+            values.col(k) = value;
+        }
+    }
 }
 
 template <typename Real>

@@ -149,17 +149,52 @@ void expect_formulas(const DerivedTable& of, const std::string& key) {
                 of.table.place(key)));
 }
 
+/// An equation, "heat" or "beam", and where its residual is looked at: "heat in space".
+std::vector<std::pair<std::string, std::optional<double>>> last_orders(const Residual& residual,
+                                                                       const std::string& where) {
+    return {{"heat in " + where, residual.heat_order}, {"beam in " + where, residual.beam_order}};
+}
+
+/// exact: those that have no residual, of which a band says nothing.
 template <typename Last>
-void expect_residual(const DerivedTable& of, const std::string& key, const Last& last) {
+void expect_residual(const DerivedTable& of, const std::string& key, const std::string& where,
+                     const std::vector<std::string>& exact, const Last& last) {
     const auto band = of.table.band(key);
     if (!band)
         return;
-    const Residual residual = last();
-    for (const auto& [equation, order] :
-         {std::pair("heat", residual.heat_order), std::pair("beam", residual.beam_order)})
-        of.add(held({what_of(of.table, key) + ": last order of the " + equation + " equation",
-                     order, "none: the residual is zero"},
-                    band->lowest, band->highest, of.table.place(key)));
+    for (const auto& [equation, order] : last_orders(last(), where))
+        if (std::ranges::find(exact, equation) == exact.end())
+            of.add(held({what_of(of.table, key) + ": last order of " + equation, order,
+                         "none: the residual is zero"},
+                        band->lowest, band->highest, of.table.place(key)));
+}
+
+/// Reads the residuals that are zero; those in time with the scene's own scheme.
+std::vector<std::string> expect_exact(const DerivedTable& of, const std::string& key,
+                                      const std::string& time) {
+    const auto wanted = of.table.texts(key);
+    if (!wanted)
+        return {};
+    auto orders = last_orders(of.parts.last_in_space(), "space");
+    const auto in_time = last_orders(of.parts.last_in_time(time), "time");
+    orders.insert(orders.end(), in_time.begin(), in_time.end());
+    for (std::size_t i = 0; i < wanted->size(); ++i) {
+        const auto found = std::ranges::find(orders, (*wanted)[i],
+                                             &std::pair<std::string, std::optional<double>>::first);
+        if (found == orders.end())
+            throw of.table.error(key,
+                                 " holds '" + (*wanted)[i] +
+                                     "'; it must be heat or beam, in space or in time: \"beam in "
+                                     "time\"",
+                                 i);
+        of.add(
+            {.what = what_of(of.table, key) + ": " + found->first,
+             .expected = "no residual",
+             .found = found->second ? "one of order " + metric_text(*found->second) : "no residual",
+             .place = of.table.place(key, i),
+             .holds = !found->second});
+    }
+    return *wanted;
 }
 
 void expect_order(const DerivedTable& of, const std::string& key, const Forecast& order) {
@@ -235,10 +270,11 @@ void expect_derived(TableReader& table, const Scene& scene,
         [reasons = table.has("reasons") ? parts.orders().reasons : std::vector<std::string>()](
             const StudyResult& /*result*/) { return reasons; });
     expect_formulas(whole, "formulas_within");
-    expect_residual(whole, "space_residual", [&] { return parts.last_in_space(); });
+    const auto exact = expect_exact(whole, "exact", scene.scheme.time.name);
+    expect_residual(whole, "space_residual", "space", exact, [&] { return parts.last_in_space(); });
     whole.within("time_residual", [&](const DerivedTable& inner) {
         for (const auto& time : TimeScheme::names())
-            expect_residual(inner, time, [&] { return parts.last_in_time(time); });
+            expect_residual(inner, time, "time", exact, [&] { return parts.last_in_time(time); });
     });
     expect_norms(whole);
 }

@@ -35,6 +35,8 @@ BEGIN {
     error("dip", abs(h^2 - 0.03 * h))                        # two terms that cancel near h = 0.03
     error("partial_dip", sqrt(4 * h^4 - 0.72 * h^3 + 0.04 * h^2)) # terms 2 h^2 and 0.2 h, cosine -0.9
     error("outlier", h^2 * (level == 3 ? 3 : 1))
+    error("bent_before", h^2 * (level == 3 ? 3 : level < 2 ? 2 : 1))  # off the line, which ends beside it
+    error("bent_behind", h^2 * (level == 3 ? 3 : level > 4 ? 2 : 1))
     error("steeper", exp(-0.4 * level^2))                    # no two orders agree
     error("growing", 0.01 / h)
     error("standing", 0.01 * (1 + 0.001 * sign))

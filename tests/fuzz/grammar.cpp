@@ -201,7 +201,7 @@ bool grammar(std::span<const std::uint8_t> data) {
                                 !(abs(in_doubles.value - expected) <= 1e-12 * terms + 1e-290);
             const Digits lost = leaves ? Digits(1e-25 * largest) : Digits(0);
             require(abs(value - expected) <= 1e-12 * terms + lost + 1e-290,
-                    chosen.text + " is " + std::to_string(value) + ", not " + expected.str(20));
+                    chosen.text + " is " + Digits(value).str(20) + ", not " + expected.str(20));
         }
         return true;
     } catch (const InputError&) {

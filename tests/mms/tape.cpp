@@ -269,4 +269,22 @@ BOOST_AUTO_TEST_CASE(threads_may_evaluate_one_tape_together) {
         BOOST_TEST(count == 0);
 }
 
+// At x = 1/16 the sum is 2^308 to rounding, its fourth power no double, and the value 2^800 over
+// it.
+BOOST_AUTO_TEST_CASE(a_part_that_overflows_at_one_point_is_not_lost_there) {
+    const Tape tape = compile_tape({parsed("x^(-200)/(x + x^(-77))^4"), parsed("x*t")});
+    const ArrayXd x = ArrayXd::LinSpaced(300, 0.0625, 1.0);
+    const Eigen::ArrayXXd values = tape.evaluate(x, ArrayXd::Constant(1, 0.5));
+    BOOST_TEST(values(0, 0) == std::ldexp(1.0, -432), boost::test_tools::tolerance(1e-13));
+    BOOST_TEST(values(0, 299) == 0.0625, boost::test_tools::tolerance(1e-13));
+    // The others are what they are alone.
+    for (Eigen::Index k = 0; k < x.size(); ++k)
+        BOOST_TEST(
+            (tape.evaluate(x.segment(k, 1), ArrayXd::Constant(1, 0.5)).col(0) == values.col(k))
+                .all());
+    // What is infinite stays so.
+    const Tape pole = compile_tape({parsed("1/x")});
+    BOOST_TEST(std::isinf(pole.evaluate(ArrayXd::Zero(1), ArrayXd::Zero(1))(0, 0)));
+}
+
 BOOST_AUTO_TEST_SUITE_END()
