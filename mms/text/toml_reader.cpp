@@ -187,18 +187,29 @@ TomlDocument parse_toml(std::string text, const std::string& file) {
 
 namespace {
 
-/// The table of an array whose number stands first in the path, and is taken away from it.
-toml::node& element_of(toml::array& array, const std::string& key, std::string& path,
+/// The parts of a key a."b.c".d, of which those in quotes may hold dots.
+std::vector<std::string> parts_of(const std::string& key) {
+    std::vector<std::string> parts(1);
+    char quote = '\0';
+    for (const char letter : key)
+        if (letter == quote || (quote == '\0' && (letter == '"' || letter == '\'')))
+            quote = quote == '\0' ? letter : '\0';
+        else if (letter == '.' && quote == '\0')
+            parts.emplace_back();
+        else
+            parts.back() += letter;
+    return parts;
+}
+
+/// The table of that number in an array.
+toml::node& element_of(toml::array& array, const std::string& key, const std::string& number,
                        const Place& place) {
-    const auto dot = std::min(path.find('.'), path.size());
-    const std::string number = path.substr(0, dot);
     std::size_t index = 0;
     const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), index);
     if (error != std::errc() || end != number.data() + number.size() || index >= array.size())
         throw InputError(place, "'" + key + "' is an array of " + std::to_string(array.size()) +
                                     " tables; name one by its number, 0 to " +
                                     std::to_string(array.size() - 1) + ", not '" + number + "'");
-    path.erase(0, dot + 1);
     return *array.get(index);
 }
 
@@ -209,8 +220,8 @@ void override_key(TomlDocument& document, const std::string& assignment) {
     const auto equals = assignment.find('=');
     if (equals == std::string::npos || equals == 0)
         throw InputError(place, "an override reads key=value, e.g. --set beam.alpha=1e3");
-    std::string path = assignment.substr(0, equals);
-    if (std::count(path.begin(), path.end(), '.') >= deepest)
+    std::vector<std::string> parts = parts_of(assignment.substr(0, equals));
+    if (parts.size() > static_cast<std::size_t>(deepest))
         throw InputError({"--set"}, "the key has more than " + std::to_string(deepest) + " parts");
     const std::string value = assignment.substr(equals + 1);
 
@@ -225,22 +236,23 @@ void override_key(TomlDocument& document, const std::string& assignment) {
         throw InputError(place, "an override sets one key to one value");
 
     toml::table* table = &document.table;
-    for (auto dot = path.find('.'); dot != std::string::npos; dot = path.find('.')) {
-        const std::string key = path.substr(0, dot);
-        path.erase(0, dot + 1);
+    for (std::size_t i = 0; i + 1 < parts.size(); ++i) {
+        const std::string& key = parts[i];
         toml::node* node = table->get(key);
         if (node == nullptr)
             node = &table->insert_or_assign(key, toml::table{}).first->second;
         if (toml::array* array = node->as_array(); array != nullptr && array->is_array_of_tables())
-            node = &element_of(*array, key, path, place);
+            node = &element_of(*array, key, parts[++i], place);
         table = node->as_table();
         if (table == nullptr)
             throw InputError(place, "'" + key + "' is " + type_name(*node) + ", not a table");
+        if (i + 1 == parts.size())
+            parts.emplace_back(); // it ends in the number of a table
     }
-    if (path.empty())
+    if (parts.back().empty())
         throw InputError(
             place, "the key ends in a dot or in the number of a table; name the key behind it");
-    table->insert_or_assign(path, std::move(*parsed.get("value")));
+    table->insert_or_assign(parts.back(), std::move(*parsed.get("value")));
 }
 
 namespace {

@@ -32,9 +32,9 @@ std::string toml_text(const std::string& file);
 TomlDocument parse_toml(std::string text, const std::string& file);
 
 /// Replaces or adds the key `a.b.c` of the document; `assignment` is "a.b.c=value" with a TOML
-/// value, or a text that is taken as a string when it is not one. Where a.b is an array of tables,
-/// the key behind it is the number of one, from 0. Throws InputError when it has no '=' or no key,
-/// or when a.b is not a table.
+/// value, or a text that is taken as a string when it is not one. A part in quotes may hold dots.
+/// Where a.b is an array of tables, the key behind it is the number of one, from 0. Throws
+/// InputError when it has no '=' or no key, or when a.b is not a table.
 void override_key(TomlDocument& document, const std::string& assignment);
 
 /// Takes the table at `key` away and puts its values in place of those of the same path.

@@ -255,6 +255,18 @@ BOOST_AUTO_TEST_CASE(overrides_replace_and_add_keys) {
     BOOST_TEST((scene.scheme.thermal_mass == ThermalMass::consistent));
 }
 
+BOOST_AUTO_TEST_CASE(a_part_of_a_key_in_quotes_may_hold_dots) {
+    const TemporaryDirectory directory;
+    const std::string file = directory.write(
+        "my.toml",
+        good + "[evolution]\nfinal_time = 1\nelements = 4\ndt = 0.5\nprobes = ['u@1']\n");
+    for (const std::string key : {"expect.evolution.\"u@1.last\"", "expect.evolution.'u@1.last'"})
+        BOOST_TEST(
+            read_scene(file, {key + "=[0, 1]"}, {.expectations = true}).expectations.size() == 1U);
+    BOOST_TEST(message_of(file, {"'beam.zeta'=1"}).find("unknown key 'beam.zeta'") !=
+               std::string::npos);
+}
+
 BOOST_AUTO_TEST_CASE(a_wrong_override_is_told_with_its_text) {
     const TemporaryDirectory directory;
     const std::string file = directory.write("my.toml", good);
