@@ -137,7 +137,9 @@ public:
                 open.push_back(&criticals_[i]);
         if (found.empty() && overflow_)
             found.push_back(*overflow_);
-        if (found.empty() && !open.empty())
+        const bool smooth_or_kinked = std::ranges::all_of(
+            found, [](const Singularity& one) { return one.kind == Singularity::Kind::kink; });
+        if (smooth_or_kinked && !open.empty())
             if (auto one = not_excluded(open))
                 found.push_back(*std::move(one));
         std::stable_sort(found.begin(), found.end(),

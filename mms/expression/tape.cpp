@@ -18,13 +18,23 @@ void each(const Real* left, Real* target, Eigen::Index size, const Function& fun
         target[i] = function(left[i]);
 }
 
-/// Whether something was too large for its type since this was last asked.
-bool overflowed() {
-    constexpr int too_large = FE_OVERFLOW | FE_DIVBYZERO;
-    const bool result = std::fetestexcept(too_large) != 0;
+/// Whether something was too large or too small for its type since this was last asked.
+bool left_range() {
+    constexpr int left = FE_OVERFLOW | FE_DIVBYZERO | FE_UNDERFLOW;
+    const bool result = std::fetestexcept(left) != 0;
     if (result)
-        std::feclearexcept(too_large);
+        std::feclearexcept(left);
     return result;
+}
+
+/// What a sum or a product makes of an exponential that is zero to rounding, the tail of a layer,
+/// is the same in any type: that it underflows is not counted.
+template <typename Run>
+void run_exponential(const Run& run) {
+    const bool before = std::fetestexcept(FE_UNDERFLOW) != 0;
+    run();
+    if (!before && std::fetestexcept(FE_UNDERFLOW) != 0)
+        std::feclearexcept(FE_UNDERFLOW);
 }
 
 } // namespace
@@ -102,7 +112,7 @@ void Tape::run(const Instruction& instruction, Registers<Real>& registers, Eigen
     case Operation::Tanh:
         return each(a, c, size, [](Real v) { return std::tanh(v); });
     case Operation::Exp:
-        return each(a, c, size, [](Real v) { return std::exp(v); });
+        return run_exponential([&] { each(a, c, size, [](Real v) { return std::exp(v); }); });
     case Operation::Log:
         return each(a, c, size, [](Real v) { return std::log(v); });
     case Operation::Step: // as GiNaC's: 1/2 at 0
@@ -123,25 +133,25 @@ Eigen::ArrayXXd Tape::evaluate(const Eigen::ArrayXd& x, const Eigen::ArrayXd& t)
     if (points > 0 && wide_)
         evaluate_in<long double>(x, t, values);
     else if (points > 0) {
-        overflowed();
+        left_range();
         evaluate_in<double>(x, t, values);
-        if (overflowed())
-            repeat_what_overflows(x, t, values);
+        if (left_range())
+            repeat_what_left_range(x, t, values);
     }
     return values;
 }
 
 // Each point by itself, so that the others stay as they are wherever they stand in the array.
-void Tape::repeat_what_overflows(const Eigen::ArrayXd& x, const Eigen::ArrayXd& t,
-                                 Eigen::ArrayXXd& values) const {
+void Tape::repeat_what_left_range(const Eigen::ArrayXd& x, const Eigen::ArrayXd& t,
+                                  Eigen::ArrayXXd& values) const {
     Eigen::ArrayXXd value(output_count(), 1);
     for (Eigen::Index k = 0; k < values.cols(); ++k) {
         const Eigen::ArrayXd at_x = x.segment(x.size() == 1 ? 0 : k, 1);
         const Eigen::ArrayXd at_t = t.segment(t.size() == 1 ? 0 : k, 1);
         evaluate_in<double>(at_x, at_t, value);
-        if (overflowed()) {
+        if (left_range()) {
             evaluate_in<long double>(at_x, at_t, value);
-            overflowed();
+            left_range();
             values.col(k) = value;
         }
     }

@@ -12,8 +12,8 @@ namespace tvbeam {
 /// Several expressions in x and t, compiled to one list of instructions in which common
 /// subexpressions stand once. Made by compile_tape (tape_compiler.hpp). Evaluation changes nothing
 /// and may run in several threads at once. Where an intermediate result could leave the range of a
-/// double, as 1000^118 does, it is done in long double, and so it is at points where one overflows,
-/// as x^-80 does at x = 1e-4; the values are doubles. What underflows on the way is zero.
+/// double, as 1000^118 does, it is done in long double, and so it is at points where one does, as
+/// x^-80 at x = 1e-4; the values are doubles. Only an exponential may underflow to zero.
 class Tape {
 public:
     /// The values of the expressions at the points (x_i, t_i); shape: one row an expression, one
@@ -83,8 +83,8 @@ private:
     template <typename Real>
     void evaluate_in(const Eigen::ArrayXd& x, const Eigen::ArrayXd& t,
                      Eigen::ArrayXXd& values) const;
-    void repeat_what_overflows(const Eigen::ArrayXd& x, const Eigen::ArrayXd& t,
-                               Eigen::ArrayXXd& values) const;
+    void repeat_what_left_range(const Eigen::ArrayXd& x, const Eigen::ArrayXd& t,
+                                Eigen::ArrayXXd& values) const;
     template <typename Real>
     [[nodiscard]] Enclosure enclose_in(Eigen::Index output, double x, double begin,
                                        double end) const;

@@ -149,6 +149,21 @@ void expect_formulas(const DerivedTable& of, const std::string& key) {
                 of.table.place(key)));
 }
 
+/// largest = { TERM = [lowest, highest] }: how large the terms become.
+void expect_largest(const DerivedTable& of, const std::vector<TermUse>& terms) {
+    of.within("largest", [&](const DerivedTable& inner) {
+        for (const auto& name : inner.table.unread()) {
+            const auto use = std::ranges::find(terms, name, &TermUse::term);
+            if (use == terms.end())
+                throw InputError(inner.table.place_of_key(name),
+                                 inner.table.full(name) + ": there is no such term");
+            const auto band = inner.table.band(name);
+            inner.add(held({what_of(inner.table, name), use->largest, ""}, band->lowest,
+                           band->highest, inner.table.place(name)));
+        }
+    });
+}
+
 /// An equation, "heat" or "beam", and where its residual is looked at: "heat in space".
 std::vector<std::pair<std::string, std::optional<double>>> last_orders(const Residual& residual,
                                                                        const std::string& where) {
@@ -167,6 +182,21 @@ void expect_residual(const DerivedTable& of, const std::string& key, const std::
             of.add(held({what_of(of.table, key) + ": last order of " + equation, order,
                          "none: the residual is zero"},
                         band->lowest, band->highest, of.table.place(key)));
+}
+
+/// residual = { "heat in space" = [lowest, highest] }: those of the last refinement that is shown,
+/// in time with the scene's own scheme.
+void expect_residual_sizes(const DerivedTable& of, const std::string& time) {
+    of.within("residual", [&](const DerivedTable& inner) {
+        const Residual in_space = of.parts.last_in_space();
+        const Residual in_time = of.parts.last_in_time(time);
+        for (const auto& [name, size] :
+             {std::pair("heat in space", in_space.heat), std::pair("beam in space", in_space.beam),
+              std::pair("heat in time", in_time.heat), std::pair("beam in time", in_time.beam)})
+            if (const auto band = inner.table.band(name))
+                inner.add(held({what_of(inner.table, name), size, ""}, band->lowest, band->highest,
+                               inner.table.place(name)));
+    });
 }
 
 /// Reads the residuals that are zero; those in time with the scene's own scheme.
@@ -262,9 +292,12 @@ void expect_derived(TableReader& table, const Scene& scene,
     DerivedParts parts(solution_of(table, scene), scene);
     const DerivedTable whole{table, parts, expectations};
     const std::vector<TermUse> terms =
-        table.has("exercises") || table.has("untested") ? parts.terms() : std::vector<TermUse>();
+        table.has("exercises") || table.has("untested") || table.has("largest")
+            ? parts.terms()
+            : std::vector<TermUse>();
     expect_terms(whole, "exercises", true, terms);
     expect_terms(whole, "untested", false, terms);
+    expect_largest(whole, terms);
     expect_sentences(
         table, "reasons", expectations,
         [reasons = table.has("reasons") ? parts.orders().reasons : std::vector<std::string>()](
@@ -276,6 +309,7 @@ void expect_derived(TableReader& table, const Scene& scene,
         for (const auto& time : TimeScheme::names())
             expect_residual(inner, time, "time", exact, [&] { return parts.last_in_time(time); });
     });
+    expect_residual_sizes(whole, scene.scheme.time.name);
     expect_norms(whole);
 }
 

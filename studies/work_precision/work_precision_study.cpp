@@ -2,6 +2,7 @@
 #include "studies/scene/scene.hpp"
 #include "studies/study_kind.hpp"
 #include "studies/table_row.hpp"
+#include "studies/work_precision/sooner_expectation.hpp"
 #include "studies/work_precision/work_precision.hpp"
 
 namespace tvbeam {
@@ -41,6 +42,7 @@ struct WorkPrecisionStudy final : KindOf<WorkPrecisionBlock, WorkPrecisionResult
     }
     void expect(TableReader& table, const std::any& block,
                 std::vector<Expectation>& expectations) const override {
+        expect_sooner(table, block_in(block), expectations);
         const auto all = series_of(block_in(block));
         for (std::size_t i = 0; i < all.size(); ++i)
             if (auto scheme = table.table(block_in(block).schemes[i].name)) {

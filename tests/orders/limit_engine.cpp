@@ -77,6 +77,24 @@ BOOST_AUTO_TEST_CASE(a_limit_is_no_better_known_than_its_values_scatter) {
     }
 }
 
+// The mean of n values of the deviation σ has σ/√n.
+BOOST_AUTO_TEST_CASE(values_of_a_width_with_stated_deviations_are_their_mean) {
+    constexpr int n = 4;
+    const auto once = sequence(5, [](double h) { return 7 + h * h; });
+    std::vector<ValueRow> means;
+    std::vector<ValueRow> rows;
+    for (auto row : once) {
+        row.sigma = 0.01;
+        rows.insert(rows.end(), n, row);
+        row.sigma /= std::sqrt(n);
+        means.push_back(row);
+    }
+    const auto of_rows = estimate_limit(rows).limit;
+    const auto of_means = estimate_limit(means).limit;
+    BOOST_TEST(of_rows.low == of_means.low, boost::test_tools::tolerance(1e-9));
+    BOOST_TEST(of_rows.high == of_means.high, boost::test_tools::tolerance(1e-9));
+}
+
 // The steps 0.001 and 0.002 grow, so that the values run apart; where each value is only known to
 // 0.01, a difference of two has the deviation 0.014, of which neither step is three times.
 BOOST_AUTO_TEST_CASE(values_that_differ_by_less_than_their_scatter_do_not_run_apart) {
