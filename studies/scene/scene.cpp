@@ -220,6 +220,9 @@ void read_expectations(Scene& scene, TableReader expect, const Reading& reading)
     });
     expect_sentences(expect, "remarks", scene.expectations,
                      [](const StudyResult& result) { return result.remarks; });
+    expect_band(expect, "law_distance", scene.expectations, [](const StudyResult& result) {
+        return std::vector{Metric{"law_distance", result.law_distance, ""}};
+    });
     if (auto table = expect.table("reference")) {
         if (!scene.reference)
             throw expect.error("reference", " expects something of a block [reference], which the "

@@ -287,6 +287,8 @@ Entries of_expectations() {
          "all that is left out, by what stands before the colon"},
         {"expect.remarks", KeyType::texts, "anything",
          "what the result says of all studies, each sentence by how it begins"},
+        {"expect.law_distance", KeyType::band, "anything",
+         "by how much a solution of rigid stops misses the law of penalised ones, a length"},
         {"expect.reference", KeyType::table, "anything", "of the block [reference]"},
         {"expect.reference.elements", KeyType::numbers, "anything",
          "of the runs that it is made of"},
