@@ -133,11 +133,14 @@ std::vector<DerivedFormula> derived_formulas(const Solution& solution, bool pena
 }
 
 double distance_of_formulas(const Solution& solution, const Beam& beam, double final_time) {
+    struct Sizes {
+        double distance = 0.0;
+        double greatest = 0.0;
+    };
     const bool penalised = beam.stops.epsilon > 0.0;
     const DerivedSolution derived = derive_on(solution, beam);
     std::size_t next = 0; // the phase that the next f is of
-    double distance = 0.0;
-    double greatest = 0.0;
+    std::map<std::string, Sizes> sizes;
     for (const auto& formula : derived_formulas(solution, penalised)) {
         const bool at_start = formula.interval == "t = 0";
         next += formula.symbol == "f" ? 1 : 0;
@@ -147,10 +150,14 @@ double distance_of_formulas(const Solution& solution, const Beam& beam, double f
         if (begin >= final_time || formula.symbol == "sigma" || (formula.symbol == "G" && by_law))
             continue;
         const double end = at_start ? 0.0 : std::min(derived.phases[i].end_value, final_time);
-        const Tape tape = located(solution.phases[i].u, "the solution", [&] {
-            return compile_tape({read_again(formula.text, solution, beam),
-                                 computed(formula.symbol, derived.derived[i])});
-        });
+        const bool of_heat = formula.symbol == "f" || formula.symbol == "theta0";
+        const Tape tape =
+            located(of_heat ? solution.phases[i].theta : solution.phases[i].u,
+                    formula.symbol + " as it is printed", [&] {
+                        return compile_tape({read_again(formula.text, solution, beam),
+                                             computed(formula.symbol, derived.derived[i])});
+                    });
+        Sizes& size = sizes[formula.symbol];
         for (const double t : sample_points(begin, end)) {
             const Eigen::ArrayXXd both =
                 tape.evaluate(sample_points(0.0, 1.0), Eigen::ArrayXd::Constant(1, t));
@@ -161,12 +168,21 @@ double distance_of_formulas(const Solution& solution, const Beam& beam, double f
                     return std::numeric_limits<double>::infinity();
                 if (!is_finite)
                     continue;
-                distance = std::max(distance, std::abs(both(0, k) - both(1, k)));
-                greatest = std::max(greatest, std::abs(both(1, k)));
+                size.distance = std::max(size.distance, std::abs(both(0, k) - both(1, k)));
+                size.greatest = std::max(size.greatest, std::abs(both(1, k)));
             }
         }
     }
-    return greatest > 0.0 ? distance / greatest : distance;
+    double greatest = 0.0;
+    for (const auto& [symbol, size] : sizes)
+        greatest = std::max(greatest, size.greatest);
+    // Of terms that cancel, rounding is left.
+    constexpr double nothing = 1e-12;
+    double result = 0.0;
+    for (const auto& [symbol, size] : sizes)
+        if (size.distance > 0.0)
+            result = std::max(result, size.distance / std::max(size.greatest, nothing * greatest));
+    return result;
 }
 
 } // namespace tvbeam

@@ -255,9 +255,11 @@ private:
         const auto distance = [&](double t) {
             return tape.evaluate(x, ArrayXd::Constant(1, t)).row(1).abs().maxCoeff();
         };
-        const double last = std::min(derived_.phases[i + 1].end_value, final_time_);
-        const auto meeting =
-            meeting_time(distance, phase.begin_value, last, relative_tolerance * scale);
+        // The later phase must be left a time of its own, unless the run ends before it does.
+        const double last =
+            std::min(std::nextafter(derived_.phases[i + 1].end_value, 0.0), final_time_);
+        const auto meeting = meeting_time(distance, phase.begin_value, last, phase.end_value,
+                                          relative_tolerance * scale);
         throw InputError(
             source.begin(),
             jump_text(equation + ": " + what, values(largest), phase.end_value, x(largest)) +

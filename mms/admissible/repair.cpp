@@ -7,6 +7,7 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 namespace tvbeam {
 
@@ -54,22 +55,10 @@ double switch_time(const std::function<bool(double t)>& state, double begin, dou
     return 0.5 * (begin + end);
 }
 
-std::optional<std::string> meeting_time(const std::function<double(double t)>& distance,
-                                        double begin, double end, double tolerance) {
-    constexpr int samples = 256;
-    const double width = (end - begin) / samples;
-    double nearest = begin;
-    double least = distance(begin);
-    for (int i = 1; i <= samples; ++i) {
-        const double t = begin + width * i;
-        if (const double here = distance(t); here < least) {
-            nearest = t;
-            least = here;
-        }
-    }
-    // A ternary search: near its zero a distance falls and rises again.
-    double left = std::max(begin, nearest - width);
-    double right = std::min(end, nearest + width);
+namespace {
+
+/// Where a distance that falls and rises again in [left, right] is least: a ternary search.
+double least_between(const std::function<double(double t)>& distance, double left, double right) {
     constexpr int thirds = 100;
     for (int i = 0; i < thirds; ++i) {
         const double third = (right - left) / 3.0;
@@ -78,16 +67,43 @@ std::optional<std::string> meeting_time(const std::function<double(double t)>& d
         else
             left += third;
     }
+    return 0.5 * (left + right);
+}
+
+} // namespace
+
+std::optional<std::string> meeting_time(const std::function<double(double t)>& distance,
+                                        double begin, double end, double wanted, double tolerance) {
+    constexpr int samples = 256;
     constexpr int fewest_digits = 6;
-    for (int digits = fewest_digits; digits <= std::numeric_limits<double>::max_digits10;
-         ++digits) {
-        const std::string text = number_text(0.5 * (left + right), digits);
-        double written = 0.0;
-        std::from_chars(text.data(), text.data() + text.size(), written);
-        if (written > begin && distance(written) <= tolerance)
-            return text;
+    const auto at = [&](int i) { return begin + (end - begin) * i / samples; };
+    std::vector<double> distances;
+    for (int i = 0; i <= samples; ++i)
+        distances.push_back(distance(at(i)));
+    std::optional<std::string> nearest;
+    double off = std::numeric_limits<double>::infinity();
+    // Both phases may be the same where the first begins, which is no place to end it.
+    for (int i = 1; i <= samples; ++i) {
+        const auto k = static_cast<std::size_t>(i);
+        if (!(distances[k] <= distances[k - 1] &&
+              (i == samples || distances[k] <= distances[k + 1])))
+            continue;
+        const double least = least_between(distance, at(i - 1), std::min(at(i + 1), end));
+        for (int digits = fewest_digits; digits <= std::numeric_limits<double>::max_digits10;
+             ++digits) {
+            const std::string text = number_text(least, digits);
+            double written = 0.0;
+            std::from_chars(text.data(), text.data() + text.size(), written);
+            if (!(written > begin && written <= end && distance(written) <= tolerance))
+                continue;
+            if (std::abs(written - wanted) < off) {
+                off = std::abs(written - wanted);
+                nearest = text;
+            }
+            break;
+        }
     }
-    return std::nullopt;
+    return nearest;
 }
 
 } // namespace tvbeam

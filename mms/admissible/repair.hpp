@@ -23,9 +23,10 @@ double rounded_out(double value);
 /// A time in (begin, end) at which the state, different at both ends, changes; to rounding.
 double switch_time(const std::function<bool(double t)>& state, double begin, double end);
 
-/// The time in [begin, end] where a distance ≥ 0 that is sampled there comes down to the tolerance,
-/// in as few digits, 6 or more, as keep it there; none: it does not.
+/// The time in (begin, end], the nearest to the one that is wanted, where a distance ≥ 0 that is
+/// sampled there comes down to the tolerance, in as few digits, 6 or more, as keep it there; none:
+/// it does not.
 std::optional<std::string> meeting_time(const std::function<double(double t)>& distance,
-                                        double begin, double end, double tolerance);
+                                        double begin, double end, double wanted, double tolerance);
 
 } // namespace tvbeam

@@ -135,11 +135,13 @@ public:
                 found.push_back(*std::move(one));
             else if (!is_constant_[static_cast<std::size_t>(criticals_[i].operand)])
                 open.push_back(&criticals_[i]);
-        if (found.empty() && overflow_)
+        const auto is_kinked_at_most = [&] {
+            return std::ranges::all_of(
+                found, [](const Singularity& one) { return one.kind == Singularity::Kind::kink; });
+        };
+        if (is_kinked_at_most() && overflow_)
             found.push_back(*overflow_);
-        const bool smooth_or_kinked = std::ranges::all_of(
-            found, [](const Singularity& one) { return one.kind == Singularity::Kind::kink; });
-        if (smooth_or_kinked && !open.empty())
+        if (is_kinked_at_most() && !open.empty())
             if (auto one = not_excluded(open))
                 found.push_back(*std::move(one));
         std::stable_sort(found.begin(), found.end(),

@@ -13,7 +13,8 @@ namespace tvbeam {
 /// subexpressions stand once. Made by compile_tape (tape_compiler.hpp). Evaluation changes nothing
 /// and may run in several threads at once. Where an intermediate result could leave the range of a
 /// double, as 1000^118 does, it is done in long double, and so it is at points where one does, as
-/// x^-80 at x = 1e-4; the values are doubles. Only an exponential may underflow to zero.
+/// x^-80 at x = 1e-4; the values are doubles. An exponential that underflows is zero, and with it
+/// what is multiplied by it, however large.
 class Tape {
 public:
     /// The values of the expressions at the points (x_i, t_i); shape: one row an expression, one

@@ -187,7 +187,21 @@ TomlDocument parse_toml(std::string text, const std::string& file) {
 
 namespace {
 
-/// The parts of a key a."b.c".d, of which those in quotes may hold dots.
+/// Where the '=' behind the key stands; npos: there is none.
+std::size_t end_of_key(const std::string& assignment) {
+    char quote = '\0';
+    for (std::size_t i = 0; i < assignment.size(); ++i)
+        if (assignment[i] == quote)
+            quote = '\0';
+        else if (quote == '\0' && (assignment[i] == '"' || assignment[i] == '\''))
+            quote = assignment[i];
+        else if (quote == '\0' && assignment[i] == '=')
+            return i;
+    return std::string::npos;
+}
+
+/// The parts of a key a."b.c".d, of which those in quotes may hold dots; as they stand, without
+/// escapes.
 std::vector<std::string> parts_of(const std::string& key) {
     std::vector<std::string> parts(1);
     char quote = '\0';
@@ -217,7 +231,7 @@ toml::node& element_of(toml::array& array, const std::string& key, const std::st
 
 void override_key(TomlDocument& document, const std::string& assignment) {
     const Place place{"--set " + assignment};
-    const auto equals = assignment.find('=');
+    const auto equals = end_of_key(assignment);
     if (equals == std::string::npos || equals == 0)
         throw InputError(place, "an override reads key=value, e.g. --set beam.alpha=1e3");
     std::vector<std::string> parts = parts_of(assignment.substr(0, equals));

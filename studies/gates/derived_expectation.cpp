@@ -170,18 +170,30 @@ std::vector<std::pair<std::string, std::optional<double>>> last_orders(const Res
     return {{"heat in " + where, residual.heat_order}, {"beam in " + where, residual.beam_order}};
 }
 
-/// exact: those that have no residual, of which a band says nothing.
+CheckedExpectation no_residual(const std::string& what, const std::optional<double>& order,
+                               const Place& place) {
+    return {.what = what,
+            .expected = "no residual",
+            .found = order ? "one of order " + metric_text(*order) : "no residual",
+            .place = place,
+            .holds = !order};
+}
+
+/// exact: those that have none with any scheme; the band is of the others.
 template <typename Last>
 void expect_residual(const DerivedTable& of, const std::string& key, const std::string& where,
                      const std::vector<std::string>& exact, const Last& last) {
     const auto band = of.table.band(key);
     if (!band)
         return;
-    for (const auto& [equation, order] : last_orders(last(), where))
+    for (const auto& [equation, order] : last_orders(last(), where)) {
+        const std::string what = what_of(of.table, key) + ": ";
         if (std::ranges::find(exact, equation) == exact.end())
-            of.add(held({what_of(of.table, key) + ": last order of " + equation, order,
-                         "none: the residual is zero"},
+            of.add(held({what + "last order of " + equation, order, "none: the residual is zero"},
                         band->lowest, band->highest, of.table.place(key)));
+        else
+            of.add(no_residual(what + equation, order, of.table.place(key)));
+    }
 }
 
 /// residual = { "heat in space" = [lowest, highest] }: those of the last refinement that is shown,
@@ -217,12 +229,8 @@ std::vector<std::string> expect_exact(const DerivedTable& of, const std::string&
                                      "'; it must be heat or beam, in space or in time: \"beam in "
                                      "time\"",
                                  i);
-        of.add(
-            {.what = what_of(of.table, key) + ": " + found->first,
-             .expected = "no residual",
-             .found = found->second ? "one of order " + metric_text(*found->second) : "no residual",
-             .place = of.table.place(key, i),
-             .holds = !found->second});
+        of.add(no_residual(what_of(of.table, key) + ": " + found->first, found->second,
+                           of.table.place(key, i)));
     }
     return *wanted;
 }

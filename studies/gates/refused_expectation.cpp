@@ -7,6 +7,7 @@
 #include "studies/study.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <optional>
 #include <string>
 #include <utility>
@@ -16,71 +17,92 @@ namespace tvbeam {
 
 namespace {
 
+/// A scene that may have to be run is predicted to take no longer, in seconds.
+constexpr double longest_run = 10.0;
+constexpr std::size_t most_variants = 200;
+
 /// A change of a scene.
 struct Variant {
     std::string file;
     std::vector<std::string> overrides;
+    Reading reading;                     ///< with the keys that are changed
     std::optional<std::string> solution; ///< in place of the scene's
-    Reading reading;
 };
 
-/// What it is refused with, or why its first run that fails does, or what of its own expectations
-/// is violated first; nothing: none of them.
-std::optional<std::string> refusal(const Variant& variant) {
+/// What became of it: refused, failed, or an expectation of its own violated; or none of them.
+struct Outcome {
+    bool refused = false;
+    std::string said;
+};
+
+Outcome outcome_of(const Variant& variant) {
     try {
         Scene scene = read_scene(variant.file, variant.overrides, variant.reading);
         if (variant.solution)
             scene.problem = parse_solution(*variant.solution, "solution");
-        require_short_enough(scene, predicted_work(scene));
+        scene.is_long = false; // whoever runs the scene was not asked about this one
+        const PredictedWork predicted = predicted_work(scene);
+        require_short_enough(scene, predicted);
+        // How long a program of the scene's own takes, nobody knows.
+        if (!scene.solver && std::max(predicted.seconds, predicted.at_most) > longest_run)
+            return {false, "it is not refused before anything runs, and asks for " +
+                               predicted.text() + ": too long to see whether a run fails"};
         const StudyResult result = run_study(scene);
         if (result.failed())
-            return result.ending().reason;
+            return {true, result.ending().reason};
         for (const auto& one : check(result))
             if (!one.holds)
-                return one.what + ": expected " + one.expected + ", found " + one.found;
-        return std::nullopt;
+                return {true, one.what + ": expected " + one.expected + ", found " + one.found};
+        return {false, "it is not refused"};
     } catch (const InputError& error) {
-        return error.what();
+        return {true, error.what()};
     }
 }
 
 Variant read_variant(TableReader& table, const Scene& scene, Reading reading) {
-    const auto set = table.texts("set").value_or(std::vector<std::string>());
+    reading.variant = table.texts("set").value_or(std::vector<std::string>());
+    reading.asked = nullptr;
     auto solution = table.text("solution");
-    if (set.empty() && !solution)
+    if (reading.variant->empty() && !solution)
         throw table.error("", " changes nothing; give it set = [\"KEY=VALUE\"] or the text of a "
                               "solution");
-    // Of its expectations only those that are changed are read.
-    std::vector<std::string> overrides = scene.overrides;
-    overrides.emplace_back("expect={}");
-    overrides.insert(overrides.end(), set.begin(), set.end());
-    reading.asked = nullptr;
-    reading.expectations = std::ranges::any_of(
-        set, [](const std::string& assignment) { return assignment.starts_with("expect."); });
-    return {scene.file, std::move(overrides), std::move(solution), std::move(reading)};
+    if (solution && (scene.solver || !scene.poses_problem()))
+        throw table.error("solution", " would stand in place of the scene's, and it has none");
+    return {scene.file, scene.overrides, std::move(reading), std::move(solution)};
+}
+
+/// Words that not every message holds.
+bool says_something(const std::string& words) {
+    return std::ranges::any_of(words, [](unsigned char letter) { return std::isalnum(letter); });
 }
 
 } // namespace
 
 void expect_refused(TableReader& expect, const Scene& scene, const Reading& reading,
                     std::vector<Expectation>& expectations) {
-    for (auto& table : expect.tables("refused")) {
+    auto tables = expect.tables("refused");
+    if (tables.size() > most_variants)
+        throw expect.error("refused", " has " + std::to_string(tables.size()) +
+                                          " changes; at most " + std::to_string(most_variants) +
+                                          " are tried");
+    for (auto& table : tables) {
         Variant variant = read_variant(table, scene, reading);
         auto says = table.texts("says").value_or(std::vector<std::string>());
-        if (says.empty() || std::ranges::any_of(says, &std::string::empty))
+        if (says.empty() || !std::ranges::all_of(says, says_something))
             throw table.error("says", " must hold words of the message that is expected");
         table.finish();
         expectations.push_back([variant = std::move(variant), says = std::move(says),
-                                what = table.full("says"),
+                                what = what_of(table, "says"),
                                 place = table.place("says")](const StudyResult& /*result*/) {
-            const auto found = refusal(variant);
+            const Outcome outcome = outcome_of(variant);
             std::vector<CheckedExpectation> checked;
-            for (const auto& words : says)
-                checked.push_back({.what = what,
-                                   .expected = "a message with \"" + words + "\"",
-                                   .found = found.value_or("it is not refused"),
-                                   .place = place,
-                                   .holds = found && found->find(words) != std::string::npos});
+            for (std::size_t i = 0; i < says.size(); ++i)
+                checked.push_back(
+                    {.what = what + "." + std::to_string(i),
+                     .expected = "a message with \"" + says[i] + "\"",
+                     .found = outcome.said,
+                     .place = place,
+                     .holds = outcome.refused && outcome.said.find(says[i]) != std::string::npos});
             return checked;
         });
     }

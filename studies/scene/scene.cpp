@@ -221,7 +221,10 @@ void read_expectations(Scene& scene, TableReader expect, const Reading& reading)
     expect_sentences(expect, "remarks", scene.expectations,
                      [](const StudyResult& result) { return result.remarks; });
     expect_band(expect, "law_distance", scene.expectations, [](const StudyResult& result) {
-        return std::vector{Metric{"law_distance", result.law_distance, ""}};
+        const bool yields = !result.scene.solver && result.scene.beam.stops.epsilon > 0.0;
+        return std::vector{Metric{"law_distance",
+                                  yields ? std::optional(result.law_distance) : std::nullopt,
+                                  "none: there are no stops that yield"}};
     });
     if (auto table = expect.table("reference")) {
         if (!scene.reference)
@@ -261,6 +264,25 @@ void read_expectations(Scene& scene, TableReader expect, const Reading& reading)
 
 } // namespace
 
+namespace {
+
+void override_keys(TomlDocument& document, const std::vector<std::string>& assignments) {
+    for (const auto& assignment : assignments) {
+        override_key(document, assignment);
+        require_known_keys(document, scene_keys(), {"--set " + assignment});
+    }
+}
+
+/// What a variant of the scene does without.
+void take_away_expectations(TomlDocument& document) {
+    document.table.erase("expect");
+    for (const auto& kind : study_kinds())
+        if (kind->judges_expectations())
+            document.table.erase(kind->name());
+}
+
+} // namespace
+
 Scene read_scene(const std::string& name_or_file, const std::vector<std::string>& overrides,
                  const Reading& reading) {
     const std::filesystem::path path = find_file(Shipped::scene, name_or_file);
@@ -271,9 +293,10 @@ Scene read_scene(const std::string& name_or_file, const std::vector<std::string>
         reading.short_form ? naming_runs_in_short(document) : std::set<std::string>();
     if (reading.short_form)
         merge_block(document, "short");
-    for (const auto& assignment : overrides) {
-        override_key(document, assignment);
-        require_known_keys(document, scene_keys(), {"--set " + assignment});
+    override_keys(document, overrides);
+    if (reading.variant) {
+        take_away_expectations(document);
+        override_keys(document, *reading.variant);
     }
     document.asked = reading.asked;
 
@@ -316,7 +339,7 @@ Scene read_scene(const std::string& name_or_file, const std::vector<std::string>
         return kind->judges_expectations();
     });
     if (auto expect = root.table("expect");
-        expect && (reading.expectations || judging != kinds.end()))
+        expect && (reading.expectations || reading.variant || judging != kinds.end()))
         read_expectations(scene, *std::move(expect), reading);
     if (judging != kinds.end() && scene.expectations.empty())
         throw InputError(root.place((*judging)->name()),

@@ -79,6 +79,9 @@ struct Reading {
     /// Kinds of files that [report] may name; empty: any.
     std::vector<std::string> report_files = {};
     AskedKeys* asked = nullptr; ///< where to note what the scene may hold and does; null: nowhere
+    /// With these keys, KEY=VALUE each, and without what the scene itself expects and what studies
+    /// that: as [[expect.refused]] changes it. Expectations are read where a key is of them.
+    std::optional<std::vector<std::string>> variant = std::nullopt;
 };
 
 /// Reads a scene: a shipped name or a file, with overrides `key=value` applied in order. Everything

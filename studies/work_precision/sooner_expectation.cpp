@@ -1,7 +1,6 @@
 #include "studies/work_precision/sooner_expectation.hpp"
 
 #include "mms/text/toml_reader.hpp"
-#include "studies/study.hpp"
 #include "studies/work_precision/work_precision.hpp"
 
 #include <boost/algorithm/string/join.hpp>
@@ -26,10 +25,12 @@ std::size_t place_of(TableReader& table, const std::string& key,
                      const std::vector<std::string>& names) {
     const auto name = table.text(key);
     if (!name)
-        throw table.error(key, " is missing; give it one of " + boost::algorithm::join(names, ", "));
+        throw table.error(key,
+                          " is missing; give it one of " + boost::algorithm::join(names, ", "));
     const auto found = std::ranges::find(names, *name);
     if (found == names.end())
-        throw table.error(key, " is '" + *name + "'; it must be one of " + boost::algorithm::join(names, ", "));
+        throw table.error(key, " is '" + *name + "'; it must be one of " +
+                                   boost::algorithm::join(names, ", "));
     return static_cast<std::size_t>(found - names.begin());
 }
 
@@ -37,17 +38,18 @@ std::size_t place_of(TableReader& table, const std::string& key,
 std::optional<Comparison> compared(const Pairing& pair, const WorkPrecisionBlock& block,
                                    const WorkPrecisionResult& result) {
     const auto costs = costs_of(block, result.schemes);
-    for (const auto& reached : costs[pair.norm].errors) {
-        if (!(std::abs(reached.error - pair.error) <= same_error * pair.error))
-            continue;
-        for (const auto& one : reached.comparisons) {
-            if (one.faster == pair.faster && one.slower == pair.slower)
-                return one.times;
-            if (one.faster == pair.slower && one.slower == pair.faster) {
-                Comparison turned = one.times;
-                turned.ratio = 1.0 / one.times.ratio;
-                return turned;
-            }
+    const auto& errors = costs[pair.norm].errors;
+    const auto off = [&](const ReachedError& one) { return std::abs(one.error - pair.error); };
+    const auto nearest = std::ranges::min_element(errors, {}, off);
+    if (nearest == errors.end() || !(off(*nearest) <= same_error * pair.error))
+        return std::nullopt;
+    for (const auto& one : nearest->comparisons) {
+        if (one.faster == pair.faster && one.slower == pair.slower)
+            return one.times;
+        if (one.faster == pair.slower && one.slower == pair.faster) {
+            Comparison turned = one.times;
+            turned.ratio = 1.0 / one.times.ratio;
+            return turned;
         }
     }
     return std::nullopt;
@@ -56,6 +58,7 @@ std::optional<Comparison> compared(const Pairing& pair, const WorkPrecisionBlock
 } // namespace
 
 void expect_sooner(TableReader& table, const WorkPrecisionBlock& block,
+                   const std::function<const WorkPrecisionResult&(const StudyResult&)>& record,
                    std::vector<Expectation>& expectations) {
     std::vector<std::string> norms;
     for (const auto& norm : block.norms)
@@ -78,17 +81,17 @@ void expect_sooner(TableReader& table, const WorkPrecisionBlock& block,
         if (const auto band = one.band("ratio"))
             expectations.push_back(in_band(
                 band->lowest, band->highest, one.place("ratio"),
-                [pair, block, what, absence](const StudyResult& result) {
-                    const auto times = compared(pair, block, *result.get<WorkPrecisionResult>());
+                [pair, block, record, what, absence](const StudyResult& result) {
+                    const auto times = compared(pair, block, record(result));
                     return std::vector{Metric{what + ", ratio of times",
                                               times ? std::optional(times->ratio) : std::nullopt,
                                               absence}};
                 }));
         if (const auto wanted = one.flag("distinguishable"))
             expectations.push_back(
-                [pair, block, what, absence, wanted,
+                [pair, block, record, what, absence, wanted,
                  place = one.place("distinguishable")](const StudyResult& result) {
-                    const auto times = compared(pair, block, *result.get<WorkPrecisionResult>());
+                    const auto times = compared(pair, block, record(result));
                     const auto words = [](bool yes) {
                         return yes ? "distinguishable" : "not distinguishable";
                     };

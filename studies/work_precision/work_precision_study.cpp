@@ -1,5 +1,6 @@
 #include "mms/text/toml_reader.hpp"
 #include "studies/scene/scene.hpp"
+#include "studies/study.hpp"
 #include "studies/study_kind.hpp"
 #include "studies/table_row.hpp"
 #include "studies/work_precision/sooner_expectation.hpp"
@@ -42,7 +43,10 @@ struct WorkPrecisionStudy final : KindOf<WorkPrecisionBlock, WorkPrecisionResult
     }
     void expect(TableReader& table, const std::any& block,
                 std::vector<Expectation>& expectations) const override {
-        expect_sooner(table, block_in(block), expectations);
+        const auto record = [](const StudyResult& result) -> const WorkPrecisionResult& {
+            return *result.get<WorkPrecisionResult>();
+        };
+        expect_sooner(table, block_in(block), record, expectations);
         const auto all = series_of(block_in(block));
         for (std::size_t i = 0; i < all.size(); ++i)
             if (auto scheme = table.table(block_in(block).schemes[i].name)) {

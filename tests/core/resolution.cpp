@@ -346,6 +346,29 @@ BOOST_AUTO_TEST_CASE(what_is_uncertain_of_a_load_is_measured_where_it_is_greates
                boost::test_tools::tolerance(0.05));
 }
 
+// θ = sin 10⁶x at all times: ‖θ‖ over a time of 4 is √(4/2), and with an error of 1 and no load
+// uncertain are δ‖θ‖ of what moves the solution and the lesser of √δ‖θ‖ and δ‖θ‖²/2 of the
+// integral.
+BOOST_AUTO_TEST_CASE(what_is_uncertain_of_a_norm_in_time_is_measured_over_all_of_it) {
+    const SpaceFunction wave = [](const ArrayXd& x) -> ArrayXd { return (1e6 * x).sin(); };
+    ProblemData problem;
+    problem.profiles = {wave};
+    problem.amplitudes = [](const ArrayXd& t) -> Eigen::ArrayXXd {
+        return Eigen::ArrayXXd::Ones(1, t.size());
+    };
+    problem.amplitude_count = 1;
+    problem.exact.emplace();
+    problem.exact->theta.terms = {{0, 0}};
+    const Resolution found = resolution_of(wave);
+    const Mesh mesh = found.on(Mesh::uniform(8));
+    const auto parts = quadrature_uncertainties(problem, {}, found, mesh,
+                                                {*Norm::named("theta_L2L2")}, {1.0}, 4.0);
+    BOOST_REQUIRE(parts.size() == 1);
+    const double delta = found.uncertainty(mesh);
+    BOOST_TEST(parts[0] == delta * std::sqrt(2.0) + std::min(std::sqrt(2.0 * delta), delta),
+               boost::test_tools::tolerance(0.05));
+}
+
 // μ is what the moment form integrates, G what the Hermite form does; f and q are looked at for
 // both.
 BOOST_AUTO_TEST_CASE(a_run_resolves_the_loads_of_its_own_algorithm) {

@@ -108,9 +108,10 @@ BOOST_AUTO_TEST_CASE(a_narrow_pole_between_the_points_is_not_overlooked) {
     BOOST_TEST(said.find("x = 0.318") != std::string::npos, said);
     // Nor beside a kink, which is found first.
     const std::string kinked =
-        remark_of("exp(x)*(2 + t)",
-                  "diff(u, t) + u*x^(5/2)/((x - 1/pi)*(x - 1/pi)*(2 + sin(x)))");
+        remark_of("exp(x)*(2 + t)", "diff(u, t) + u*x^(5/2)/((x - 1/pi)*(x - 1/pi)*(2 + sin(x)))");
     BOOST_TEST(kinked.find("could not be excluded") != std::string::npos, kinked);
+    const std::string large = remark_of("exp(x)*(2 + t)", "diff(u, t) + u*(x^(5/2) + exp(1000*x))");
+    BOOST_TEST(large.find("is beyond the range of doubles") != std::string::npos, large);
 }
 
 // 3 + sin … is at least 2; intervals of tanh are unknown, but of a constant none is needed.

@@ -279,6 +279,16 @@ const std::vector<Repair> repairs = {
      "from u of the later phase, or move until to 1.0000001, where the phases meet",
      sine + "[[phase]]\nuntil = 1.0000001\nu = \"x^2*t/100\"\n[[phase]]\n"
             "u = \"x^2*(1/100 + 1e-9)\"\n"},
+    // Both are the same at the beginning, which is no end; they meet again at 0.4, and at 1.6,
+    // behind
+    // the third phase.
+    {sine + "[[phase]]\nuntil = 0.3\nu = \"x^2*t*(0.4 - t)*(1.6 - t)/10\"\n[[phase]]\nuntil = 1.5\n"
+            "u = 0\n[[phase]]\nu = 0\n",
+     between_stops,
+     "7:5: (3): u jumps by -0.0039 at t = 0.3, x = 1; it must be continuous: add 39*x^2/10000 to u "
+     "of the later phase, or move until to 0.4, where the phases meet",
+     sine + "[[phase]]\nuntil = 0.4\nu = \"x^2*t*(0.4 - t)*(1.6 - t)/10\"\n[[phase]]\n"
+            "until = 1.5\nu = 0\n[[phase]]\nu = 0\n"},
     {sine + phases("u = \"x^2/100\"\n", "u = \"x^2*(1/100 + 1e-11)\"\n"), between_stops,
      "6:6: (3): u jumps by 1e-11 at t = 1, x = 1; it must be continuous: subtract "
      "x^2/100000000000 from u of the later phase",

@@ -75,6 +75,8 @@ const std::vector<Claim> of_the_oscillation{
     {"space_residual = [1.9, 2.1]", ""},
     {"exact = ['beam in time']", "one of order "},
     {"exact = ['heat in space']", "one of order "},
+    {"largest = { u_xxx = [0.01, 0.02] }", "0.075"},
+    {"residual = { 'beam in time' = [0, 1e-9] }", "e-0"},
     {"time_residual = { euler = [0.9, 1.1], bdf2 = [1.9, 2.1], sdirk2 = [1.9, 2.1] }", ""},
     {"theta_L2H1 = { h = 1, euler = 1, bdf2 = 2, sdirk2 = 2.0 }", ""},
     {"u_LinfL2 = { h = '2' }", ""},

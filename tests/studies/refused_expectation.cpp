@@ -74,6 +74,8 @@ const std::vector<Claim> claims{
     {"set = ['expect.ladder.theta_L2L2.orders=[1, 2]']\nsays = ['a ladder of one rung']", ""},
     {"set = ['expect.ladder.theta_L2L2.errors=[1]']\nsays = ['expected 0.999 to 1.001, found']",
      ""},
+    {"set = ['expect={ladder={theta_L2L2={errors=[1]}}}']\nsays = ['expected 0.999']", ""},
+    {"set = ['expect.law_distance=[0, 1]']\nsays = ['there are no stops that yield']", ""},
     {"set = ['expect.derive.theta_L2L2.h=2']\nsays = ['expected']", "it is not refused"},
 };
 
@@ -102,6 +104,36 @@ BOOST_AUTO_TEST_CASE(what_is_overridden_is_overridden_in_what_is_refused) {
     BOOST_TEST(apart.front().found == "it is not refused");
 }
 
+// What takes longer than a moment is not run to see whether it fails, whatever the change permits.
+BOOST_AUTO_TEST_CASE(a_change_that_asks_for_much_is_not_run) {
+    for (const std::string permission : {"", "'long=true', "}) {
+        const auto one = checked("set = [" + permission +
+                                 "'ladder.elements=[100000]', 'ladder.dt=[0.000001]']\n"
+                                 "says = ['x']")
+                             .front();
+        BOOST_TEST(!one.holds);
+        BOOST_TEST(one.found.find("too long to see whether a run fails") != std::string::npos,
+                   one.found);
+    }
+}
+
+// Without its expectations a scene has nothing to judge, and is no worse for that.
+BOOST_AUTO_TEST_CASE(a_change_of_a_scene_with_a_sensitivity_is_judged_by_itself) {
+    const TemporaryDirectory directory;
+    const auto outcome = [&](const std::string& change) {
+        const auto file = directory.write(
+            "s.toml", scene + change +
+                          "\n[expect.ladder.theta_L2L2]\nerrors = [1]\nwithin = 0.5\n"
+                          "[sensitivity]\nrange = [1, 10]\n"
+                          "[sensitivity.defect.warmer]\nheat_source = '1'\n");
+        const Scene read = read_scene(file, {}, {.expectations = true});
+        return check(run_study(read)).front();
+    };
+    BOOST_TEST(outcome("set = ['beam.alpha=0.2']\nsays = ['expects nothing']").found ==
+               "it is not refused");
+    BOOST_TEST(outcome("set = ['beam.zeta=-1']\nsays = ['must be >= 0']").holds);
+}
+
 BOOST_AUTO_TEST_CASE(a_refusal_that_changes_or_says_nothing_is_refused) {
     const auto said = [](const std::string& lines, const std::string& part) {
         BOOST_CHECK_EXCEPTION(checked(lines), InputError, [&](const InputError& error) {
@@ -114,6 +146,7 @@ BOOST_AUTO_TEST_CASE(a_refusal_that_changes_or_says_nothing_is_refused) {
     said("set = ['beam.zeta=-1']", "expect.refused.0.says must hold words");
     said("set = ['beam.zeta=-1']\nsays = []", "expect.refused.0.says must hold words");
     said("set = ['beam.zeta=-1']\nsays = ['zeta', '']", "expect.refused.0.says must hold words");
+    said("set = ['beam.zeta=-1']\nsays = [' (:']", "expect.refused.0.says must hold words");
     said("set = ['beam.zeta=-1']\nsay = ['zeta']", "did you mean 'says'");
 }
 

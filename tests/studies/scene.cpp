@@ -265,6 +265,10 @@ BOOST_AUTO_TEST_CASE(a_part_of_a_key_in_quotes_may_hold_dots) {
             read_scene(file, {key + "=[0, 1]"}, {.expectations = true}).expectations.size() == 1U);
     BOOST_TEST(message_of(file, {"'beam.zeta'=1"}).find("unknown key 'beam.zeta'") !=
                std::string::npos);
+    BOOST_TEST(message_of(file, {"beam.'a = b'=1"}).find("unknown key 'beam.a = b'") !=
+               std::string::npos);
+    BOOST_TEST(message_of(file, {"beam.'alpha=1"}).find("an override reads key=value") !=
+               std::string::npos);
 }
 
 BOOST_AUTO_TEST_CASE(a_wrong_override_is_told_with_its_text) {
