@@ -454,9 +454,7 @@ Entries of_what_is_derived() {
          "how far the printed formulas, read again, may be from what runs, as a part of the "
          "greatest"},
         {"expect.derive.exact", KeyType::texts, "anything",
-         "equations that leave no residual: \"heat in space\", \"beam in time\"; bands of "
-         "residuals "
-         "say nothing of them"},
+         "equations that leave no residual, with any scheme: \"heat in space\", \"beam in time\""},
         {"expect.derive.space_residual", KeyType::band, "anything",
          "the last orders of the residual in space, of the heat and of the beam equation"},
         {"expect.derive.time_residual", KeyType::table, "anything",

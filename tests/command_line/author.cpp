@@ -45,7 +45,8 @@ BOOST_AUTO_TEST_CASE(derive_answers_for_every_shipped_name) {
         has(call(directory, "derive stress-beam").errors, "[stress] poses problems of its own"));
 }
 
-// Algebra that orders terms by addresses has another order, and another shortest text, in every run.
+// Algebra that orders terms by addresses has another order, and another shortest text, in every
+// run.
 BOOST_AUTO_TEST_CASE(derive_prints_the_same_in_every_run) {
     const TemporaryDirectory directory;
     for (const std::string name : {"mixed-pressed", "penalised-mixed", "pressed-front"}) {
