@@ -12,6 +12,7 @@
 #include "studies/text/number_text.hpp"
 
 #include <boost/algorithm/string/join.hpp>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <map>
@@ -187,12 +188,13 @@ void expect_residual(const DerivedTable& of, const std::string& key, const std::
     if (!band)
         return;
     for (const auto& [equation, order] : last_orders(last(), where)) {
-        const std::string what = what_of(of.table, key) + ": ";
+        const std::string what = what_of(of.table, key);
         if (std::ranges::find(exact, equation) == exact.end())
-            of.add(held({what + "last order of " + equation, order, "none: the residual is zero"},
+            of.add(held({fmt::format("{}: last order of {}", what, equation), order,
+                         "none: the residual is zero"},
                         band->lowest, band->highest, of.table.place(key)));
         else
-            of.add(no_residual(what + equation, order, of.table.place(key)));
+            of.add(no_residual(fmt::format("{}: {}", what, equation), order, of.table.place(key)));
     }
 }
 
