@@ -155,12 +155,17 @@ void divide_by_size(ScaledProfile& profile, double largest) {
 } // namespace
 
 ScaledProfile scaled_profile(const ex& profile) {
+    // No number that is written in a formula is larger: sinh(2^25) has 5e7 digits of its own.
+    constexpr double most_bits = 1e6;
     ScaledProfile scaled;
     // First as it is; then over about its size, because a number in it may be out of range.
     for (const bool as_it_is : {true, false}) {
-        if (!as_it_is)
-            scaled.size = GiNaC::pow(
-                numeric(2), numeric(static_cast<long>(magnitude(*canonical(profile)).whole)));
+        if (!as_it_is) {
+            const double bits = magnitude(*canonical(profile)).whole;
+            if (!(std::abs(bits) <= most_bits))
+                break;
+            scaled.size = GiNaC::pow(numeric(2), numeric(static_cast<long>(bits)));
+        }
         try {
             scaled.function = compiled_profile(profile / scaled.size);
         } catch (const AlgebraError&) {

@@ -229,6 +229,16 @@ BOOST_AUTO_TEST_CASE(products_that_overflow_by_themselves_are_not_taken_apart) {
 }
 
 // The argument moves by 20 t along the beam: 40 are too many for a few places in x to show it.
+// Its size would be a number of some 10^18 digits; 2^1000, of 302, is one that a formula may hold.
+BOOST_AUTO_TEST_CASE(a_profile_of_no_size_that_can_be_written_has_none) {
+    const auto profile = [](const std::string& text) {
+        return scaled_profile(
+            parse_expression(SourceText(text, {"file", 1, 1}), model_symbol_table()));
+    };
+    BOOST_TEST(!profile("sinh((1 + x)^60)/(1 + sinh((1 + x)^60)^2)").function);
+    BOOST_TEST(bool(profile("2^1000*sin(x)").function));
+}
+
 BOOST_AUTO_TEST_CASE(a_source_that_steepens_with_time_is_gentle_for_a_while) {
     const ModelSymbols& symbols = model_symbols();
     const auto is_gentle = [&](const GiNaC::ex& formula, double final_time) {
