@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <fstream>
@@ -124,10 +125,24 @@ ReadFigure figure_in_csv(const std::filesystem::path& file, const std::string& n
     return number_of(name, row[static_cast<std::size_t>(column - names.begin())]);
 }
 
+/// A count of that many digits, as of {4} or \1, is beyond what the library reads it into.
+bool has_long_number(const std::string& pattern) {
+    constexpr int most_digits = 9;
+    int digits = 0;
+    return std::ranges::any_of(pattern, [&](unsigned char letter) {
+        digits = std::isdigit(letter) != 0 ? digits + 1 : 0;
+        return digits > most_digits;
+    });
+}
+
 } // namespace
 
 OutputPattern::OutputPattern(std::string its_name, std::string its_text, const Place& place)
     : name(std::move(its_name)), text(std::move(its_text)), literal(literal_start(text)) {
+    if (has_long_number(text))
+        throw InputError(place, "'" + text +
+                                    "' has a number of more than 9 digits; write the "
+                                    "digits that vary as \\d+");
     try {
         // Its time is no more than that of the line times that of the pattern, and it needs no
         // stack for a long line.

@@ -94,13 +94,18 @@ private:
         return forms[pick(forms.size())] + std::to_string(1 + pick(20));
     }
 
+    /// What is infinite on the way is nothing to hold a value against: 1/(1/sin 16π).
+    static Digits finite(const Digits& value) {
+        return isfinite(value) ? value : Digits(std::numeric_limits<double>::quiet_NaN());
+    }
+
     /// What binds less than the operation stands in brackets, by how the text was made.
     template <typename Operation>
     static Chosen joined(const Chosen& a, const std::string& sign, const Chosen& b,
                          const Operation& operation) {
         Chosen result{"(" + a.text + ")" + sign + "(" + b.text + ")", {}};
         for (std::size_t k = 0; k < points; ++k)
-            result.values[k] = operation(a.values[k], b.values[k]);
+            result.values[k] = finite(operation(a.values[k], b.values[k]));
         return result;
     }
 
@@ -108,7 +113,7 @@ private:
     static Chosen of_one(const Chosen& a, const std::string& name, const Operation& operation) {
         Chosen result{name + "(" + a.text + ")", {}};
         for (std::size_t k = 0; k < points; ++k)
-            result.values[k] = operation(a.values[k]);
+            result.values[k] = finite(operation(a.values[k]));
         return result;
     }
 
@@ -123,7 +128,7 @@ private:
             Digits product = 1;
             for (int n = 0; n < exponent; ++n)
                 product *= a.values[k];
-            result.values[k] = negative ? Digits(-1 / product) : Digits(-product);
+            result.values[k] = finite(negative ? Digits(-1 / product) : Digits(-product));
         }
         return result;
     }
