@@ -49,7 +49,7 @@ BoundedJet<Real> composed(const Series<Real>& f, const BoundedJet<Real>& b) {
         // where it is large: cos(1e20) has no digit right.
         const Real error = b.at(0, 0).bound;
         Real moved = 0;
-        if (error > 0)
+        if (error != 0) // one that is not known moves it by what is not known
             moved = (k + 1) * error *
                     (f.sizes[at + 1] + f.sizes[at + 2] * error * (k + 2) * Real(0x1p-54));
         return Bounded<Real>{f.coefficients[at], f.sizes[at] + moved};
