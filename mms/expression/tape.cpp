@@ -27,8 +27,8 @@ bool left_range() {
     return result;
 }
 
-/// What a sum or a product makes of an exponential that is zero to rounding, the tail of a layer,
-/// is the same in any type: that it underflows is not counted.
+/// An exponential underflows at most points of a layer, where its being zero means nothing: it is
+/// not counted, or all of them would be computed in long double.
 template <typename Run>
 void run_exponential(const Run& run) {
     const bool before = std::fetestexcept(FE_UNDERFLOW) != 0;
