@@ -193,10 +193,10 @@ ex moment_of_power(int n) {
 
 /// The same for a polynomial in x with coefficients in t.
 ex moment_of_polynomial(const ex& q) {
-    const ex expanded = q.expand();
+    const ex polynomial = expanded(q);
     ex moment = 0;
-    for (int n = 0; n <= expanded.degree(model_symbols().x); ++n)
-        moment += expanded.coeff(model_symbols().x, n) * moment_of_power(n);
+    for (int n = 0; n <= polynomial.degree(model_symbols().x); ++n)
+        moment += polynomial.coeff(model_symbols().x, n) * moment_of_power(n);
     return moment;
 }
 

@@ -45,7 +45,7 @@ double most_speed(const ex& argument, double final_time) {
     const ModelSymbols& symbols = model_symbols();
     if (!argument.is_polynomial(GiNaC::lst{symbols.x, symbols.t}))
         return unknown;
-    const ex polynomial = argument.expand();
+    const ex polynomial = expanded(argument);
     double speed = 0.0;
     for (int i = 1; i <= polynomial.degree(symbols.x); ++i) {
         const ex in_time = polynomial.coeff(symbols.x, i);

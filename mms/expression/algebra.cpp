@@ -269,20 +269,19 @@ ex derivative(const ex& expression, const GiNaC::symbol& s) {
 
 namespace {
 
-/// Puts symbols in the place of roots of products: GiNaC takes factors with a sign out of some of
-/// them and puts them in again, without an end.
+/// Puts symbols in the place of roots.
 struct RootsHidden final : GiNaC::map_function {
     GiNaC::exmap symbols, roots;
 
     ex operator()(const ex& part) override {
-        const bool is_root = is_a<GiNaC::power>(part) && is_a<GiNaC::mul>(part.op(0)) &&
+        const bool is_root = is_a<GiNaC::power>(part) && !is_a<GiNaC::symbol>(part.op(0)) &&
                              !part.op(1).info(GiNaC::info_flags::integer);
         if (!is_root)
             return part.nops() == 0 ? part : part.map(*this);
         auto known = symbols.find(part);
         if (known == symbols.end()) {
             known = symbols.emplace(part, GiNaC::realsymbol()).first;
-            roots.emplace(known->second, part);
+            roots.emplace(known->second, GiNaC::pow(expanded(part.op(0)), part.op(1)));
         }
         return known->second;
     }
@@ -290,18 +289,20 @@ struct RootsHidden final : GiNaC::map_function {
 
 } // namespace
 
+ex expanded(const ex& expression) {
+    RootsHidden hidden;
+    const ex without = hidden(expression).expand();
+    if (hidden.roots.empty())
+        return without;
+    return without.subs(hidden.roots, GiNaC::subs_options::no_pattern);
+}
+
 ex moderately_expanded(const ex& expression) {
     // Written so that an infinite or undefined estimate counts as too large.
     if (!(expanded_size(expression) <= largest_expansion))
         return expression;
     try {
-        return guarded(
-            [&] {
-                RootsHidden hidden;
-                const ex without = hidden(expression);
-                return without.expand().subs(hidden.roots, GiNaC::subs_options::no_pattern);
-            },
-            "the expression cannot be expanded");
+        return guarded([&] { return expanded(expression); }, "the expression cannot be expanded");
     } catch (const AlgebraError&) { // x^(-1e18*(t - 1/3)^2) has powers of x beyond GiNaC's
         return expression;
     }

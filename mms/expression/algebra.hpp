@@ -41,6 +41,10 @@ GiNaC::ex substituted(const GiNaC::ex& expression, const GiNaC::exmap& values);
 /// ∂/∂s, refused when it has more than 20 000 nodes.
 GiNaC::ex derivative(const GiNaC::ex& expression, const GiNaC::symbol& s);
 
+/// The expression with products and powers of sums multiplied out, each root as a whole: of some,
+/// GiNaC::ex::expand takes factors with a sign out and puts them in again, without an end.
+GiNaC::ex expanded(const GiNaC::ex& expression);
+
 /// The expression with products and powers of sums multiplied out, if about 500 terms at most come
 /// of it; otherwise, and where powers of it are beyond what can be counted, the expression as it
 /// is.
