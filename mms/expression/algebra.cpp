@@ -291,7 +291,7 @@ struct RootsHidden final : GiNaC::map_function {
 
 ex expanded(const ex& expression) {
     RootsHidden hidden;
-    const ex without = hidden(expression).expand();
+    ex without = hidden(expression).expand();
     if (hidden.roots.empty())
         return without;
     return without.subs(hidden.roots, GiNaC::subs_options::no_pattern);
