@@ -37,6 +37,10 @@ class Chooser {
 public:
     explicit Chooser(std::span<const std::uint8_t> data) : data_(data) {}
 
+    /// Whether an exponential at point k was below doubles: the library may take it for zero,
+    /// whatever becomes of it, and says so.
+    bool exponential_underflows(std::size_t k) const { return underflows_[k]; }
+
     Chosen expression(int depth = 0) {
         constexpr int deepest = 6;
         if (depth == deepest)
@@ -144,6 +148,8 @@ private:
              {"log", [](const Digits& v) { return Digits(log(v)); }},
              {"sqrt", [](const Digits& v) { return Digits(sqrt(v)); }}}};
         const auto& chosen = functions[pick(functions.size())];
+        for (std::size_t k = 0; chosen.first == std::string("exp") && k < points; ++k)
+            underflows_[k] = underflows_[k] || a.values[k] < -708;
         return of_one(a, chosen.first, [&](const Digits& v) {
             // Of larger arguments 60 digits are too few, or take too long.
             return abs(v) < Digits(1e4) ? chosen.second(v)
@@ -152,6 +158,7 @@ private:
     }
 
     std::span<const std::uint8_t> data_;
+    std::array<bool, points> underflows_{};
 };
 
 template <typename Real>
@@ -165,7 +172,8 @@ Bounded<Real> at(const PlainExpression& plain, std::size_t k, const Real& pi) {
 } // namespace
 
 bool grammar(std::span<const std::uint8_t> data) {
-    const Chosen chosen = Chooser(data).expression();
+    Chooser chooser(data);
+    const Chosen chosen = chooser.expression();
     PlainExpression plain;
     GiNaC::ex formula;
     try {
@@ -181,10 +189,10 @@ bool grammar(std::span<const std::uint8_t> data) {
         if (first_disagreement(written_values, computed))
             return false;
         std::array<Digits, points> bounds;
-        Digits largest = 0;
+        Digits largest = 0; // where no exponential underflows
         for (std::size_t k = 0; k < points; ++k) {
             bounds[k] = at(plain, k, boost::math::constants::pi<Digits>()).bound;
-            if (isfinite(bounds[k]))
+            if (isfinite(bounds[k]) && !chooser.exponential_underflows(k))
                 largest = std::max(largest, bounds[k]);
         }
         for (std::size_t k = 0; k < points; ++k) {
@@ -194,10 +202,13 @@ bool grammar(std::span<const std::uint8_t> data) {
             // What is beyond doubles is refused where it is used.
             if (!isfinite(expected) || !isfinite(terms) || !std::isfinite(value))
                 continue;
-            // Where a part overflows, a value that is nothing beside those at other points is lost,
-            // as the library says.
-            const bool overflows = !std::isfinite(at(plain, k, std::numbers::pi).bound);
-            const Digits lost = overflows ? Digits(1e-25 * largest) : Digits(0);
+            if (chooser.exponential_underflows(k) && largest == 0)
+                continue;
+            // Where a part overflows or an exponential underflows, a value that is nothing beside
+            // those at other points is lost, as the library says.
+            const bool leaves_range = chooser.exponential_underflows(k) ||
+                                      !std::isfinite(at(plain, k, std::numbers::pi).bound);
+            const Digits lost = leaves_range ? Digits(1e-25 * largest) : Digits(0);
             require(abs(value - expected) <= 1e-12 * terms + lost + 1e-290,
                     chosen.text + " is " + Digits(value).str(20) + ", not " + expected.str(20));
         }
