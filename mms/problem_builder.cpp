@@ -172,7 +172,9 @@ ScaledProfile scaled_profile(const ex& profile) {
             continue;
         }
         const double largest = sampled_size(scaled.function);
-        if (std::isfinite(largest)) {
+        // Of what is smaller, doubles that are not normal keep too few digits, or none.
+        constexpr double full_digits = 0x1p-900;
+        if (std::isfinite(largest) && (largest > full_digits || !as_it_is)) {
             divide_by_size(scaled, largest);
             return scaled;
         }

@@ -239,6 +239,15 @@ BOOST_AUTO_TEST_CASE(a_profile_of_no_size_that_can_be_written_has_none) {
     BOOST_TEST(bool(profile("2^1000*sin(x)").function));
 }
 
+// As it stands it is below 2^-1060, where doubles have 14 binary digits left at most.
+BOOST_AUTO_TEST_CASE(a_profile_below_normal_doubles_keeps_its_digits) {
+    const ScaledProfile profile = scaled_profile(
+        parse_expression(SourceText("x^5/(3*2^530*2^530)", {"file", 1, 1}), model_symbol_table()));
+    BOOST_REQUIRE(bool(profile.function));
+    const Eigen::ArrayXd values = profile.function(Eigen::ArrayXd{{0.3, 0.6}});
+    BOOST_TEST(std::abs(values(1) / values(0) - 32.0) <= 1e-13);
+}
+
 BOOST_AUTO_TEST_CASE(a_source_that_steepens_with_time_is_gentle_for_a_while) {
     const ModelSymbols& symbols = model_symbols();
     const auto is_gentle = [&](const GiNaC::ex& formula, double final_time) {
