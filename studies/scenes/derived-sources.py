@@ -268,6 +268,7 @@ class Derived:
 
     def __init__(self, text, language):
         text = re.sub(r"\blambda\b", "lambda_", text)  # a word of Python
+        self.first = 1 if language in ("fortran", "julia") else 0
         self.power = language in ("freefem", "julia", "moose")
         self.functions = {}
         self.codes = {}
@@ -275,6 +276,8 @@ class Derived:
         if language in ("c", "c++", "freefem"):
             self.read_braces(re.sub(r"//.*", "", text).replace("std::", ""))
         elif language == "fortran":
+            if single := re.search(r"\d\.\d*(e[-+]?\d+)?(?![\d.de_])", re.sub(r"!.*", "", text)):
+                sys.exit(f"{single[0]} is of single precision")
             text = re.sub(r"&\n\s*", " ", re.sub(r"!.*", "", text)).replace("_dp", "")
             self.read_blocks(text, r"parameter :: (\w+) = (.*)", r"(?:function|subroutine) (\w+)\((.*?)\)\n(.*?)\n *end")
         elif language == "moose":
@@ -282,6 +285,8 @@ class Derived:
         else:
             text = re.sub(r"#.*", "", text)
             self.read_blocks(text, r"^(?:const )?(\w+) = (\S+)$", r"(?:def|function) (\w+)\((.*?)\):?\n(.*?)(?=\n\S|\Z)")
+        if self.names["pi"] != math.pi:
+            sys.exit(f"pi is {self.names['pi']}")
 
     def value(self, formula, known):
         if formula not in self.codes:
@@ -289,7 +294,11 @@ class Derived:
         return eval(self.codes[formula], self.names, known)
 
     def add(self, name, arguments, steps):
-        """steps: (variable, formula); of what is returned the variable is empty, or values[i]."""
+        """steps: (variable, formula); of what is returned the variable is empty, or values[i]; in Fortran from 1."""
+        places = [int(place) for place in re.findall(r"values\D(\d+)", " ".join(step[0] for step in steps))]
+        if places != [place + self.first for place in range(len(places))]:
+            sys.exit(f"values of {name} at {places}")
+
         def call(point):
             known = {word: point["xyzt".index(word)] for word in re.findall(r"\b[xyzt]\b", arguments)}
             results = []

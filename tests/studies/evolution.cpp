@@ -117,6 +117,25 @@ probes     = ["theta@0", "theta@0.25", "theta@0.125", "theta@1", "u@0", "u@0.4",
     BOOST_TEST(std::abs(start(7) - energy) < ulps);
 }
 
+// The tip is computed by itself, without the deflection elsewhere; u is continuous, and |u_x| < 1
+// here.
+BOOST_DATA_TEST_CASE(the_tip_is_where_the_deflection_ends, data::make(all_schemes), scheme) {
+    for (const char* ends : {"", "stops = [-0.004, 0.006]\n", "theta_A = 0.3\n"}) {
+        const std::string text = std::string("[beam]\nalpha = 0.9\nzeta = 0.15\n") + ends +
+                                 "[data]\ntheta0 = \"" +
+                                 (*ends == 't' ? "theta_A*(1 - x) + " : "") +
+                                 "2*sin(pi*x)\"\nu0 = \"0.03*x^2*(1 - x)\"\n"
+                                 "[evolution]\nfinal_time = 0.5\nelements = 6\ndt = 0.05\n"
+                                 "probes = ['u@1', 'u@0.99999999']\n";
+        const TemporaryDirectory directory;
+        Scene scene = read_scene(directory.write("scene.toml", text));
+        scene.scheme = scheme;
+        const EvolutionResult result = evolution(scene);
+        BOOST_TEST(std::abs(result.probes[0].values.back()) > 1e-3);
+        BOOST_TEST(greatest_difference(result.probes[0], result.probes[1]) < 1e-8);
+    }
+}
+
 // (5) and (10), whatever the mesh: its nodes are j/s, its elements 1/s long, both rounded.
 BOOST_DATA_TEST_CASE(what_is_given_at_an_end_is_read_there_to_the_last_digit,
                      data::make(all_schemes), scheme) {
