@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <limits>
 #include <memory>
 #include <numbers>
@@ -164,15 +163,6 @@ public:
         if (!resolved)
             result_.unresolved_.push_back({look.sampled, result_.intervals_});
         return resolved && result_.intervals_.size() == before;
-    }
-
-    /// As cut_for; what stays behind is measured by a norm of something else.
-    void cut_for(const Look& look, double tolerance, std::size_t most,
-                 const std::function<double()>& norm) {
-        const std::size_t before = result_.unresolved_.size();
-        cut_for(look, tolerance, most);
-        if (result_.unresolved_.size() > before)
-            result_.unresolved_.back().sampled.norm = norm();
     }
 
     /// Cuts nothing; a function for which it would is unresolved.
@@ -425,36 +415,8 @@ private:
     Index looked_ = 0;
 };
 
-/// What ‖φ‖ would be if the profile were all of a field: the greatest ‖field‖ in time over the
-/// greatest amplitude, of the field in which it weighs most. ‖φ‖ where that is not known.
-double norm_by_weight(const ProblemData& data, const std::vector<const Field*>& fields,
-                      Index profile, double final_time, double norm) {
-    constexpr Index times = 17;
-    const ArrayXd x = places(profile_places, 0.0);
-    double least = std::numeric_limits<double>::infinity();
-    for (const Field* field : fields) {
-        if (!field->uses(profile))
-            continue;
-        const bool at_start = field == &data.curvature_initial;
-        const ArrayXd t =
-            ArrayXd::LinSpaced(at_start ? 1 : times, 0.0, at_start ? 0.0 : final_time);
-        const ArrayXXd amplitudes = data.amplitudes(t);
-        double of_profile = 0.0, of_field = 0.0;
-        for (Index n = 0; n < t.size(); ++n) {
-            double amplitude = 0.0;
-            for (const auto& term : field->terms)
-                amplitude += term.profile == profile ? amplitudes(term.amplitude, n) : 0.0;
-            of_profile = std::max(of_profile, std::abs(amplitude));
-            of_field = std::max(of_field, std::sqrt(values(data, *field, x, t(n)).square().mean()));
-        }
-        if (of_profile > 0.0)
-            least = std::min(least, of_field / of_profile);
-    }
-    return least > 0.0 && std::isfinite(least) ? least : norm;
-}
-
 void resolve_profiles(const ProblemData& data, const std::vector<const Field*>& fields,
-                      double final_time, Resolver& resolver) {
+                      Resolver& resolver) {
     std::set<Index> profiles;
     for (const Field* field : fields)
         for (const auto& term : field->terms)
@@ -462,11 +424,9 @@ void resolve_profiles(const ProblemData& data, const std::vector<const Field*>& 
     for (const Index r : profiles) {
         const auto index = static_cast<std::size_t>(r);
         const bool gentle = index < data.gentle_profiles.size() && data.gentle_profiles[index];
-        const Resolver::Look look =
-            Resolver::look(data.profiles[index], gentle ? gentle_places : profile_places, 0.0);
-        resolver.cut_for(look, Resolution::profile_tolerance, Resolution::most_intervals, [&] {
-            return norm_by_weight(data, fields, r, final_time, look.sampled.norm);
-        });
+        resolver.cut_for(
+            Resolver::look(data.profiles[index], gentle ? gentle_places : profile_places, 0.0),
+            Resolution::profile_tolerance, Resolution::most_intervals);
     }
 }
 
@@ -475,7 +435,7 @@ void resolve_profiles(const ProblemData& data, const std::vector<const Field*>& 
 Resolution resolve(const ProblemData& data, const std::vector<const Field*>& fields,
                    double final_time) {
     Resolver resolver;
-    resolve_profiles(data, fields, final_time, resolver);
+    resolve_profiles(data, fields, resolver);
     std::vector<FieldInTime> in_time;
     for (const Field* field : fields)
         if (field->rest)

@@ -64,10 +64,8 @@ public:
 
     /// What is uncertain about the integrals of a function on the cells of a mesh: of its loads
     /// over its norm, or of its square over that of the norm, by the intervals that it needs
-    /// itself, and by what the rule and its halves still differ by on those. The norm of a profile
-    /// is that of the field in which it weighs most, at amplitude 1: a ripple that is nothing
-    /// beside the rest leaves nothing uncertain. The greatest of all functions that are not
-    /// resolved; zero where all are.
+    /// itself, and by what the rule and its halves still differ by on those. The greatest of all
+    /// functions that are not resolved; zero where all are.
     [[nodiscard]] double uncertainty(const Mesh& mesh) const;
 
     [[nodiscard]] const std::vector<Interval>& intervals() const { return intervals_; }

@@ -69,24 +69,12 @@ Resolution fine_everywhere(Index parts) {
     return Resolution(intervals);
 }
 
-/// The resolution of a field of these profiles, each of a constant amplitude.
-Resolution resolution_of(const std::vector<SpaceFunction>& profiles,
-                         const std::vector<double>& amplitudes) {
-    ProblemData data;
-    data.profiles = profiles;
-    data.amplitudes = [amplitudes](const ArrayXd& t) -> Eigen::ArrayXXd {
-        return Eigen::Map<const ArrayXd>(amplitudes.data(), std::ssize(amplitudes))
-            .replicate(1, t.size());
-    };
-    data.amplitude_count = std::ssize(amplitudes);
-    for (Index k = 0; k < std::ssize(profiles); ++k)
-        data.heat_source.terms.push_back({k, k});
-    return resolve(data, {&data.heat_source}, 1.0);
-}
-
 /// The resolution of one profile.
 Resolution resolution_of(const SpaceFunction& profile) {
-    return resolution_of(std::vector{profile}, {1.0});
+    ProblemData data;
+    data.profiles = {profile};
+    data.heat_source.terms = {{0, 0}};
+    return resolve(data, {&data.heat_source}, 1.0);
 }
 
 /// ∫_left^right g dx by sixty points on each of many parts, which crowd towards both ends of [0,
@@ -336,21 +324,6 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_resolved_is_said_until_the_mesh_resolves_it)
     // That of a square is said of the norm itself.
     BOOST_TEST(result.uncertainties[1] == result.uncertainties[0],
                boost::test_tools::tolerance(1e-12));
-}
-
-// 10⁶ sin πx + sin 10⁶x, of the norm 10⁶/√2: what is uncertain of it is a millionth of what is
-// uncertain of the ripple alone, whatever its profile is measured in.
-BOOST_AUTO_TEST_CASE(a_ripple_counts_as_much_as_it_weighs_in_its_field) {
-    const SpaceFunction smooth = [](const ArrayXd& x) -> ArrayXd {
-        return (std::numbers::pi * x).sin();
-    };
-    const SpaceFunction wave = [](const ArrayXd& x) -> ArrayXd { return 1e3 * (1e6 * x).sin(); };
-    const Mesh mesh = Mesh::uniform(64);
-    const Resolution alone = resolution_of(wave);
-    const Resolution beside = resolution_of({smooth, wave}, {1e6, 1e-3});
-    BOOST_TEST(alone.uncertainty(alone.on(mesh)) > 1e-2);
-    BOOST_TEST(beside.uncertainty(beside.on(mesh)) / alone.uncertainty(alone.on(mesh)) == 1e-6,
-               boost::test_tools::tolerance(0.1));
 }
 
 // sin πt sin 10⁶x: the load is greatest half way, of the norm 1/√2, and nothing at the end.
