@@ -138,6 +138,17 @@ bool all_equal(const std::vector<ex>& a, const std::vector<ex>& b) {
                       [](const ex& left, const ex& right) { return left.is_equal(right); });
 }
 
+/// Below 2 to this power, doubles that are not normal keep too few digits of a part, or none.
+constexpr int fewest_bits = -900;
+
+/// Whether all values are below 2^fewest_bits, in so many places that only a spike of less than
+/// 1e-4 hides between them.
+bool is_tiny(const SpaceFunction& profile) {
+    constexpr Eigen::Index places = 8192;
+    const Eigen::ArrayXd x = Eigen::ArrayXd::LinSpaced(places, 0.5 / places, 1.0 - 0.5 / places);
+    return (profile(x).abs() < std::ldexp(1.0, fewest_bits)).all();
+}
+
 /// Changes nothing where the largest value is of moderate size.
 void divide_by_size(ScaledProfile& profile, double largest) {
     constexpr int moderate = 100;
@@ -157,11 +168,13 @@ void divide_by_size(ScaledProfile& profile, double largest) {
 ScaledProfile scaled_profile(const ex& profile) {
     // No number that is written in a formula is larger: sinh(2^25) has 5e7 digits of its own.
     constexpr double most_bits = 1e6;
-    ScaledProfile scaled;
-    // First as it is; then over about its size, because a number in it may be out of range.
+    const double bits = magnitude(*canonical(profile)).whole;
+    ScaledProfile tiny;
+    // First as it is; then over about its size, because a number in it may be out of range, or all
+    // of it too small for normal doubles.
     for (const bool as_it_is : {true, false}) {
+        ScaledProfile scaled;
         if (!as_it_is) {
-            const double bits = magnitude(*canonical(profile)).whole;
             if (!(std::abs(bits) <= most_bits))
                 break;
             scaled.size = GiNaC::pow(numeric(2), numeric(static_cast<long>(bits)));
@@ -172,14 +185,16 @@ ScaledProfile scaled_profile(const ex& profile) {
             continue;
         }
         const double largest = sampled_size(scaled.function);
-        // Of what is smaller, doubles that are not normal keep too few digits, or none.
-        constexpr double full_digits = 0x1p-900;
-        if (std::isfinite(largest) && (largest > full_digits || !as_it_is)) {
-            divide_by_size(scaled, largest);
-            return scaled;
+        if (!std::isfinite(largest))
+            continue;
+        if (as_it_is && bits < fewest_bits && is_tiny(scaled.function)) {
+            tiny = std::move(scaled);
+            continue;
         }
+        divide_by_size(scaled, largest);
+        return scaled;
     }
-    return {};
+    return tiny;
 }
 
 ProblemBuilder::ProblemBuilder(std::vector<TimePhase> phases, double final_time)

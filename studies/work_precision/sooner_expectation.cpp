@@ -73,6 +73,8 @@ void expect_sooner(TableReader& table, const WorkPrecisionBlock& block,
             throw one.error("error", " must be a number > 0: the error that both reach");
         const Pairing pair{place_of(one, "norm", norms), place_of(one, "faster", schemes),
                            place_of(one, "slower", schemes), *error};
+        if (pair.faster == pair.slower)
+            throw one.error("slower", " is the scheme that faster names; it must be another");
         const std::string what = "work_precision: " + schemes[pair.faster] + " sooner than " +
                                  schemes[pair.slower] + " at " + norms[pair.norm] + " = " +
                                  metric_text(*error);

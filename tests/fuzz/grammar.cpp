@@ -189,10 +189,10 @@ bool grammar(std::span<const std::uint8_t> data) {
         if (first_disagreement(written_values, computed))
             return false;
         std::array<Digits, points> bounds;
-        Digits largest = 0; // where no exponential underflows
+        Digits largest = 0;
         for (std::size_t k = 0; k < points; ++k) {
             bounds[k] = at(plain, k, boost::math::constants::pi<Digits>()).bound;
-            if (isfinite(bounds[k]) && !chooser.exponential_underflows(k))
+            if (isfinite(bounds[k]))
                 largest = std::max(largest, bounds[k]);
         }
         for (std::size_t k = 0; k < points; ++k) {
@@ -202,7 +202,8 @@ bool grammar(std::span<const std::uint8_t> data) {
             // What is beyond doubles is refused where it is used.
             if (!isfinite(expected) || !isfinite(terms) || !std::isfinite(value))
                 continue;
-            if (chooser.exponential_underflows(k) && largest == 0)
+            // What becomes of an exponential that underflows, if it is all that there is.
+            if (chooser.exponential_underflows(k) && abs(expected) < 1e-100)
                 continue;
             // A value that is nothing beside those at other points may be lost, as the library says
             // (agreement.hpp): to round-off of a zero of high order, or out of the range of
