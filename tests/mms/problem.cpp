@@ -251,12 +251,13 @@ BOOST_AUTO_TEST_CASE(a_profile_below_normal_doubles_keeps_its_digits) {
 // exp(-K (x - c)^2) with the square multiplied out: 1 at c, and below 2^-900 in all 33 places that
 // are looked at first.
 BOOST_AUTO_TEST_CASE(a_spike_is_not_taken_for_a_tiny_profile) {
-    const ScaledProfile profile = scaled_profile(
-        parse_expression(SourceText("exp(-(x - 0.031)*x*2700000 - 648.675)", {"file", 1, 1}),
-                         model_symbol_table()));
+    const ScaledProfile profile = scaled_profile(parse_expression(
+        SourceText("exp(-(x - 0.031)*x*2700000 - 648.675)", {"file", 1, 1}), model_symbol_table()));
     BOOST_REQUIRE(bool(profile.function));
-    BOOST_TEST(profile.size.is_equal(1));
-    BOOST_TEST(std::abs(profile.function(Eigen::ArrayXd{{0.0155}})(0) - 1.0) <= 1e-11);
+    const double peak = profile.function(Eigen::ArrayXd{{0.0155}})(0);
+    BOOST_TEST(std::isfinite(peak * peak));
+    BOOST_TEST(std::abs(peak * GiNaC::ex_to<GiNaC::numeric>(profile.size).to_double() - 1.0) <=
+               1e-11);
 }
 
 BOOST_AUTO_TEST_CASE(a_source_that_steepens_with_time_is_gentle_for_a_while) {
