@@ -46,10 +46,20 @@ std::vector<double> loads(const std::vector<WorkGroup>& groups, std::uint32_t sh
 
 StressCase a_case(int n) {
     StressCase one;
-    one.parameters.alpha = 0.1 * n;
-    one.parameters.elements = n + 2;
-    one.parameters.time = n % 2 == 0 ? "euler" : "bdf2";
-    one.parameters.stops = {-0.5, std::numeric_limits<double>::infinity()};
+    one.parameters = {.alpha = 0.1 * n,
+                      .zeta = 0.2 * n,
+                      .dt = 0.3 * n,
+                      .elements = n + 2,
+                      .steps = n + 3,
+                      .stops = {-0.5, std::numeric_limits<double>::infinity()},
+                      .theta_A = 0.4 * n,
+                      .load = 0.5 * n,
+                      .initial = n % 2 == 0 ? InitialData::zero : InitialData::random,
+                      .seed = static_cast<unsigned>(n + 4),
+                      .time = n % 2 == 0 ? "euler" : "bdf2",
+                      .thermal_mass = n % 2 == 0 ? ThermalMass::lumped : ThermalMass::consistent,
+                      .algorithm = n % 2 == 0 ? Algorithm::direct : Algorithm::fixed_point};
+    one.seconds = 0.6 * n;
     one.outcome = n % 3 == 0 ? Outcome::refused : Outcome::certified;
     if (one.outcome == Outcome::refused) {
         one.reason = "for the reason " + std::to_string(n);
@@ -58,10 +68,19 @@ StressCase a_case(int n) {
     one.checks.emplace();
     one.checks->energy = 1.0 / (3.0 + n);
     one.checks->heat_residual = n % 5 == 1 ? std::nan("") : 2.0;
-    if (n % 2 == 0)
+    one.checks->beam_residual = 0.7 * n;
+    one.checks->penetration = 0.8 * n;
+    one.checks->wrong_sign = 0.9 * n;
+    one.checks->complementarity = 1.1 * n;
+    one.checks->path_limit = 1.2 * n;
+    if (n % 2 == 0) {
         one.checks->path = 0.25 * n;
-    else
+        one.checks->error_skipped = "no error";
+    } else {
         one.checks->path_skipped = "none";
+        one.checks->error = 1.3 * n;
+        one.checks->order_defect = 1.4 * n;
+    }
     return one;
 }
 
@@ -158,8 +177,18 @@ BOOST_AUTO_TEST_CASE(cases_come_back_in_order_whatever_the_order_they_come_in) {
         n += n == 17 ? 1 : 0;
         const StressCase made = a_case(n++);
         BOOST_TEST(found.parameters.alpha == made.parameters.alpha);
+        BOOST_TEST(found.parameters.zeta == made.parameters.zeta);
+        BOOST_TEST(found.parameters.dt == made.parameters.dt);
+        BOOST_TEST(found.parameters.theta_A == made.parameters.theta_A);
+        BOOST_TEST(found.parameters.load == made.parameters.load);
         BOOST_TEST(found.parameters.elements == made.parameters.elements);
+        BOOST_TEST(found.parameters.steps == made.parameters.steps);
+        BOOST_TEST(int(found.parameters.initial == made.parameters.initial));
+        BOOST_TEST(found.parameters.seed == made.parameters.seed);
         BOOST_TEST(found.parameters.time == made.parameters.time);
+        BOOST_TEST(int(found.parameters.thermal_mass == made.parameters.thermal_mass));
+        BOOST_TEST(int(found.parameters.algorithm == made.parameters.algorithm));
+        BOOST_TEST(found.seconds == made.seconds);
         BOOST_TEST(found.parameters.stops.lower == made.parameters.stops.lower);
         BOOST_TEST(found.parameters.stops.upper == made.parameters.stops.upper);
         BOOST_TEST(int(found.outcome == made.outcome));
@@ -170,8 +199,15 @@ BOOST_AUTO_TEST_CASE(cases_come_back_in_order_whatever_the_order_they_come_in) {
         BOOST_TEST(found.checks->energy == made.checks->energy);
         BOOST_TEST(std::isnan(found.checks->heat_residual) ==
                    std::isnan(made.checks->heat_residual));
+        for (const auto check :
+             {&StressChecks::beam_residual, &StressChecks::penetration, &StressChecks::wrong_sign,
+              &StressChecks::complementarity, &StressChecks::path_limit})
+            BOOST_TEST(((*found.checks).*check == (*made.checks).*check));
         BOOST_TEST(int(found.checks->path == made.checks->path));
         BOOST_TEST(found.checks->path_skipped == made.checks->path_skipped);
+        BOOST_TEST(int(found.checks->error == made.checks->error));
+        BOOST_TEST(found.checks->error_skipped == made.checks->error_skipped);
+        BOOST_TEST(int(found.checks->order_defect == made.checks->order_defect));
     });
     BOOST_TEST(n == count);
 }
