@@ -98,11 +98,23 @@ std::vector<Metric> forecast_metrics(std::size_t k, double within, const StudyRe
     return metrics;
 }
 
-std::vector<Metric> constant_metrics(const std::string& norm, const StudyResult& result) {
-    const auto& constants = result.get<OrdersResult>()->corollary;
-    return {{"orders." + norm + ": greatest constant C",
-             constants ? std::optional(constants->greatest) : std::nullopt,
-             "no run of the grid has an error"}};
+/// constant, the greatest of the theorem's over the grid, least_constant and finest_constant.
+void expect_constants(TableReader& table, const std::string& norm,
+                      std::vector<Expectation>& expectations) {
+    struct Row {
+        const char* key;
+        const char* words;
+        double TheoremConstants::*which;
+    };
+    for (const Row& row : {Row{"constant", "greatest", &TheoremConstants::greatest},
+                           Row{"least_constant", "least", &TheoremConstants::least},
+                           Row{"finest_constant", "finest", &TheoremConstants::finest}})
+        expect_band(table, row.key, expectations, [norm, row](const StudyResult& result) {
+            const auto& constants = result.get<OrdersResult>()->corollary;
+            const std::string what = "orders." + norm + ": " + row.words + " constant C";
+            const auto found = constants ? std::optional((*constants).*row.which) : std::nullopt;
+            return std::vector{Metric{what, found, "no run of the grid has an error"}};
+        });
 }
 
 /// limit, p and q of a value with their intervals, and the uncertainty of the finest.
@@ -210,10 +222,7 @@ struct OrdersStudy final : KindOf<OrdersBlock, OrdersResult> {
             }
             const Measure& measure = block_in(block).norms[k];
             if (!measure.theorem.empty())
-                expect_band(norm, "constant", expectations,
-                            [name = measure.name](const StudyResult& result) {
-                                return constant_metrics(name, result);
-                            });
+                expect_constants(norm, measure.name, expectations);
         };
         for_each_measure(table, block_in(block).norms, expectations, read);
     }

@@ -384,6 +384,8 @@ Entries of_expectations() {
         {"expect.orders.NORM.uncertainty", KeyType::band, "anything", "of the finest value"},
         {"expect.orders.NORM.constant", KeyType::band, "anything",
          "of the norm corollary: the greatest constant of Corollary 2.2"},
+        {"expect.orders.NORM.least_constant", KeyType::band, "anything", "the least over the grid"},
+        {"expect.orders.NORM.finest_constant", KeyType::band, "anything", "of the finest run"},
         {"expect.work_precision", KeyType::table, "anything", "of timed schemes by name"},
         {"expect.work_precision.NAME", KeyType::table, "anything", "of a scheme"},
         {"expect.work_precision.NAME.counters", KeyType::table, "anything",
