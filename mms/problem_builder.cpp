@@ -177,7 +177,10 @@ ScaledProfile scaled_profile(const ex& profile) {
         if (!as_it_is) {
             if (!(std::abs(bits) <= most_bits))
                 break;
-            scaled.size = GiNaC::pow(numeric(2), numeric(static_cast<long>(bits)));
+            // An amplitude that is not large stays a normal double when it is multiplied by it.
+            constexpr double least = -950.0;
+            const double exponent = tiny.function ? std::max(bits, least) : bits;
+            scaled.size = GiNaC::pow(numeric(2), numeric(static_cast<long>(exponent)));
         }
         try {
             scaled.function = compiled_profile(profile / scaled.size);

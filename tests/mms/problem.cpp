@@ -239,13 +239,22 @@ BOOST_AUTO_TEST_CASE(a_profile_of_no_size_that_can_be_written_has_none) {
     BOOST_TEST(bool(profile("2^1000*sin(x)").function));
 }
 
-// As it stands it is below 2^-1060, where doubles have 14 binary digits left at most.
+// As it stands one is below 2^-1060, where doubles have 14 binary digits left at most; of the other
+// an amplitude of 1/3, times its size, must stay a normal double.
 BOOST_AUTO_TEST_CASE(a_profile_below_normal_doubles_keeps_its_digits) {
-    const ScaledProfile profile = scaled_profile(
-        parse_expression(SourceText("x^5/(3*2^530*2^530)", {"file", 1, 1}), model_symbol_table()));
-    BOOST_REQUIRE(bool(profile.function));
-    const Eigen::ArrayXd values = profile.function(Eigen::ArrayXd{{0.3, 0.6}});
-    BOOST_TEST(std::abs(values(1) / values(0) - 32.0) <= 1e-13);
+    const auto profile = [](const std::string& text) {
+        return scaled_profile(
+            parse_expression(SourceText(text, {"file", 1, 1}), model_symbol_table()));
+    };
+    const ScaledProfile lowest = profile("x^5/(3*2^530*2^530)");
+    const ScaledProfile low = profile("x^5/(3*2^500*2^490)");
+    for (const ScaledProfile& one : {lowest, low}) {
+        BOOST_REQUIRE(bool(one.function));
+        const Eigen::ArrayXd values = one.function(Eigen::ArrayXd{{0.3, 0.6}});
+        BOOST_TEST(std::abs(values(1) / values(0) - 32.0) <= 1e-13);
+    }
+    BOOST_TEST(GiNaC::ex_to<GiNaC::numeric>(low.size).to_double() / 3.0 >=
+               std::numeric_limits<double>::min());
 }
 
 // exp(-K (x - c)^2) with the square multiplied out: 1 at c, and below 2^-900 in all 33 places that
