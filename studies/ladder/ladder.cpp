@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <iterator>
+#include <set>
+#include <string>
 
 namespace tvbeam {
 
@@ -67,14 +69,22 @@ std::vector<RungResult> telling(const std::optional<ReferenceBlock>& reference,
 /// A sentence about the rungs whose errors quadrature leaves uncertain; empty when there are none.
 std::string quadrature_remark(const std::vector<RungResult>& rungs,
                               const std::vector<Measure>& norms) {
+    constexpr double worth_telling = 0.01;
     std::string named;
     for (const auto& run : rungs) {
         const auto worst = std::max_element(run.uncertainties.begin(), run.uncertainties.end());
-        if (worst == run.uncertainties.end() || *worst <= 0.01)
+        if (worst == run.uncertainties.end() || *worst <= worth_telling)
             continue;
+        std::set<std::string> others; // a norm and its square are one
+        for (std::size_t k = 0; k < run.uncertainties.size(); ++k)
+            if (run.uncertainties[k] > worth_telling)
+                others.insert(norms[k].root());
         const auto k = static_cast<std::size_t>(worst - run.uncertainties.begin());
-        named += fmt::format("{}s = {}: {} is uncertain by {:.2g} of itself",
-                             named.empty() ? "" : "; ", run.rung.elements, norms[k].root(), *worst);
+        others.erase(norms[k].root());
+        named +=
+            fmt::format("{}s = {}: {} is uncertain by {:.2g} of itself{}",
+                        named.empty() ? "" : "; ", run.rung.elements, norms[k].root(), *worst,
+                        others.empty() ? "" : fmt::format(", {} by less", fmt::join(others, ", ")));
     }
     if (named.empty())
         return {};

@@ -263,12 +263,17 @@ def operators_in_the_plane():
     return System({"psi": psi} | numbered("w", w), sources, boundary, initial, start=0.5, size=2)
 
 
+def require_double(fortran):
+    if single := re.search(r"(?<![\w.])(\d+\.\d*|\d+(?=e))(e[-+]?\d+)?(?![\w.])", fortran):
+        sys.exit(f"{single[0]} is of single precision")
+
+
 class Derived:
     """The functions of generated code, read as Python."""
 
     def __init__(self, text, language):
         text = re.sub(r"\blambda\b", "lambda_", text)  # a word of Python
-        self.first = 1 if language in ("fortran", "julia") else 0
+        self.first = 1 if language == "fortran" else 0
         self.power = language in ("freefem", "julia", "moose")
         self.functions = {}
         self.codes = {}
@@ -276,8 +281,7 @@ class Derived:
         if language in ("c", "c++", "freefem"):
             self.read_braces(re.sub(r"//.*", "", text).replace("std::", ""))
         elif language == "fortran":
-            if single := re.search(r"\d\.\d*(e[-+]?\d+)?(?![\d.de_])", re.sub(r"!.*", "", text)):
-                sys.exit(f"{single[0]} is of single precision")
+            require_double(re.sub(r"!.*", "", text))
             text = re.sub(r"&\n\s*", " ", re.sub(r"!.*", "", text)).replace("_dp", "")
             self.read_blocks(text, r"parameter :: (\w+) = (.*)", r"(?:function|subroutine) (\w+)\((.*?)\)\n(.*?)\n *end")
         elif language == "moose":
@@ -371,6 +375,8 @@ def main():
     found = set(derived.functions) - {"sources"}
     if expected.keys() != found:
         sys.exit(f"functions without counterpart: {sorted(expected.keys() ^ found)}")
+    if language == "fortran":
+        require_double("\n".join(text.split("=", 1)[1] for text in sys.argv[4:]))
     formulas = [text.replace("std::", "").replace("_dp", "").split("=", 1) for text in sys.argv[4:]]
     sums = dict.fromkeys(("sources", "data", "exact", "formulas"), 0.0)
     for point in POINTS:

@@ -146,6 +146,25 @@ BOOST_AUTO_TEST_CASE(remarks_rest_on_the_levels_that_are_resolved_and_not_close_
                ladder.quadrature_remark);
 }
 
+// A norm and its square are one; what is certain is not named.
+BOOST_AUTO_TEST_CASE(every_norm_that_quadrature_leaves_uncertain_is_named) {
+    const auto made_uncertain = [](const RunTask& task) {
+        RungResult result = made_up(task);
+        result.errors = {1.0, 1.0, 1.0, 1.0};
+        result.uncertainties = {0.02, 0.05, 0.05, 0.001};
+        return result;
+    };
+    const LadderBlock block{.final_time = 1.0,
+                            .rungs = levels({4}),
+                            .norms = {{"H1"}, {"L2"}, {"L2_sq", true}, {"max"}},
+                            .printed = {}};
+    const LadderResult ladder =
+        run_ladder(block, method("first"), {.run = made_uncertain, .reference = {}});
+    BOOST_TEST(ladder.quadrature_remark.find(
+                   "s = 4: L2 is uncertain by 0.05 of itself, H1 by less.") != std::string::npos,
+               ladder.quadrature_remark);
+}
+
 BOOST_AUTO_TEST_CASE(a_race_of_calls_gives_each_scheme_its_own_errors) {
     WorkPrecisionBlock block;
     block.final_time = 1.0;
