@@ -149,12 +149,14 @@ bool is_tiny(const SpaceFunction& profile) {
     return (profile(x).abs() < std::ldexp(1.0, fewest_bits)).all();
 }
 
-/// Changes nothing where the largest value is of moderate size.
-void divide_by_size(ScaledProfile& profile, double largest) {
-    constexpr int moderate = 100;
+/// The size of a binary logarithm of values that need no scaling.
+constexpr int moderate = 100;
+
+/// Changes nothing where the binary logarithm of the largest value is at most `enough` in size.
+void divide_by_size(ScaledProfile& profile, double largest, int enough) {
     // A peak between the points may be as much higher, and its square is still finite.
     constexpr int highest_peak = 400;
-    if (largest == 0.0 || std::abs(std::ilogb(largest)) <= moderate)
+    if (largest == 0.0 || std::abs(std::ilogb(largest)) <= enough)
         return;
     const int exponent = std::max(std::ilogb(largest), -highest_peak);
     profile.size *= GiNaC::pow(numeric(2), numeric(exponent));
@@ -177,10 +179,7 @@ ScaledProfile scaled_profile(const ex& profile) {
         if (!as_it_is) {
             if (!(std::abs(bits) <= most_bits))
                 break;
-            // An amplitude that is not large stays a normal double when it is multiplied by it.
-            constexpr double least = -950.0;
-            const double exponent = tiny.function ? std::max(bits, least) : bits;
-            scaled.size = GiNaC::pow(numeric(2), numeric(static_cast<long>(exponent)));
+            scaled.size = GiNaC::pow(numeric(2), numeric(static_cast<long>(bits)));
         }
         try {
             scaled.function = compiled_profile(profile / scaled.size);
@@ -194,7 +193,9 @@ ScaledProfile scaled_profile(const ex& profile) {
             tiny = std::move(scaled);
             continue;
         }
-        divide_by_size(scaled, largest);
+        // A tiny profile's size is its own, not about what the formula suggests, so that a moderate
+        // amplitude times it is a normal double wherever the product is one.
+        divide_by_size(scaled, largest, tiny.function ? 0 : moderate);
         return scaled;
     }
     return tiny;

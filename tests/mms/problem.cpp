@@ -239,16 +239,17 @@ BOOST_AUTO_TEST_CASE(a_profile_of_no_size_that_can_be_written_has_none) {
     BOOST_TEST(bool(profile("2^1000*sin(x)").function));
 }
 
-// As it stands one is below 2^-1060, where doubles have 14 binary digits left at most; of the other
-// an amplitude of 1/3, times its size, must stay a normal double.
+// As they stand one is no double but 0, one is below 2^-1060, where doubles have 14 binary digits
+// left at most; of the last an amplitude of 1/3, times its size, must stay a normal double.
 BOOST_AUTO_TEST_CASE(a_profile_below_normal_doubles_keeps_its_digits) {
     const auto profile = [](const std::string& text) {
         return scaled_profile(
             parse_expression(SourceText(text, {"file", 1, 1}), model_symbol_table()));
     };
+    const ScaledProfile none = profile("x^5/(3*2^800*2^600*2^600)");
     const ScaledProfile lowest = profile("x^5/(3*2^530*2^530)");
     const ScaledProfile low = profile("x^5/(3*2^500*2^490)");
-    for (const ScaledProfile& one : {lowest, low}) {
+    for (const ScaledProfile& one : {none, lowest, low}) {
         BOOST_REQUIRE(bool(one.function));
         const Eigen::ArrayXd values = one.function(Eigen::ArrayXd{{0.3, 0.6}});
         BOOST_TEST(std::abs(values(1) / values(0) - 32.0) <= 1e-13);
