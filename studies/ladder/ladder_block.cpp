@@ -19,8 +19,7 @@ PublishedFigures read_printed(TableReader table, const LadderBlock& ladder,
                 throw table.error(name, " has " + std::to_string(list.size()) + " values for " +
                                             std::to_string(ladder.rungs.size()) +
                                             " levels; give one a level, or none: --set " +
-                                            table.full("").substr(0, table.full("").size() - 1) +
-                                            "={}");
+                                            table.full("") + "={}");
         });
     return printed;
 }
