@@ -81,10 +81,10 @@ std::string quadrature_remark(const std::vector<RungResult>& rungs,
                 others.insert(norms[k].root());
         const auto k = static_cast<std::size_t>(worst - run.uncertainties.begin());
         others.erase(norms[k].root());
-        named +=
-            fmt::format("{}s = {}: {} is uncertain by {:.2g} of itself{}",
-                        named.empty() ? "" : "; ", run.rung.elements, norms[k].root(), *worst,
-                        others.empty() ? "" : fmt::format(", {} by less", fmt::join(others, ", ")));
+        named += fmt::format(
+            "{}s = {}: {} is uncertain by {:.2g} of itself{}", named.empty() ? "" : "; ",
+            run.rung.elements, norms[k].root(), *worst,
+            others.empty() ? "" : fmt::format(", {} by no more", fmt::join(others, ", ")));
     }
     if (named.empty())
         return {};
