@@ -145,16 +145,8 @@ private:
 
 } // namespace
 
-std::vector<CheckedExpectation> check(const DataAnalysis& analysis,
-                                      const std::string& expectations) {
-    std::error_code ignored;
-    if (expectations.empty())
-        throw InputError({"--expect"}, "is empty; give a file of expectations, or one of them as "
-                                       "'L2.order = [1.9, 2.1]'");
-    const bool is_text = expectations.find('=') != std::string::npos &&
-                         !std::filesystem::exists(expectations, ignored);
-    const TomlDocument document =
-        is_text ? parse_toml(expectations, "--expect") : read_toml(expectations);
+std::vector<CheckedExpectation> check(const DataAnalysis& analysis, const NamedToml& expectations) {
+    const TomlDocument document = parse_toml(expectations.text, expectations.name);
     TableReader table(document, document.table, "");
     std::vector<CheckedExpectation> checked;
     for (const auto& column : analysis.columns)
@@ -165,6 +157,18 @@ std::vector<CheckedExpectation> check(const DataAnalysis& analysis,
         throw InputError({document.file},
                          "expects nothing; give a metric, as 'L2.order = [1.9, 2.1]'");
     return checked;
+}
+
+std::vector<CheckedExpectation> check(const DataAnalysis& analysis,
+                                      const std::string& expectations) {
+    std::error_code ignored;
+    if (expectations.empty())
+        throw InputError({"--expect"}, "is empty; give a file of expectations, or one of them as "
+                                       "'L2.order = [1.9, 2.1]'");
+    const bool is_text = expectations.find('=') != std::string::npos &&
+                         !std::filesystem::exists(expectations, ignored);
+    return check(analysis, is_text ? NamedToml{expectations, "--expect"}
+                                   : NamedToml{toml_text(expectations), expectations});
 }
 
 } // namespace tvbeam

@@ -8,8 +8,13 @@
 
 namespace tvbeam {
 
-/// Holds an analysis against expectations in TOML, a table a column: the name of a file, or the
-/// text itself.
+/// A document in TOML, and what messages call it.
+struct NamedToml {
+    std::string text;
+    std::string name;
+};
+
+/// Holds an analysis against expectations in TOML, a table a column.
 ///
 ///     [L2]
 ///     order  = [1.9, 2.1]            # in the first width; or order.dt = [0.9, 1.1]: in that one
@@ -25,6 +30,9 @@ namespace tvbeam {
 /// order_holds = 2.
 ///
 /// Throws InputError for what is not such an expectation, and for columns that are not there.
+std::vector<CheckedExpectation> check(const DataAnalysis& analysis, const NamedToml& expectations);
+
+/// The same with the name of a file, or the text itself, as `--expect` takes it.
 std::vector<CheckedExpectation> check(const DataAnalysis& analysis,
                                       const std::string& expectations);
 

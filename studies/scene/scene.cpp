@@ -3,6 +3,7 @@
 #include "core/norms/error_norms.hpp"
 #include "mms/manufactured_problem.hpp"
 #include "mms/text/toml_reader.hpp"
+#include "studies/data/analysed_expectation.hpp"
 #include "studies/external/external_runs.hpp"
 #include "studies/gates/derived_expectation.hpp"
 #include "studies/gates/refused_expectation.hpp"
@@ -208,10 +209,11 @@ std::string part_of(const std::string& sentence) {
     return sentence.substr(0, sentence.find(':'));
 }
 
-/// [expect]: what is left out, the reference, what is derived, what is refused, a table for each
-/// study.
+/// [expect]: what is left out, the reference, what is derived, what is refused, what tables of
+/// others show, a table for each study.
 void read_expectations(Scene& scene, TableReader expect, const Reading& reading) {
     expect_refused(expect, scene, reading, scene.expectations);
+    expect_analysed(expect, scene, scene.expectations);
     expect_words(expect, "left_out", scene.expectations, [](const StudyResult& result) {
         std::vector<std::string> parts;
         for (const auto& sentence : result.left_out)

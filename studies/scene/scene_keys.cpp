@@ -491,6 +491,27 @@ Entries of_what_is_refused() {
     };
 }
 
+Entries of_what_is_analysed() {
+    return {
+        {"expect.analyse", KeyType::tables, "anything",
+         "tables of anyone's errors or values, and what `tvbeam analyse` finds in them"},
+        {"expect.analyse.file", KeyType::text, required, "the table, relative to the scene"},
+        {"expect.analyse.size", KeyType::texts, "h or elements",
+         "columns of mesh widths, or of numbers of cells, unknowns, ..."},
+        {"expect.analyse.dimension", KeyType::number, "sizes are widths",
+         "sizes are numbers n of what fills a domain of this dimension d: h = n^(-1/d)"},
+        {"expect.analyse.step", KeyType::text, "dt", "the column of time steps"},
+        {"expect.analyse.error", KeyType::texts, "error", "columns of errors"},
+        {"expect.analyse.value", KeyType::texts, "value, where there are no errors",
+         "columns of computed numbers whose limit is not known"},
+        {"expect.analyse.sigma", KeyType::text, "not known",
+         "the column of standard deviations of the figures"},
+        {"expect.analyse.holds", KeyType::text, required,
+         "what is expected of the columns, as `tvbeam analyse --expect` takes it: \"L2.order = "
+         "[1.9, 2.1]\""},
+    };
+}
+
 Entries of_what_is_written() {
     return {
         {"short",
@@ -509,7 +530,7 @@ Entries all_entries() {
     Entries all;
     for (auto&& part : {of_the_whole(), of_the_beam(), of_the_solver(), of_ladders_and_grids(),
                         of_other_studies(), of_expectations(), of_what_is_derived(),
-                        of_what_is_refused(), of_what_is_written()})
+                        of_what_is_refused(), of_what_is_analysed(), of_what_is_written()})
         all.insert(all.end(), part.begin(), part.end());
     return all;
 }
