@@ -21,11 +21,6 @@ namespace {
 constexpr std::size_t longest_text = 4000;
 constexpr std::size_t longest_sum = 600;
 
-/// Of two equal ones; where they are alike in length, the first.
-ex shorter(const ex& one, const ex& other) {
-    return formula_text(other).size() < formula_text(one).size() ? other : one;
-}
-
 /// Bases and exponents of a term, without its number.
 using Factors = std::map<ex, numeric, GiNaC::ex_is_less>;
 
@@ -56,6 +51,8 @@ ex with_common_taken_out(const ex& sum) {
                 shared[base] =
                     GiNaC::abs(found->second) < GiNaC::abs(exponent) ? found->second : exponent;
         common = std::move(shared);
+        if (common.empty())
+            return sum;
     }
     ex divisor = 1;
     for (const auto& [base, exponent] : common)
@@ -74,51 +71,15 @@ ex with_common_taken_out_of_factors(const ex& product) {
     return result;
 }
 
-/// The shortest of a sum as it is, multiplied out, and with what its terms have in common taken
-/// out.
-ex shortest(const ex& sum) {
-    const ex expanded = moderately_expanded(sum);
-    return shorter(shorter(with_common_taken_out(sum), with_common_taken_out(expanded)),
-                   shorter(sum, expanded));
-}
-
-/// Two terms that are shorter by a fifth together are put together, those first that gain most.
-ex with_pairs_joined(ex sum) {
-    constexpr std::size_t most_terms = 12;
-    while (is_a<GiNaC::add>(sum) && sum.nops() <= most_terms) {
-        const GiNaC::exvector terms = ordered_operands(sum); // the same in every run
-        std::size_t most = 0;
-        ex joined = sum;
-        for (std::size_t i = 0; i < terms.size(); ++i)
-            for (std::size_t j = i + 1; j < terms.size(); ++j) {
-                const ex pair = terms[i] + terms[j];
-                const ex one = shortest(pair);
-                const std::size_t before = formula_text(pair).size();
-                const std::size_t after = formula_text(one).size();
-                if (5 * after <= 4 * before && before - after > most) {
-                    most = before - after;
-                    joined = sum - pair + one;
-                }
-            }
-        if (most == 0)
-            return sum;
-        sum = shorter(sum, joined);
-        if (!sum.is_equal(joined))
-            return sum;
-    }
-    return sum;
-}
-
-ex shortest_by_any(const ex& sum) {
-    return shorter(shortest(sum), with_pairs_joined(sum));
-}
-
-struct ShortenedParts final : GiNaC::map_function {
+/// Shortens the sums of an expression, from the innermost out. What is asked for again is kept: of
+/// the terms of a sum each pair is looked at whenever two were joined.
+class Shortening final : public GiNaC::map_function {
+public:
     ex operator()(const ex& part) override {
         ex inside = is_a<GiNaC::add>(part) || is_a<GiNaC::mul>(part) || is_a<GiNaC::power>(part)
                         ? part.map(*this)
                         : part;
-        if (formula_text(inside).size() > longest_sum)
+        if (length(inside) > longest_sum)
             return inside;
         if (is_a<GiNaC::mul>(inside))
             return shorter(with_common_taken_out_of_factors(inside), inside);
@@ -127,11 +88,71 @@ struct ShortenedParts final : GiNaC::map_function {
         // GiNaC has a sum that is a factor with the one or the other sign, as its addresses fall.
         const ex one = shortest_by_any(inside);
         const ex other = -shortest_by_any(-inside);
-        const std::string text = formula_text(one);
-        const std::string other_text = formula_text(other);
-        return std::pair(other_text.size(), other_text) < std::pair(text.size(), text) ? other
-                                                                                       : one;
+        return std::pair(length(other), formula_text(other)) <
+                       std::pair(length(one), formula_text(one))
+                   ? other
+                   : one;
     }
+
+private:
+    std::size_t length(const ex& expression) {
+        const auto [known, is_new] = lengths_.try_emplace(expression, 0);
+        if (is_new)
+            known->second = formula_text(expression).size();
+        return known->second;
+    }
+
+    /// Of two equal ones; where they are alike in length, the first.
+    ex shorter(const ex& one, const ex& other) {
+        return length(other) < length(one) ? other : one;
+    }
+
+    /// The shortest of a sum as it is, multiplied out, and with what its terms have in common taken
+    /// out.
+    ex shortest(const ex& sum) {
+        const auto [known, is_new] = shortest_.try_emplace(sum, 0);
+        if (is_new) {
+            const ex expanded = moderately_expanded(sum);
+            const ex one = with_common_taken_out(sum);
+            known->second = expanded.is_equal(sum)
+                                ? shorter(one, sum)
+                                : shorter(shorter(one, with_common_taken_out(expanded)),
+                                          shorter(sum, expanded));
+        }
+        return known->second;
+    }
+
+    /// Two terms that are shorter by a fifth together are put together, those first that gain most.
+    ex with_pairs_joined(ex sum) {
+        constexpr std::size_t most_terms = 12;
+        while (is_a<GiNaC::add>(sum) && sum.nops() <= most_terms) {
+            const GiNaC::exvector terms = ordered_operands(sum); // the same in every run
+            std::size_t most = 0;
+            ex joined = sum;
+            for (std::size_t i = 0; i < terms.size(); ++i)
+                for (std::size_t j = i + 1; j < terms.size(); ++j) {
+                    const ex pair = terms[i] + terms[j];
+                    const ex one = shortest(pair);
+                    const std::size_t before = length(pair);
+                    const std::size_t after = length(one);
+                    if (5 * after <= 4 * before && before - after > most) {
+                        most = before - after;
+                        joined = sum - pair + one;
+                    }
+                }
+            if (most == 0)
+                return sum;
+            sum = shorter(sum, joined);
+            if (!sum.is_equal(joined))
+                return sum;
+        }
+        return sum;
+    }
+
+    ex shortest_by_any(const ex& sum) { return shorter(shortest(sum), with_pairs_joined(sum)); }
+
+    std::map<ex, std::size_t, GiNaC::ex_is_less> lengths_; ///< of texts
+    std::map<ex, ex, GiNaC::ex_is_less> shortest_;         ///< of sums
 };
 
 } // namespace
@@ -140,7 +161,7 @@ ex shortened(const ex& expression) {
     if (formula_text(expression).size() > longest_text)
         return expression;
     try {
-        return ShortenedParts()(expression);
+        return Shortening()(expression);
     } catch (const std::runtime_error&) { // GiNaC cannot divide all that it can hold
         return expression;
     } catch (const GiNaC::pole_error&) { // in what is multiplied out, a divisor may be zero
