@@ -103,9 +103,7 @@ private:
     }
 
     /// Of two equal ones; where they are alike in length, the first.
-    ex shorter(const ex& one, const ex& other) {
-        return length(other) < length(one) ? other : one;
-    }
+    ex shorter(const ex& one, const ex& other) { return length(other) < length(one) ? other : one; }
 
     /// The shortest of a sum as it is, multiplied out, and with what its terms have in common taken
     /// out.

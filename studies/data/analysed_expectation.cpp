@@ -33,7 +33,8 @@ void expect_analysed(TableReader& expect, const Scene& scene,
     for (auto& table : expect.tables("analyse")) {
         const auto file = table.text("file");
         if (!file || file->empty())
-            throw table.error("file", " is missing or empty; name the table, relative to the scene");
+            throw table.error("file",
+                              " is missing or empty; name the table, relative to the scene");
         const DataAnalysis analysis =
             analyse(read_data((folder / *file).string(), read_choice(table)));
         const auto holds = table.text("holds");

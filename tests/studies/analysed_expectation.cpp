@@ -64,10 +64,12 @@ BOOST_AUTO_TEST_CASE(orders_of_a_table_are_held_against_what_a_scene_says) {
 
 BOOST_AUTO_TEST_CASE(what_the_columns_mean_is_what_the_scene_says) {
     // In the plane h = n^(-1/2): of what is n^(-2/3) the order is 4/3.
-    const std::string plane = "file = 'cells.csv'\nsize = ['cells']\ndimension = 2\nerror = ['e']\n";
+    const std::string plane =
+        "file = 'cells.csv'\nsize = ['cells']\ndimension = 2\nerror = ['e']\n";
     BOOST_TEST(checked(plane + "holds = 'e.order_holds = 1.3333333'").front().holds);
     // As a value it goes to 0.
-    const std::string value = "file = 'cells.csv'\nsize = ['cells']\ndimension = 3\nvalue = ['e']\n";
+    const std::string value =
+        "file = 'cells.csv'\nsize = ['cells']\ndimension = 3\nvalue = ['e']\n";
     BOOST_TEST(checked(value + "holds = 'e.limit_holds = 0'").front().holds);
     // A deviation of 2 % widens the interval.
     BOOST_TEST(is_at_most(0.03, table));
