@@ -3,7 +3,6 @@
 #include "core/space/mesh.hpp"
 #include "core/time/time_scheme.hpp"
 #include "mms/expression/algebra.hpp"
-#include "mms/expression/piecewise_tape.hpp"
 #include "mms/expression/symbols.hpp"
 #include "mms/sample_points.hpp"
 #include "mms/text/error_text.hpp"
@@ -97,24 +96,26 @@ Residual space_residual(const PiecewiseTape& tape, const Beam& beam, const Mesh&
             .beam_order = std::nullopt};
 }
 
-/// θ̃, u_xx and their rates at every level and point: each is a step's end and the next one's begin.
-class Levels {
-public:
-    Levels(const PiecewiseTape& tape, ArrayXd x, double final_time, std::int64_t steps)
-        : tape_(tape), x_(std::move(x)), final_time_(final_time),
-          steps_(static_cast<double>(steps)) {
-        for (std::int64_t n = 0; n <= steps; ++n)
-            levels_.push_back(tape_.at(x_, time(static_cast<double>(n))));
-    }
+double level_time(double final_time, double level, std::int64_t steps) {
+    return final_time * level / static_cast<double>(steps);
+}
 
-    /// Shape: 4 × points.
+/// θ̃, u_xx and their rates in the steps of one refinement.
+class Steps {
+public:
+    /// levels: at the ends of these steps, or of a multiple of them; shape of each: 4 × points.
+    Steps(const PiecewiseTape& tape, const ArrayXd& x, const std::vector<Eigen::ArrayXXd>& levels,
+          double final_time, std::int64_t steps)
+        : tape_(tape), x_(x), levels_(levels), final_time_(final_time), steps_(steps),
+          stride_(static_cast<std::int64_t>(levels.size() - 1) / steps) {}
+
     [[nodiscard]] const Eigen::ArrayXXd& at(std::int64_t level) const {
-        return levels_[static_cast<std::size_t>(level)];
+        return levels_[static_cast<std::size_t>(level * stride_)];
     }
 
     /// The defects of θ̃ and u_xx in the step that ends at level n; shape: 2 × points.
     [[nodiscard]] Eigen::ArrayXXd defect(const TimeScheme& scheme, std::int64_t n) const {
-        const double dt = final_time_ / steps_;
+        const double dt = final_time_ / static_cast<double>(steps_);
         const auto difference = [&](std::int64_t level) -> Eigen::ArrayXXd {
             return at(level).topRows(2) - at(level - 1).topRows(2);
         };
@@ -131,18 +132,18 @@ public:
     }
 
 private:
-    [[nodiscard]] double time(double level) const { return final_time_ * level / steps_; }
-
     [[nodiscard]] Eigen::ArrayXXd rates(std::int64_t n, double fraction) const {
         if (fraction == 1.0)
             return at(n).bottomRows(2);
-        return tape_.at(x_, time(static_cast<double>(n) - (1.0 - fraction))).bottomRows(2);
+        const double level = static_cast<double>(n) - (1.0 - fraction);
+        return tape_.at(x_, level_time(final_time_, level, steps_)).bottomRows(2);
     }
 
     const PiecewiseTape& tape_;
-    ArrayXd x_;
-    double final_time_, steps_;
-    std::vector<Eigen::ArrayXXd> levels_;
+    const ArrayXd& x_;
+    const std::vector<Eigen::ArrayXXd>& levels_;
+    double final_time_;
+    std::int64_t steps_, stride_;
 };
 
 double root_mean_square(const ArrayXd& values) {
@@ -176,28 +177,41 @@ std::vector<Residual> space_residuals(const Solution& solution, const Beam& beam
     return result;
 }
 
-std::vector<Residual> time_residuals(const Solution& solution, const Beam& beam, double final_time,
-                                     const std::string& scheme,
-                                     const std::vector<std::int64_t>& steps) {
-    const DerivedSolution derived = derive_on(solution, beam);
-    const PiecewiseTape tape = rows(derived, solution, false);
+TimeResiduals::TimeResiduals(const Solution& solution, const Beam& beam, double final_time,
+                             std::vector<std::int64_t> steps)
+    : beam_(beam), final_time_(final_time), steps_(std::move(steps)),
+      exact_(rows(derive_on(solution, beam), solution, false)), x_(sample_points(0.0, 1.0)) {
+    for (const std::int64_t count : steps_) {
+        const bool among_finer = std::ranges::any_of(
+            steps_, [&](std::int64_t finer) { return finer > count && finer % count == 0; });
+        if (among_finer)
+            continue;
+        auto& levels = levels_[count];
+        for (std::int64_t n = static_cast<std::int64_t>(levels.size()); n <= count; ++n)
+            levels.push_back(exact_.at(x_, level_time(final_time_, static_cast<double>(n), count)));
+    }
+}
+
+std::vector<Residual> TimeResiduals::of(const std::string& scheme) const {
     const TimeScheme& method = TimeScheme::named(scheme);
     std::vector<Residual> result;
     std::vector<Sizes> terms;
-    for (const std::int64_t count : steps) {
+    for (const std::int64_t count : steps_) {
         Residual residual;
         Sizes size;
         residual.count = count;
-        const double dt = final_time / static_cast<double>(count);
-        const Levels levels(tape, sample_points(0.0, 1.0), final_time, count);
+        const double dt = final_time_ / static_cast<double>(count);
+        const auto known =
+            std::ranges::find_if(levels_, [&](const auto& one) { return one.first % count == 0; });
+        const Steps exact(exact_, x_, known->second, final_time_, count);
         for (std::int64_t n = 1 + method.history; n <= count; ++n) {
-            const Eigen::ArrayXXd defect = levels.defect(method, n);
+            const Eigen::ArrayXXd defect = exact.defect(method, n);
             residual.heat = std::max(residual.heat,
-                                     root_mean_square(defect.row(0) - beam.alpha * defect.row(1)));
-            residual.beam = std::max(residual.beam, beam.zeta * root_mean_square(defect.row(1)));
-            const ArrayXd sizes = levels.at(n).abs().rowwise().maxCoeff();
-            size.heat = std::max(size.heat, (sizes(theta) + beam.alpha * sizes(u_xx)) / dt);
-            size.beam = std::max(size.beam, beam.zeta * sizes(u_xx) / dt);
+                                     root_mean_square(defect.row(0) - beam_.alpha * defect.row(1)));
+            residual.beam = std::max(residual.beam, beam_.zeta * root_mean_square(defect.row(1)));
+            const ArrayXd sizes = exact.at(n).abs().rowwise().maxCoeff();
+            size.heat = std::max(size.heat, (sizes(theta) + beam_.alpha * sizes(u_xx)) / dt);
+            size.beam = std::max(size.beam, beam_.zeta * sizes(u_xx) / dt);
         }
         result.push_back(residual);
         terms.push_back(size);

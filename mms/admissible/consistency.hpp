@@ -2,10 +2,12 @@
 
 #include "core/problem.hpp"
 #include "core/space/linear_elements.hpp"
+#include "mms/expression/piecewise_tape.hpp"
 #include "mms/solution.hpp"
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -43,9 +45,24 @@ std::vector<Residual> space_residuals(const Solution& solution, const Beam& beam
 ///     e_i = Δt y_t(t_i)/leading_i + Σ_j weights_ij e_j,     τ = leading/Δt (e_last − (y_n −
 ///     y_{n−1})),
 ///
-/// the largest over all steps but those that the scheme leaves to its starter.
-std::vector<Residual> time_residuals(const Solution& solution, const Beam& beam, double final_time,
-                                     const std::string& scheme,
-                                     const std::vector<std::int64_t>& steps);
+/// the largest over all steps but those that the scheme leaves to its starter. The exact values are
+/// found once for all schemes, and those of a refinement among those of the finest that it divides.
+class TimeResiduals {
+public:
+    TimeResiduals(const Solution& solution, const Beam& beam, double final_time,
+                  std::vector<std::int64_t> steps);
+
+    /// One for each number of steps.
+    [[nodiscard]] std::vector<Residual> of(const std::string& scheme) const;
+
+private:
+    Beam beam_;
+    double final_time_;
+    std::vector<std::int64_t> steps_;
+    PiecewiseTape exact_; ///< θ̃, u_xx and their rates
+    Eigen::ArrayXd x_;
+    /// exact_ at the levels of a number of steps.
+    std::map<std::int64_t, std::vector<Eigen::ArrayXXd>> levels_;
+};
 
 } // namespace tvbeam

@@ -76,14 +76,14 @@ std::string time_table(const SolutionSetting& setting) {
     Table::Column dt{"dt", {}};
     for (const std::int64_t count : steps)
         dt.cells.push_back(shortest(setting.final_time / static_cast<double>(count)));
+    const TimeResiduals residuals(setting.solution, setting.beam, setting.final_time, steps);
     std::vector<Table::Group> groups;
     for (const auto& name : TimeScheme::names()) {
         Table::Column heat{"heat", {}};
         Table::Column heat_order{"ord.", {}};
         Table::Column beam{"beam", {}};
         Table::Column beam_order{"ord.", {}};
-        for (const Residual& row :
-             time_residuals(setting.solution, setting.beam, setting.final_time, name, steps)) {
+        for (const Residual& row : residuals.of(name)) {
             heat.cells.push_back(scientific(row.heat, 1));
             heat_order.cells.push_back(fixed(row.heat_order, 2));
             beam.cells.push_back(scientific(row.beam, 1));

@@ -72,10 +72,11 @@ public:
                                {shown_elements.end() - 2, shown_elements.end()})
             .back();
     }
-    [[nodiscard]] Residual last_in_time(const std::string& time) const {
-        return time_residuals(solution_, scene_.beam, final_time_, time,
-                              {shown_steps.end() - 2, shown_steps.end()})
-            .back();
+    Residual last_in_time(const std::string& time) {
+        if (!in_time_)
+            in_time_.emplace(solution_, scene_.beam, final_time_,
+                             std::vector(shown_steps.end() - 2, shown_steps.end()));
+        return in_time_->of(time).back();
     }
 
 private:
@@ -83,6 +84,7 @@ private:
     const Scene& scene_;
     double final_time_;
     std::optional<ExpectedOrders> orders_;
+    std::optional<TimeResiduals> in_time_;
     std::map<std::string, ErrorConstants> sizes_; ///< by time scheme
 };
 

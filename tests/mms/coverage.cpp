@@ -142,7 +142,7 @@ BOOST_DATA_TEST_CASE(time_residuals_have_the_order_of_the_scheme,
     const Beam beam = suited(coupled, solution);
     // The layer e^(−1000 t) must be resolved.
     const double final_time = name == "stiff-layer" ? 0.01 : 2.0;
-    const auto residuals = time_residuals(solution, beam, final_time, scheme, {256, 512});
+    const auto residuals = TimeResiduals(solution, beam, final_time, {256, 512}).of(scheme);
     const int order = TimeScheme::named(scheme).order;
     // exp(−π² t) has next terms of about one part in fifteen at these steps.
     constexpr double tolerance = 0.08;
@@ -159,11 +159,11 @@ BOOST_DATA_TEST_CASE(time_residuals_have_the_order_of_the_scheme,
 BOOST_AUTO_TEST_CASE(a_jump_leaves_a_residual_in_schemes_that_look_across_it) {
     const Solution solution = shipped_solution("impact");
     const Beam beam = suited(coupled, solution);
-    const auto back = time_residuals(solution, beam, 2.0, "bdf2", {256, 512});
+    const auto back = TimeResiduals(solution, beam, 2.0, {256, 512}).of("bdf2");
     BOOST_TEST(std::abs(back.back().beam_order.value()) < 0.05);
-    const auto across = time_residuals(solution, beam, 2.0, "sdirk2", {255, 511});
+    const auto across = TimeResiduals(solution, beam, 2.0, {255, 511}).of("sdirk2");
     BOOST_TEST(std::abs(across.back().beam_order.value()) < 0.05);
-    const auto level = time_residuals(solution, beam, 2.0, "sdirk2", {256, 512});
+    const auto level = TimeResiduals(solution, beam, 2.0, {256, 512}).of("sdirk2");
     BOOST_TEST(std::abs(level.back().beam_order.value() - 2.0) < 0.05);
     const auto switches = expected_orders(solution, beam, 2.0).switches;
     BOOST_REQUIRE(switches.size() == 1U);
@@ -210,7 +210,7 @@ BOOST_AUTO_TEST_CASE(a_solution_linear_in_time_has_no_time_residual) {
     BOOST_TEST(!expected.theta_has_time_error);
     BOOST_TEST(!expected.u_has_time_error);
     for (const auto& scheme : TimeScheme::names()) {
-        const auto residuals = time_residuals(solution, beam, 1.0, scheme, {16, 32});
+        const auto residuals = TimeResiduals(solution, beam, 1.0, {16, 32}).of(scheme);
         BOOST_TEST(residuals.back().heat == 0.0);
         BOOST_TEST(residuals.back().beam == 0.0);
     }
@@ -233,8 +233,8 @@ BOOST_AUTO_TEST_CASE(bdf2_has_order_three_where_a_solution_is_quadratic_in_time)
     BOOST_TEST(of_bdf2("t^3", "t") == 2.0);
     const Solution solution =
         parse_solution("theta = 'sin(pi*x)*t^2'\nu = 'x^2*t^2/100'\n", "my.toml");
-    BOOST_TEST(time_residuals(solution, {0.4, 0.15, 0.0, {}}, 1.0, "bdf2", {16, 32}).back().heat ==
-               0.0);
+    BOOST_TEST(
+        TimeResiduals(solution, {0.4, 0.15, 0.0, {}}, 1.0, {16, 32}).of("bdf2").back().heat == 0.0);
 }
 
 // Without coupling each equation has the time error of what it differences itself: the heat
@@ -249,7 +249,7 @@ BOOST_AUTO_TEST_CASE(a_time_error_is_forecast_where_a_residual_is) {
                     const Beam beam{alpha, zeta, 0.0, {}};
                     const ExpectedOrders expected = expected_orders(solution, beam, 1.0);
                     const Residual residual =
-                        time_residuals(solution, beam, 1.0, "euler", {16, 32}).back();
+                        TimeResiduals(solution, beam, 1.0, {16, 32}).of("euler").back();
                     const bool heat = residual.heat > 0.0;
                     const bool bending = residual.beam > 0.0;
                     BOOST_TEST_CONTEXT(theta << ", " << u << ", " << alpha << ", " << zeta) {
