@@ -7,6 +7,7 @@
 
 #include <boost/algorithm/string/join.hpp>
 #include <boost/algorithm/string/predicate.hpp>
+#include <boost/algorithm/string/replace.hpp>
 
 #include <algorithm>
 #include <array>
@@ -335,6 +336,14 @@ struct Head {
     bool numbers_follow = false; ///< the line that is read is the first of the numbers
 };
 
+/// A quote in quotes is doubled.
+std::vector<std::string> names_in(const std::vector<TextField>& fields) {
+    std::vector<std::string> names;
+    for (const auto& field : fields)
+        names.push_back(boost::algorithm::replace_all_copy(std::string(field.text), "\"\"", "\""));
+    return names;
+}
+
 Head head_of(Lines& lines) {
     std::optional<std::pair<std::string_view, Place>> comment;
     std::vector<TextField> fields;
@@ -356,8 +365,7 @@ Head head_of(Lines& lines) {
                 return is_missing(field.text) || number_of(field.text, head.separator);
             });
         if (!head.numbers_follow) {
-            for (const auto& field : fields)
-                head.names.emplace_back(field.text);
+            head.names = names_in(fields);
             return head;
         }
         if (!comment)
@@ -368,8 +376,7 @@ Head head_of(Lines& lines) {
         Lines above(head.place.file, comment->first);
         above.next();
         split(above, above.line(), separator_of(comment->first), named);
-        for (const auto& field : named)
-            head.names.emplace_back(field.text);
+        head.names = names_in(named);
         if (head.names.size() != fields.size())
             throw InputError(lines.place(1), "has " + std::to_string(fields.size()) +
                                                  " numbers; the comment above it names " +

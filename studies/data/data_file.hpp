@@ -4,8 +4,8 @@
 /// comma may be a decimal point) or blanks, as the line of names has it. The names stand in the
 /// first line, or, as NumPy writes them, in the comment (#) just above the first line of numbers.
 /// Empty lines and other comments are passed over. Numbers are read alike in every locale, also
-/// with Fortran's exponents (1.5D-03, 1.5-103); an empty field, nan or NA is a failed run, and what
-/// is too small for a double is 0.
+/// with Fortran's exponents (1.5D-03, 1.5-103); an empty field, nan or NA is a failed run. What is
+/// too large or too small for a double is refused.
 #pragma once
 
 #include <optional>

@@ -197,6 +197,12 @@ BOOST_AUTO_TEST_CASE(columns_are_found_by_name_in_any_order) {
     BOOST_TEST(data.errors[0].numbers == (std::vector{1e-2, 2.5e-3}));
 }
 
+BOOST_AUTO_TEST_CASE(a_doubled_quote_in_a_name_is_one) {
+    const auto data =
+        data_of("h,\"the \"\"L2\"\" norm\"\n0.5,1\n", {.errors = {"the \"L2\" norm"}});
+    BOOST_TEST(data.errors[0].name == "the \"L2\" norm");
+}
+
 // The same numbers as programs write them, whatever the locale of the one that reads.
 BOOST_DATA_TEST_CASE(
     every_separator_and_spelling_gives_the_same_numbers,
