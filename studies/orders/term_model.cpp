@@ -309,10 +309,6 @@ FittedNumber TermFit::order(Eigen::Index width) const {
     return {theta[2 * width + 1], std::sqrt(covariance(2 * width + 1, 2 * width + 1))};
 }
 
-double TermFit::size(Eigen::Index width) const {
-    return std::exp(theta[2 * width] - theta[2 * width + 1] * log_centre[width]);
-}
-
 FittedNumber TermFit::correlation(Eigen::Index first, Eigen::Index second) const {
     const auto at = Layout(shape, log_centre.size()).pair(first, second);
     return {std::sin(theta[at]), std::cos(theta[at]) * std::sqrt(covariance(at, at))};

@@ -71,7 +71,6 @@ struct TermFit {
     double student() const;
 
     FittedNumber order(Eigen::Index width) const; ///< p_i
-    double size(Eigen::Index width) const;        ///< a_i, of the width in its own unit
     FittedNumber correlation(Eigen::Index first, Eigen::Index second) const; ///< ρ
     /// T_i at a row.
     double term(Eigen::Index width, double log_width) const;

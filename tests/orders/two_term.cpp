@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <random>
 #include <stdexcept>
 #include <utility>
 #include <vector>
@@ -184,6 +185,39 @@ BOOST_AUTO_TEST_CASE(the_error_of_a_reference_run_is_part_of_the_model) {
     BOOST_TEST(std::abs(fit_two_term(records).model.p - 2) > 0.01);
     for (const Refinement& coarse : {Refinement{.h = 0.05, .dt = 5e-4}, {.h = 1e-3, .dt = 5e-3}})
         BOOST_CHECK_THROW(fit_two_term(records, coarse), std::invalid_argument);
+}
+
+// With A = 2 (0.04 - 0.0025) and B = 0.5 (0.1 - 0.01).
+BOOST_AUTO_TEST_CASE(a_reference_takes_its_own_terms_off_those_of_the_model) {
+    const TwoTermModel model{.a = 2, .p = 2, .b = 0.5, .q = 1, .rho = 0.3};
+    const auto combined = [](double in_space, double in_time) {
+        return std::sqrt(in_space * in_space + 0.6 * in_space * in_time + in_time * in_time);
+    };
+    const auto close = boost::test_tools::tolerance(1e-13);
+    BOOST_TEST(error_against({.h = 0.05, .dt = 0.01}, model, 0.2, 0.1) == combined(0.075, 0.045),
+               close);
+    BOOST_TEST(error_against({.h = 0.05}, model, 0.2, 0.1) == combined(0.075, 0.05), close);
+    BOOST_TEST(error_against({.dt = 0.01}, model, 0.2, 0.1) == combined(0.08, 0.045), close);
+}
+
+// Near 1 ρ is known far better than the angle whose sine it is.
+BOOST_AUTO_TEST_CASE(the_standard_error_of_rho_is_how_far_it_scatters) {
+    constexpr int fits = 40;
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> off(-0.03, 0.03);
+    double sum = 0, squares = 0, stated = 0;
+    for (int i = 0; i < fits; ++i) {
+        const auto fit = fit_two_term(
+            grid([&](double h, double dt) { return cancelling.error(h, dt) * (1 + off(random)); }));
+        const double miss = fit.model.rho - cancelling.rho;
+        sum += miss;
+        squares += miss * miss;
+        stated += fit.rho_se / fits;
+    }
+    const double scatter = std::sqrt((squares - sum * sum / fits) / (fits - 1));
+    BOOST_TEST_MESSAGE("rho scatters by " << scatter << ", stated " << stated);
+    BOOST_TEST(stated < 1.6 * scatter);
+    BOOST_TEST(stated > 0.6 * scatter);
 }
 
 // Errors that do not depend on Δt have an order in h, and none in Δt.
