@@ -70,7 +70,7 @@ struct TermFit {
     /// as far as the errors come from the residuals. Infinite without residuals and scatter.
     double student() const;
 
-    FittedNumber order(Eigen::Index width) const; ///< p_i
+    FittedNumber order(Eigen::Index width) const;                            ///< p_i
     FittedNumber correlation(Eigen::Index first, Eigen::Index second) const; ///< ρ
     /// T_i at a row.
     double term(Eigen::Index width, double log_width) const;
