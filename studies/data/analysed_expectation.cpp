@@ -5,6 +5,7 @@
 #include "studies/scene/scene.hpp"
 
 #include <filesystem>
+#include <system_error>
 #include <utility>
 
 namespace tvbeam {
@@ -35,8 +36,11 @@ void expect_analysed(TableReader& expect, const Scene& scene,
         if (!file || file->empty())
             throw table.error("file",
                               " is missing or empty; name the table, relative to the scene");
-        const DataAnalysis analysis =
-            analyse(read_data((folder / *file).string(), read_choice(table)));
+        const auto path = folder / *file;
+        std::error_code ignored;
+        if (!std::filesystem::is_regular_file(path, ignored))
+            throw table.error("file", " is '" + *file + "', and there is no file " + path.string());
+        const DataAnalysis analysis = analyse(read_data(path.string(), read_choice(table)));
         const auto holds = table.text("holds");
         if (!holds)
             throw table.error("holds", " is missing; give what is expected of the columns, as "
