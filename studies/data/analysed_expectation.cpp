@@ -39,7 +39,8 @@ void expect_analysed(TableReader& expect, const Scene& scene,
         const auto path = folder / *file;
         std::error_code ignored;
         if (!std::filesystem::is_regular_file(path, ignored))
-            throw table.error("file", " is '" + *file + "', and there is no file " + path.string());
+            throw table.error("file",
+                              " is '" + *file + "', and there is no regular file " + path.string());
         const DataAnalysis analysis = analyse(read_data(path.string(), read_choice(table)));
         const auto holds = table.text("holds");
         if (!holds)

@@ -524,13 +524,16 @@ bool OrderEnsemble::has_logarithm() const {
         low = std::min(low, order);
         high = std::max(high, order);
     }
-    constexpr double far = 5; // so much steadier than all others
+    // So much steadier than all others: of 200 sequences without one, of errors that scatter by 1
+    // to 30 %, at most one looks so.
+    constexpr double far = 10;
+    constexpr std::size_t fewest_levels = 6;
     double others = infinity;
     for (const auto& [family, range] : ranges)
         if (family != logarithmic_family)
             others = std::min(others, range.second - range.first);
     const auto own = ranges.find(logarithmic_family);
-    return own != ranges.end() && levels_.front().size() > 4 &&
+    return own != ranges.end() && levels_.front().size() >= fewest_levels &&
            others > std::max(far * (own->second.second - own->second.first), tuning_.narrowest);
 }
 

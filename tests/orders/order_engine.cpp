@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -240,6 +241,35 @@ BOOST_AUTO_TEST_CASE(a_logarithm_is_known_from_a_next_term) {
     BOOST_TEST(
         !OrderEnsemble(sequence(7, [](double h) { return h * h * (1 + h); })).has_logarithm());
     BOOST_TEST(!OrderEnsemble(sequence(7, [](double h) { return h * h; })).has_logarithm());
+    BOOST_TEST(!OrderEnsemble(sequence(7, [](double h) {
+                    return h * h * (1 + 3 * std::pow(h, 0.3));
+                })).has_logarithm());
+}
+
+// Scatter lets the order of one model stand still by chance, the more easily the fewer the levels.
+BOOST_AUTO_TEST_CASE(scatter_is_no_logarithm) {
+    std::mt19937 random(1);
+    std::uniform_real_distribution<double> off(-0.05, 0.05);
+    int found = 0;
+    for (int i = 0; i < 100; ++i)
+        for (const int levels : {5, 6, 7})
+            found += OrderEnsemble(sequence(levels, [&](double h) {
+                         return h * h * (1 + off(random));
+                     })).has_logarithm();
+    BOOST_TEST(found <= 3);
+}
+
+// ln e of two rows a width, off by δ and −4δ with the deviations σ and 2σ: weighted with 4 to 1, as
+// 1/σ² does it, their mean is on the line.
+BOOST_AUTO_TEST_CASE(rows_of_one_width_weigh_as_their_deviations_say) {
+    std::vector<ErrorRow> rows;
+    double off = 0.02;
+    for (const auto& row : sequence(6, [](double h) { return h * h; })) {
+        rows.push_back({row.widths, row.error * std::exp(off), 0.02});
+        rows.push_back({row.widths, row.error * std::exp(-4 * off), 0.04});
+        off = -off;
+    }
+    BOOST_TEST(std::abs(estimate_orders(rows).front().value - 2) < 1e-6);
 }
 
 BOOST_AUTO_TEST_CASE(what_does_not_converge_is_said_to_grow_or_to_stand_still) {

@@ -90,8 +90,8 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_analysed_is_refused) {
     said("holds = 'e.order = [1, 2]'", "expect.analyse.0.file is missing");
     said("file = ''", "expect.analyse.0.file is missing");
     said("file = 'none.csv'\nholds = 'e.order = [1, 2]'",
-         "expect.analyse.0.file is 'none.csv', and there is no file");
-    said("file = '.'\nholds = 'e.order = [1, 2]'", "there is no file");
+         "expect.analyse.0.file is 'none.csv', and there is no regular file");
+    said("file = '.'\nholds = 'e.order = [1, 2]'", "there is no regular file");
     said(table, "expect.analyse.0.holds is missing");
     said(table + "holds = ''", "expect.analyse.0.holds: expects nothing");
     said(table + "holds = 'e.order = [1, '", "expect.analyse.0.holds:1:");
