@@ -339,6 +339,7 @@ struct Head {
 /// A quote in quotes is doubled.
 std::vector<std::string> names_in(const std::vector<TextField>& fields) {
     std::vector<std::string> names;
+    names.reserve(fields.size());
     for (const auto& field : fields)
         names.push_back(boost::algorithm::replace_all_copy(std::string(field.text), "\"\"", "\""));
     return names;
