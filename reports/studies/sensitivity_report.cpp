@@ -35,7 +35,9 @@ std::string finding(const CaughtDefect& defect, const SensitivityResult& result,
     const auto least = defect.least_of_all();
     if (!least)
         return defect.least.empty()
-                   ? fmt::format("{}: no expectation holds without it, so that none was asked.",
+                   ? fmt::format("{}: no expectation that it could change holds without it, so "
+                                 "that none was "
+                                 "asked.",
                                  defect.name)
                    : fmt::format("{}: no expectation catches it at the factors tried, one a decade "
                                  "up to {}.",

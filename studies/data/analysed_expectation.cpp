@@ -5,8 +5,11 @@
 #include "studies/scene/scene.hpp"
 
 #include <filesystem>
+#include <optional>
+#include <string>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 namespace tvbeam {
 
@@ -26,32 +29,62 @@ DataChoice read_choice(TableReader& table) {
     return choice;
 }
 
+/// What an analysis comes to, with what it assumed beside what it found and was not to be.
+std::vector<CheckedExpectation> checked_analysis(const DataAnalysis& analysis,
+                                                 const NamedToml& holds) {
+    auto checked = check(analysis, holds);
+    for (auto& one : checked)
+        for (const auto& remark : analysis.remarks)
+            if (!one.holds)
+                one.found += " (" + remark + ")";
+    return checked;
+}
+
+/// A table is what another program wrote: one that is none violates what is expected of it.
+CheckedExpectation no_table(const InputError& error) {
+    return {.what = "table",
+            .expected = "a table that can be analysed",
+            .found = error.what(),
+            .place = {},
+            .holds = false};
+}
+
 } // namespace
 
 void expect_analysed(TableReader& expect, const Scene& scene,
                      std::vector<Expectation>& expectations) {
-    const auto folder = std::filesystem::path(scene.file).parent_path();
     for (auto& table : expect.tables("analyse")) {
         const auto file = table.text("file");
         if (!file || file->empty())
             throw table.error("file",
                               " is missing or empty; name the table, relative to the scene");
-        const auto path = folder / *file;
-        std::error_code ignored;
-        if (!std::filesystem::is_regular_file(path, ignored))
-            throw table.error("file",
-                              " is '" + *file + "', and there is no regular file " + path.string());
-        const DataAnalysis analysis = analyse(read_data(path.string(), read_choice(table)));
         const auto holds = table.text("holds");
         if (!holds)
             throw table.error("holds", " is missing; give what is expected of the columns, as "
                                        "'L2.order = [1.9, 2.1]'");
-        auto checked = check(analysis, {*holds, scene.file + ": " + table.full("holds")});
+        const NamedToml expected{*holds, scene.file + ": " + table.full("holds")};
+        parse_toml(expected.text, expected.name); // is refused before anything is read
+        const DataChoice choice = read_choice(table);
+        table.finish();
+
+        const std::filesystem::path folder = std::filesystem::path(scene.file).parent_path();
+        const auto path = (folder.empty() ? "." : folder) / *file;
+        std::optional<DataAnalysis> analysis;
+        std::vector<CheckedExpectation> checked;
+        try {
+            std::error_code ignored;
+            if (!std::filesystem::is_regular_file(path, ignored))
+                throw InputError({path.string()}, "is no regular file, or there is none");
+            analysis = analyse(read_data(path.string(), choice));
+        } catch (const InputError& error) {
+            checked = {no_table(error)};
+        }
+        if (analysis)
+            checked = checked_analysis(*analysis, expected);
         for (auto& one : checked) {
-            one.what = what_of(table, "holds") + ": " + one.what;
+            one.what = what_of(table, "holds") + ", " + *file + ": " + one.what;
             one.place = table.place("holds");
         }
-        table.finish();
         expectations.push_back(
             [checked = std::move(checked)](const StudyResult& /*result*/) { return checked; });
     }

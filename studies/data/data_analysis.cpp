@@ -113,8 +113,12 @@ ColumnAnalysis analyse_errors(const DataAnalysis& data, const DataColumn& errors
             column.by_width[i].status = "it is the same in all rows";
     if (used.empty())
         used = {0};
+    constexpr std::size_t most_widths = 3;
     if (used.size() <= 2) {
         analyse_records(data, used, sigma, column);
+    } else if (used.size() > most_widths) {
+        for (const auto i : used)
+            column.by_width[i].status = "of more than three widths at a time no orders are found";
     } else {
         std::vector<ErrorRow> rows(data.rows());
         for (std::size_t r = 0; r < rows.size(); ++r) {

@@ -117,11 +117,17 @@ private:
     }
 
     void check_rows() {
+        for (const char* key : {"orders", "verdicts"})
+            if (column_.is_value && table_.has(key))
+                throw table_.error(key, " is of errors, and " + column_.name +
+                                            " holds values; of these there are limit and order");
         std::vector<Metric> metrics;
+        // Rows of one width have one order between them; a row without an error has none, and is
+        // not passed over.
         for (std::size_t row = 1; row < column_.orders.size(); ++row)
-            if (column_.orders[row])
-                metrics.push_back(
-                    {"observed order" + row_text(analysis_, row), column_.orders[row], ""});
+            if (column_.orders[row] || !is_positive(column_.numbers[row]))
+                metrics.push_back({"observed order" + row_text(analysis_, row), column_.orders[row],
+                                   "none: the error is not a positive number"});
         if (metrics.empty())
             metrics.push_back({"observed order", std::nullopt, "none: no row refines another"});
         hold(table_, "orders", std::move(metrics));

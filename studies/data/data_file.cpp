@@ -37,6 +37,7 @@ std::string_view trimmed(std::string_view text) {
 struct TextField {
     std::string_view text;
     int column = 1;
+    bool quoted = false;
 };
 
 /// A whole file and the line that is read.
@@ -93,7 +94,7 @@ void split(const Lines& lines, std::string_view line, char separator,
                 end = line.find('"', end + 2);
             if (end == std::string_view::npos)
                 throw InputError(lines.place(column(begin - 1)), "a quote is not closed");
-            fields.push_back({line.substr(begin, end - begin), column(begin)});
+            fields.push_back({line.substr(begin, end - begin), column(begin), true});
             at = std::min(line.find_first_not_of(" \r", end + 1), line.size());
             if (at < line.size() && separator != ' ' && line[at] != separator)
                 throw InputError(lines.place(column(at)), "something stands behind a closed quote");
@@ -199,7 +200,8 @@ struct Names {
             return *found;
         throw InputError(place, "no column '" + name + "'" + did_you_mean(name, all) + " among " +
                                     boost::algorithm::join(all, ", ") + "; choose one with " +
-                                    option + " NAME");
+                                    option + " NAME, in a scene " + option.substr(2) +
+                                    " = [\"NAME\"]");
     }
 };
 
@@ -280,6 +282,14 @@ void choose_widths(const Names& names, const DataChoice& choice, DataFile& data,
                                           boost::algorithm::join(names.all, ", ") +
                                           "; say what was refined with --size NAME or --step NAME");
     for (std::size_t i = 0; i < uses.size(); ++i)
+        for (std::size_t k = 0; k < i; ++k)
+            if (data.widths[i].name == data.widths[k].name)
+                throw InputError(names.place, "two widths would be called " + data.widths[i].name +
+                                                  ": those of the columns " +
+                                                  names.all[uses[k].column] + " and " +
+                                                  names.all[uses[i].column] +
+                                                  "; give one of them another name");
+    for (std::size_t i = 0; i < uses.size(); ++i)
         uses[i].target = &data.widths[i];
 }
 
@@ -315,7 +325,7 @@ void choose_figures(const Names& names, const DataChoice& choice, DataFile& data
 }
 
 /// Bytes; a record of ten figures has some two hundred.
-constexpr std::size_t largest_table = 64 << 20;
+constexpr std::size_t largest_table = 8 << 20;
 
 std::string text_of(const std::string& file) {
     std::string text = file_text(file, largest_table);
@@ -340,8 +350,11 @@ struct Head {
 std::vector<std::string> names_in(const std::vector<TextField>& fields) {
     std::vector<std::string> names;
     names.reserve(fields.size());
-    for (const auto& field : fields)
-        names.push_back(boost::algorithm::replace_all_copy(std::string(field.text), "\"\"", "\""));
+    for (const auto& field : fields) {
+        names.emplace_back(field.text);
+        if (field.quoted)
+            boost::algorithm::replace_all(names.back(), "\"\"", "\"");
+    }
     return names;
 }
 
@@ -403,15 +416,39 @@ void read_record(const Lines& lines, const std::vector<TextField>& fields, const
             throw InputError(lines.place(field.column),
                              "'" + std::string(field.text) + "' in column " + name +
                                  " counts nothing; it must be 1 or more");
+        const double width = use.power == 1    ? number
+                             : use.power == -1 ? 1 / number
+                                               : std::pow(number, use.power);
+        if (use.is_width && !is_positive(width))
+            throw InputError(lines.place(field.column),
+                             "'" + std::string(field.text) + "' in column " + name +
+                                 " leaves no width: to the power " + shortest(use.power) +
+                                 " it is too small for a double");
         auto& target = use.plain != nullptr ? *use.plain : use.target->numbers;
-        target.push_back(use.power == 1    ? number
-                         : use.power == -1 ? 1 / number
-                                           : std::pow(number, use.power));
+        target.push_back(width);
         found = found || (!use.is_width && use.plain == nullptr && std::isfinite(number));
         if (use.plain != nullptr && found && !(number > 0 && std::isfinite(number)))
             throw InputError(lines.place(field.column),
                              "'" + std::string(field.text) + "' in column " + name +
                                  " is no deviation; a row that has a number needs one > 0");
+    }
+}
+
+/// What is known of figures goes by the squares of their deviations, and of errors by those of the
+/// deviations over themselves.
+void require_squares_of(const DataFile& data) {
+    constexpr double least = 1e-100, greatest = 1e100;
+    for (std::size_t i = 0; i < data.sigma.size(); ++i) {
+        const double size = data.errors.empty() ? 1.0 : data.errors.front().numbers[i];
+        const double deviation = data.sigma[i] / size;
+        if (is_positive(size) && is_positive(data.sigma[i]) &&
+            !(deviation >= least && deviation <= greatest))
+            throw InputError({data.name},
+                             "has a deviation of " + shortest(data.sigma[i]) + " in record " +
+                                 std::to_string(i + 1) +
+                                 (data.errors.empty()
+                                      ? "; it must be from 1e-100 to 1e100"
+                                      : "; it must be 1e-100 to 1e100 times the error"));
     }
 }
 
@@ -445,6 +482,7 @@ DataFile read_data(const std::string& file, const DataChoice& choice) {
     }
     if (data.widths.front().numbers.empty())
         throw InputError({data.name}, "has no records below its line of names");
+    require_squares_of(data);
     return data;
 }
 

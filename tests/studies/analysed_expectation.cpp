@@ -57,7 +57,7 @@ BOOST_AUTO_TEST_CASE(orders_of_a_table_are_held_against_what_a_scene_says) {
     const auto wrong = checked(table + "holds = 'e.order = [2.9, 3.1]'");
     BOOST_REQUIRE(wrong.size() == 1U);
     BOOST_TEST(!wrong[0].holds);
-    BOOST_TEST(wrong[0].what == "analyse.0.holds: e: order in h");
+    BOOST_TEST(wrong[0].what == "analyse.0.holds, cells.csv: e: order in h");
     BOOST_TEST(wrong[0].place.line == 16);
     BOOST_TEST(wrong[0].place.file.ends_with("s.toml"));
 }
@@ -89,9 +89,6 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_analysed_is_refused) {
     };
     said("holds = 'e.order = [1, 2]'", "expect.analyse.0.file is missing");
     said("file = ''", "expect.analyse.0.file is missing");
-    said("file = 'none.csv'\nholds = 'e.order = [1, 2]'",
-         "expect.analyse.0.file is 'none.csv', and there is no regular file");
-    said("file = '.'\nholds = 'e.order = [1, 2]'", "there is no regular file");
     said(table, "expect.analyse.0.holds is missing");
     said(table + "holds = ''", "expect.analyse.0.holds: expects nothing");
     said(table + "holds = 'e.order = [1, '", "expect.analyse.0.holds:1:");
@@ -99,7 +96,36 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_analysed_is_refused) {
     said(table + "holds = 'e.ordre = [1, 2]'", "did you mean 'order'");
     said("file = 'cells.csv'\ndimension = 0\nholds = 'e.order = [1, 2]'",
          "expect.analyse.0.dimension is 0; it must be > 0");
-    said(table + "sizes = ['cells']", "did you mean 'size'");
+    said(table + "holds = 'e.order = [1, 2]'\nsizes = ['cells']", "did you mean 'size'");
+    // What is expected is read before the table is.
+    said("file = 'none.csv'\nholds = 'e.order = [1, '", "expect.analyse.0.holds:1:");
+    said("file = 'cells.csv'\nsize = ['cells']\nvalue = ['e']\nholds = 'e.orders = [1, 2]'",
+         "e.orders is of errors, and e holds values");
+}
+
+BOOST_AUTO_TEST_CASE(what_is_no_table_violates_what_is_expected_of_it) {
+    const auto found = [](const std::string& lines) {
+        const auto all = checked(lines + "\nholds = 'e.order = [1, 2]'");
+        BOOST_TEST(all.size() == 1U);
+        BOOST_TEST(!all.front().holds);
+        return all.front().found;
+    };
+    const auto has = [](const std::string& text, const std::string& part) {
+        return text.find(part) != std::string::npos;
+    };
+    BOOST_TEST(has(found("file = 'none.csv'"), "none.csv: is no regular file, or there is none"));
+    BOOST_TEST(has(found("file = '.'"), "is no regular file"));
+    BOOST_TEST(has(found("file = 's.toml'"), "s.toml:1:1: "));
+    BOOST_TEST(
+        has(found("file = 'cells.csv'\nsize = ['cell']\nerror = ['e']"),
+            "did you mean 'cells'? among cells, e, scatter; choose one with --size NAME, in a "
+            "scene size = [\"NAME\"]"));
+    // What was assumed is said where it does not hold.
+    const std::string other = checked("file = 'cells.csv'\nsize = ['cells']\nerror = ['e']\n"
+                                      "holds = 'e.order = [1, 2]'")
+                                  .front()
+                                  .found;
+    BOOST_TEST(has(other, "dimension 1 was assumed"));
 }
 
 BOOST_AUTO_TEST_SUITE_END()

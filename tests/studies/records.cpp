@@ -142,6 +142,18 @@ const std::vector<Malformed> malformed{
     bad_width("NA"),
     {"h,error\n1e-400,1\n", "e.csv:2:1: '1e-400' in column h is too small for a double"},
     {"h,error\n0.1,1e-400\n", "e.csv:2:5: '1e-400' in column error is too small for a double"},
+    {"n,error\n4,1\n8,0.5\n",
+     "e.csv:2:1: '4' in column n leaves no width: to the power -1e3 it is too small for a double",
+     {.sizes = {"n"}, .dimension = 0.001}},
+    {"n,h,error\n4,1,1\n",
+     "e.csv:1:1: two widths would be called h: those of the columns n and h",
+     {.sizes = {"n"}, .step = "h"}},
+    {"h,value,s\n0.2,1,1\n0.1,1,1e101\n",
+     "e.csv: has a deviation of 1e101 in record 2; it must be from 1e-100 to 1e100",
+     {.sigma = "s"}},
+    {"h,error,s\n0.2,1e-60,1e50\n0.1,1,1\n",
+     "e.csv: has a deviation of 1e50 in record 1; it must be 1e-100 to 1e100 times the error",
+     {.sigma = "s"}},
     {"h,error\nabc,1\n", "e.csv:2:1: 'abc' in column h is not a number"},
     {"elements,error\n0,1\n", "e.csv:2:1: '0' in column elements must be a positive number"},
     {"h,dt,error\n0.1,0,1\n", "e.csv:2:5: '0' in column dt must be a positive number"},
@@ -197,10 +209,41 @@ BOOST_AUTO_TEST_CASE(columns_are_found_by_name_in_any_order) {
     BOOST_TEST(data.errors[0].numbers == (std::vector{1e-2, 2.5e-3}));
 }
 
+// As a gate, orders must not pass because the finest runs failed.
+BOOST_AUTO_TEST_CASE(an_order_of_a_row_without_an_error_is_none_and_holds_nothing) {
+    const auto holds = [](const std::string& finest) {
+        const auto analysis = analyse(data_of("h,error\n0.4,0.16\n0.2,0.04\n0.1," + finest + "\n"));
+        const auto checked = check(analysis, "error.orders = [1.9, 2.1]");
+        return std::ranges::all_of(checked, [](const auto& one) { return one.holds; });
+    };
+    BOOST_TEST(holds("0.01"));
+    BOOST_TEST(!holds("nan"));
+    BOOST_TEST(!holds("0"));
+    // Two runs of a width have one order.
+    BOOST_TEST(holds("0.01\n0.1,0.0101"));
+}
+
+BOOST_AUTO_TEST_CASE(of_four_widths_at_a_time_no_order_is_told) {
+    std::string text = "a,b,c,dt,error\n";
+    for (int i = 0; i < 81; ++i) {
+        double sum = 0;
+        for (int k = 0, rest = i; k < 4; ++k, rest /= 3) {
+            const double h = std::exp2(-(rest % 3));
+            text += std::to_string(h) + ",";
+            sum += h;
+        }
+        text += std::to_string(sum) + "\n";
+    }
+    const auto analysis = analyse(data_of(text, {.sizes = {"a", "b", "c"}}));
+    for (const auto& order : analysis.columns.front().by_width)
+        BOOST_TEST(order.status == "of more than three widths at a time no orders are found");
+}
+
 BOOST_AUTO_TEST_CASE(a_doubled_quote_in_a_name_is_one) {
     const auto data =
         data_of("h,\"the \"\"L2\"\" norm\"\n0.5,1\n", {.errors = {"the \"L2\" norm"}});
     BOOST_TEST(data.errors[0].name == "the \"L2\" norm");
+    BOOST_TEST(data_of("h,a\"\"b\n0.5,1\n", {.errors = {"a\"\"b"}}).errors[0].name == "a\"\"b");
 }
 
 // The same numbers as programs write them, whatever the locale of the one that reads.
