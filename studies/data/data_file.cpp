@@ -3,6 +3,7 @@
 #include "mms/text/file_text.hpp"
 #include "mms/text/input_error.hpp"
 #include "mms/text/nearest_name.hpp"
+#include "studies/orders/observed_order.hpp"
 #include "studies/text/number_text.hpp"
 
 #include <boost/algorithm/string/join.hpp>
