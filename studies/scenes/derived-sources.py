@@ -256,6 +256,8 @@ def operators_in_the_plane():
     sources |= numbered("skew", [a - b for a, b in zip(divergence(turned(stress)), other)])
     sources["powers"] = psi * psi / field("(y*y + 1)**2.5") + field(
         "exp(log(x*x + y + 1)/3 - t*log(2)) + 8e-6*exp(y*log(2 + x))")
+    sources["joined"] = psi + field("exp((2 + x/3)*log(y + 1))").by(Y) + field(
+        "sinh(x)*tanh(x) + 2*tanh(y)/cosh(y)")
     free = product(turned(slopes), [x, y])
     boundary = {"side1": (X, 2, stress[0][0]), "side2": (X, 2, stress[1][0]),
                 "free1": (X, 0.7, 2 * free[0]), "free2": (X, 0.7, 2 * free[1])}
