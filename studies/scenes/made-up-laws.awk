@@ -37,6 +37,7 @@ BEGIN {
     error("outlier", h^2 * (level == 3 ? 3 : 1))
     error("bent_before", h^2 * (level == 3 ? 3 : level < 2 ? 2 : 1))  # off the line, which ends beside it
     error("bent_behind", h^2 * (level == 3 ? 3 : level > 4 ? 2 : 1))
+    error("denied", h^2 * (level == 5 ? 0.5 : level > 5 ? 0.6 : 1)) # the last two orders are others
     error("steeper", exp(-0.4 * level^2))                    # no two orders agree
     error("growing", 0.01 / h)
     error("standing", 0.01 * (1 + 0.001 * sign))

@@ -5,5 +5,6 @@ BEGIN {
     for (sweep = 1; sweep <= 3; ++sweep)
         printf "sweep %d: L2 error = %.12f%s\n", sweep, h^2 + (3 - sweep), ENVIRON["EXPONENT"]
     printf "drag = +%.12g (level %d, %d steps to %g)\n", 2 + h + 0.5 * final_time, parts[2], steps, final_time
+    printf "   error in norm of order 2:%.10fE-01\n", 30 * h^2
     printf "error of level %d = %.12f\n", parts[2], 2^-(2 * parts[2]) * dt * steps * length(closing) / 2
 }
