@@ -1,10 +1,11 @@
 #include "studies/external/keeper.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cerrno>
 #include <chrono>
 #include <csignal>
 #include <random>
-#include <set>
 #include <string>
 #include <system_error>
 #include <thread>
@@ -18,27 +19,41 @@ namespace tvbeam {
 
 namespace {
 
-void remove_whole(const std::filesystem::path& directory) {
+/// Another thread may have been within an allocation when this process was forked: it allocates
+/// nothing, and leaves the removing to a program.
+void remove_whole(const char* directory) {
     // What was killed a moment ago may still be writing.
-    for (int attempt = 0; attempt < 20; ++attempt) {
-        std::error_code error;
-        std::filesystem::remove_all(directory, error);
-        if (!error)
-            return;
-        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    for (int attempt = 0; attempt < 20 && access(directory, F_OK) == 0; ++attempt) {
+        if (attempt > 0)
+            std::this_thread::sleep_for(std::chrono::milliseconds(10));
+        const pid_t remover = fork();
+        if (remover == 0) {
+            execlp("rm", "rm", "-rf", "--", directory, nullptr);
+            _exit(127);
+        }
+        while (waitpid(remover, nullptr, 0) < 0 && errno == EINTR) {
+        }
     }
 }
 
+/// As many as run at a time; jobs are far fewer.
+constexpr std::size_t most_groups = 4096;
+
 /// Notes the groups that begin and end until the pipe closes: with its other end, this process's
 /// parent is gone.
-[[noreturn]] void keep(int pipe, const std::filesystem::path& directory) {
+[[noreturn]] void keep(int pipe, const char* directory) {
     setsid(); // no Ctrl-C of a terminal is for this one
     for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT})
         std::signal(signal, SIG_IGN);
     const int nowhere = open("/dev/null", O_RDWR);
     for (const int standard : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
         dup2(nowhere, standard);
-    std::set<pid_t> groups;
+    std::array<pid_t, most_groups> groups{}; // 0: none
+    const auto replace = [&](pid_t old, pid_t with) {
+        const auto at = std::find(groups.begin(), groups.end(), old);
+        if (at != groups.end())
+            *at = with;
+    };
     pid_t group = 0;
     while (true) {
         const ssize_t count = read(pipe, &group, sizeof group);
@@ -47,12 +62,13 @@ void remove_whole(const std::filesystem::path& directory) {
         if (count != sizeof group)
             break;
         if (group > 0)
-            groups.insert(group);
+            replace(0, group);
         else
-            groups.erase(-group);
+            replace(-group, 0);
     }
     for (const pid_t left : groups)
-        kill(-left, SIGKILL);
+        if (left > 0)
+            kill(-left, SIGKILL);
     remove_whole(directory);
     _exit(0);
 }
@@ -73,7 +89,7 @@ Keeper::Keeper() {
         throw std::system_error(errno, std::generic_category(), "cannot begin a process");
     if (process_ == 0) {
         close(ends[1]);
-        keep(ends[0], directory_);
+        keep(ends[0], directory_.c_str());
     }
     close(ends[0]);
     pipe_ = ends[1];

@@ -12,7 +12,7 @@ namespace tvbeam {
 class Keeper {
 public:
     /// Begins the process, and makes the directory among the temporary files. Throws
-    /// std::system_error. To be called before other threads are begun.
+    /// std::system_error.
     Keeper();
     ~Keeper();
     Keeper(const Keeper&) = delete;
