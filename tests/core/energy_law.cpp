@@ -171,6 +171,9 @@ BOOST_AUTO_TEST_CASE(a_reaction_that_pulls_has_the_wrong_sign_at_either_stop) {
     BOOST_TEST(wrong_sign(upper_is_near, -0.3) == 0.0);
     BOOST_TEST(wrong_sign(lower_is_near, -0.3) == 0.1, boost::test_tools::tolerance(1e-15));
     BOOST_TEST(wrong_sign(upper_is_near, 0.3) == 0.1, boost::test_tools::tolerance(1e-15));
+    // A tip that is held at the stop itself.
+    BOOST_TEST(wrong_sign({0.0, 0.5}, -0.3) == 0.1, boost::test_tools::tolerance(1e-15));
+    BOOST_TEST(wrong_sign({-0.5, 0.0}, 0.3) == 0.1, boost::test_tools::tolerance(1e-15));
 }
 
 BOOST_AUTO_TEST_CASE(a_step_of_too_few_or_too_many_solves_is_told) {
