@@ -252,6 +252,17 @@ std::vector<Norm> all_norms() {
 
 } // namespace
 
+// [0, 1/2], [1/2, 3/4], [3/4, 1]: the element [1/3, 2/3] meets the first, which is long enough for
+// it, and the second, which is not; [2/3, 1] meets the others. Each is halved.
+BOOST_AUTO_TEST_CASE(no_cell_is_longer_than_any_interval_that_it_meets) {
+    const Resolution resolution({{0.0, 0.5}, {0.5, 0.25}, {0.75, 0.25}});
+    const Mesh cut = resolution.on(Mesh::uniform(3));
+    BOOST_REQUIRE(cut.cells);
+    BOOST_TEST(cut.cells->first == (std::vector<Index>{0, 1, 3, 5}),
+               boost::test_tools::per_element());
+    BOOST_TEST(!resolution.on(Mesh::uniform(4)).cells);
+}
+
 BOOST_DATA_TEST_CASE(runs_agree_with_a_quadrature_that_is_fine_everywhere,
                      data::make({"1/2", "1/2 - t/10"}) * data::make(all_runs), front, scheme) {
     if (short_tests && front == std::string("1/2"))
