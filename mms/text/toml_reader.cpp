@@ -598,8 +598,6 @@ std::vector<TableReader> TableReader::tables(std::string_view key) {
     if (node == nullptr)
         return tables;
     const toml::array* array = node->as_array();
-    if (array != nullptr && array->empty())
-        return tables;
     if (array == nullptr || !array->is_array_of_tables())
         throw wrong_type(key, *node, "an array of tables, each headed [[" + full(key) + "]]");
     for (const auto& element : *array)
