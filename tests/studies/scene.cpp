@@ -177,6 +177,16 @@ BOOST_AUTO_TEST_CASE(a_scene_is_read_as_written) {
     BOOST_TEST(scene.get<LadderBlock>()->printed->figures.at("theta_L2L2_sq")[1] == 2.0);
 }
 
+// U+1D6FC, which UTF-16 writes in two parts.
+BOOST_AUTO_TEST_CASE(a_letter_beyond_16_bits_stands_in_the_json_of_a_scene) {
+    const TemporaryDirectory directory;
+    const auto file = directory.write(
+        "s.toml", "title = '\xF0\x9D\x9B\xBC'\nsolution = 'free-oscillation'\n[beam]\nalpha = 0.3\n"
+                  "zeta = 0.05\nstops = [-0.1, 0.1]\n[ladder]\nfinal_time = 1.0\nelements = [5]\n"
+                  "dt = [0.1]\nnorms = ['theta_L2L2']\n");
+    BOOST_TEST(read_scene(file).json.find("\xF0\x9D\x9B\xBC") != std::string::npos);
+}
+
 BOOST_AUTO_TEST_CASE(what_may_be_absent_has_its_default) {
     const TemporaryDirectory directory;
     const Scene scene = read_scene(directory.write("bare.toml", R"toml(solution = "free-oscillation"
