@@ -8,6 +8,7 @@
 #include "mms/text/error_text.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <utility>
 
@@ -100,6 +101,12 @@ double level_time(double final_time, double level, std::int64_t steps) {
     return final_time * level / static_cast<double>(steps);
 }
 
+/// Whether the times of one are among those of the other, to the last bit: a level that falls on
+/// the end of a phase must not miss it.
+bool has_levels_of(std::int64_t finer, std::int64_t coarse) {
+    return finer % coarse == 0 && std::has_single_bit(static_cast<std::uint64_t>(finer / coarse));
+}
+
 /// θ̃, u_xx and their rates in the steps of one refinement.
 class Steps {
 public:
@@ -182,12 +189,13 @@ TimeResiduals::TimeResiduals(const Solution& solution, const Beam& beam, double 
     : beam_(beam), final_time_(final_time), steps_(std::move(steps)),
       exact_(rows(derive_on(solution, beam), solution, false)), x_(sample_points(0.0, 1.0)) {
     for (const std::int64_t count : steps_) {
-        const bool among_finer = std::ranges::any_of(
-            steps_, [&](std::int64_t finer) { return finer > count && finer % count == 0; });
-        if (among_finer)
+        const bool among_finer = std::ranges::any_of(steps_, [&](std::int64_t finer) {
+            return finer > count && has_levels_of(finer, count);
+        });
+        if (among_finer || levels_.contains(count))
             continue;
         auto& levels = levels_[count];
-        for (std::int64_t n = static_cast<std::int64_t>(levels.size()); n <= count; ++n)
+        for (std::int64_t n = 0; n <= count; ++n)
             levels.push_back(exact_.at(x_, level_time(final_time_, static_cast<double>(n), count)));
     }
 }
@@ -201,8 +209,8 @@ std::vector<Residual> TimeResiduals::of(const std::string& scheme) const {
         Sizes size;
         residual.count = count;
         const double dt = final_time_ / static_cast<double>(count);
-        const auto known =
-            std::ranges::find_if(levels_, [&](const auto& one) { return one.first % count == 0; });
+        const auto known = std::ranges::find_if(
+            levels_, [&](const auto& one) { return has_levels_of(one.first, count); });
         const Steps exact(exact_, x_, known->second, final_time_, count);
         for (std::int64_t n = 1 + method.history; n <= count; ++n) {
             const Eigen::ArrayXXd defect = exact.defect(method, n);

@@ -46,7 +46,7 @@ std::vector<Residual> space_residuals(const Solution& solution, const Beam& beam
 ///     y_{n−1})),
 ///
 /// the largest over all steps but those that the scheme leaves to its starter. The exact values are
-/// found once for all schemes, and those of a refinement among those of the finest that it divides.
+/// found once for all schemes, and those of a refinement among those of a finer one, halved.
 class TimeResiduals {
 public:
     TimeResiduals(const Solution& solution, const Beam& beam, double final_time,

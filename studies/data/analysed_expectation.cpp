@@ -15,6 +15,8 @@ namespace tvbeam {
 
 namespace {
 
+constexpr std::size_t most_tables = 200;
+
 DataChoice read_choice(TableReader& table) {
     DataChoice choice;
     choice.sizes = table.texts("size").value_or(choice.sizes);
@@ -53,7 +55,12 @@ CheckedExpectation no_table(const InputError& error) {
 
 void expect_analysed(TableReader& expect, const Scene& scene,
                      std::vector<Expectation>& expectations) {
-    for (auto& table : expect.tables("analyse")) {
+    auto tables = expect.tables("analyse");
+    if (tables.size() > most_tables)
+        throw expect.error("analyse", " has " + std::to_string(tables.size()) +
+                                          " tables; at most " + std::to_string(most_tables) +
+                                          " are analysed");
+    for (auto& table : tables) {
         const auto file = table.text("file");
         if (!file || file->empty())
             throw table.error("file",

@@ -29,6 +29,7 @@ void remove_whole(const char* directory) {
         const pid_t remover = fork();
         if (remover == 0) {
             execlp("rm", "rm", "-rf", "--", directory, nullptr);
+            execl("/bin/rm", "rm", "-rf", "--", directory, nullptr); // whatever PATH says
             _exit(127);
         }
         while (waitpid(remover, nullptr, 0) < 0 && errno == EINTR) {

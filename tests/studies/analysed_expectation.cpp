@@ -97,6 +97,11 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_analysed_is_refused) {
     said("file = 'cells.csv'\ndimension = 0\nholds = 'e.order = [1, 2]'",
          "expect.analyse.0.dimension is 0; it must be > 0");
     said(table + "holds = 'e.order = [1, 2]'\nsizes = ['cells']", "did you mean 'size'");
+    std::string many;
+    for (int i = 0; i < 200; ++i)
+        many += "[[expect.analyse]]\nfile = 'none.csv'\nholds = 'e.order = [1, 2]'\n";
+    said("file = 'none.csv'\nholds = 'e.order = [1, 2]'\n" + many,
+         "expect.analyse has 201 tables; at most 200 are analysed");
     // What is expected is read before the table is.
     said("file = 'none.csv'\nholds = 'e.order = [1, '", "expect.analyse.0.holds:1:");
     said("file = 'cells.csv'\nsize = ['cells']\nvalue = ['e']\nholds = 'e.orders = [1, 2]'",
