@@ -70,6 +70,35 @@ struct Pipe {
     Descriptor write;
 };
 
+/// No handler of this process's runs in a new one that still has its memory.
+class BlockedSignals {
+public:
+    BlockedSignals() {
+        sigset_t all;
+        sigfillset(&all);
+        pthread_sigmask(SIG_SETMASK, &all, &before_);
+    }
+    ~BlockedSignals() { release(); }
+    BlockedSignals(const BlockedSignals&) = delete;
+    BlockedSignals& operator=(const BlockedSignals&) = delete;
+    BlockedSignals(BlockedSignals&&) = delete;
+    BlockedSignals& operator=(BlockedSignals&&) = delete;
+
+    void release() const { pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
+
+private:
+    sigset_t before_{};
+};
+
+/// A handler is not to run in the new process before it has become the program; what this one was
+/// begun without, as by nohup, the program goes without too.
+void forget_handler(int signal) {
+    struct sigaction action {};
+    if (sigaction(signal, nullptr, &action) == 0 && action.sa_handler != SIG_IGN &&
+        action.sa_handler != SIG_DFL)
+        std::signal(signal, SIG_DFL);
+}
+
 /// Texts as exec wants them.
 std::vector<char*> pointers(std::vector<std::string>& texts) {
     std::vector<char*> result;
@@ -121,12 +150,14 @@ private:
         const auto variables = pointers(environment);
         Pipe failure; // tells why exec failed; closes where it did not
         start_ = Clock::now();
-        process_ = fork();
+        const BlockedSignals blocked;
+        // The new process has this one's memory until it has become the program, and this thread
+        // waits for that: a copy of the memory's tables would take longer than a small program.
+        process_ = vfork(); // NOLINT(clang-analyzer-*): the calls of become() allocate nothing
+        if (process_ == 0)
+            become(arguments.data(), variables.data(), failure.write.number(), blocked);
         if (process_ < 0)
             throw std::system_error(errno, std::generic_category(), "cannot begin a process");
-        if (process_ == 0)
-            become(arguments.data(), variables.data(), failure.write.number());
-        setpgid(process_, process_); // whoever comes first, this or the same there
         standard_output_.write.close();
         standard_error_.write.close();
         failure.write.close();
@@ -147,7 +178,8 @@ private:
     }
 
     /// In the new process: nothing but system calls.
-    [[noreturn]] void become(char* const* arguments, char* const* variables, int failure) const {
+    [[noreturn, gnu::noinline]] void become(char* const* arguments, char* const* variables,
+                                            int failure, const BlockedSignals& blocked) const {
         const pid_t own = getpid();
         setpgid(own, own);
         keeper_.begun(own);
@@ -156,8 +188,10 @@ private:
         dup2(nowhere, STDIN_FILENO);
         dup2(standard_output_.write.number(), STDOUT_FILENO);
         dup2(standard_error_.write.number(), STDERR_FILENO);
-        for (const int signal : {SIGPIPE, SIGINT, SIGTERM})
-            std::signal(signal, SIG_DFL);
+        for (int signal = 1; signal < NSIG; ++signal)
+            forget_handler(signal);
+        std::signal(SIGPIPE, SIG_DFL); // which tvbeam ignores
+        blocked.release();
         if (chdir(task_.directory.c_str()) == 0)
             execve(task_.program.c_str(), arguments, variables);
         const int error = errno;
