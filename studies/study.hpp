@@ -25,6 +25,13 @@ struct SeparationResult {
         reason; ///< why they are evaluated at every point in every step; empty: they are not
 };
 
+/// How finely [0, 1] is cut for the functions of the problem to be integrated
+/// (core/space/resolution.hpp).
+struct QuadratureResult {
+    std::size_t intervals = 1;
+    double finest = 1.0; ///< the shortest of them
+};
+
 /// Everything that running a scene gave: one record for each study whose block the scene has.
 struct StudyResult {
     Scene scene;
@@ -32,6 +39,7 @@ struct StudyResult {
     std::vector<std::string> remarks = {};         ///< on all studies, in sentences
     double law_distance = 0.0;                     ///< ExactSolution::law_distance
     std::optional<ReferenceResult> reference = {}; ///< if errors are measured against one
+    QuadratureResult quadrature = {};
     SeparationResult separation = {};
     ByKind records = {};
 

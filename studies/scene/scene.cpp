@@ -6,6 +6,7 @@
 #include "studies/data/analysed_expectation.hpp"
 #include "studies/external/external_runs.hpp"
 #include "studies/gates/derived_expectation.hpp"
+#include "studies/gates/equations_expectation.hpp"
 #include "studies/gates/refused_expectation.hpp"
 #include "studies/reference/reference_solution.hpp"
 #include "studies/runs/beam_runs.hpp"
@@ -209,11 +210,45 @@ std::string part_of(const std::string& sentence) {
     return sentence.substr(0, sentence.find(':'));
 }
 
-/// [expect]: what is left out, the reference, what is derived, what is refused, what tables of
-/// others show, a table for each study.
+/// [expect.quadrature] and [expect.separation]: what is done to the problem before it is run.
+void expect_preparation(TableReader& expect, const Scene& scene,
+                        std::vector<Expectation>& expectations) {
+    const auto band = [&](TableReader& table, const std::string& key, auto figure) {
+        expect_band(table, key, expectations,
+                    [name = table.full(key), figure](const StudyResult& result) {
+                        return std::vector{Metric{name, figure(result), "none"}};
+                    });
+    };
+    const auto read = [&](const std::string& name, auto keys) {
+        auto table = expect.table(name);
+        if (!table)
+            return;
+        if (!scene.poses_problem())
+            throw expect.error(name, " is of a problem that the scene poses, and it poses none");
+        const std::size_t before = expectations.size();
+        keys(*table);
+        finish_expecting(*table, before, expectations);
+    };
+    read("quadrature", [&](TableReader& table) {
+        band(table, "intervals", [](const StudyResult& result) {
+            return static_cast<double>(result.quadrature.intervals);
+        });
+        band(table, "finest", [](const StudyResult& result) { return result.quadrature.finest; });
+    });
+    read("separation", [&](TableReader& table) {
+        band(table, "rank",
+             [](const StudyResult& result) { return static_cast<double>(result.separation.rank); });
+        band(table, "residual",
+             [](const StudyResult& result) { return result.separation.residual; });
+    });
+}
+
+/// [expect]: what is left out, the reference, what is derived, what is refused, what tables and
+/// equations of others show, a table for each study.
 void read_expectations(Scene& scene, TableReader expect, const Reading& reading) {
     expect_refused(expect, scene, reading, scene.expectations);
     expect_analysed(expect, scene, scene.expectations);
+    expect_equations(expect, scene, scene.expectations);
     expect_words(expect, "left_out", scene.expectations, [](const StudyResult& result) {
         std::vector<std::string> parts;
         for (const auto& sentence : result.left_out)
@@ -228,6 +263,7 @@ void read_expectations(Scene& scene, TableReader expect, const Reading& reading)
                                   yields ? std::optional(result.law_distance) : std::nullopt,
                                   "none: there are no stops that yield"}};
     });
+    expect_preparation(expect, scene, scene.expectations);
     if (auto table = expect.table("reference")) {
         if (!scene.reference)
             throw expect.error("reference", " expects something of a block [reference], which the "

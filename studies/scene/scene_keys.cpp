@@ -289,6 +289,15 @@ Entries of_expectations() {
          "what the result says of all studies, each sentence by how it begins"},
         {"expect.law_distance", KeyType::band, "anything",
          "by how much a solution of rigid stops misses the law of penalised ones, a length"},
+        {"expect.quadrature", KeyType::table, "anything",
+         "of the intervals that the functions of the problem are integrated on"},
+        {"expect.quadrature.intervals", KeyType::band, "anything", "how many there are"},
+        {"expect.quadrature.finest", KeyType::band, "anything", "the length of the shortest"},
+        {"expect.separation", KeyType::table, "anything",
+         "of the products that stand for what does not separate"},
+        {"expect.separation.rank", KeyType::band, "anything", "how many; 0: none do"},
+        {"expect.separation.residual", KeyType::band, "anything",
+         "by how much they differ from it, over its greatest value"},
         {"expect.reference", KeyType::table, "anything", "of the block [reference]"},
         {"expect.reference.elements", KeyType::numbers, "anything",
          "of the runs that it is made of"},
@@ -512,6 +521,24 @@ Entries of_what_is_analysed() {
     };
 }
 
+Entries of_equations() {
+    return {
+        {"expect.equations", KeyType::tables, "anything",
+         "systems of equations, and what `tvbeam derive` says of them"},
+        {"expect.equations.file", KeyType::text, "text",
+         "a shipped name, or a file, relative to the scene"},
+        {"expect.equations.text", KeyType::text, "file", "the text of such a file"},
+        {"expect.equations.language", KeyType::choice, "none: the report",
+         "in which `says` is sought", code_language_names()},
+        {"expect.equations.says", KeyType::texts, "anything",
+         "words of what is derived, or of its code in a language"},
+        {"expect.equations.remarks", KeyType::texts, "anything",
+         "what is said of it besides, each sentence by how it begins"},
+        {"expect.equations.refused", KeyType::texts, "that it is not",
+         "words of the message by which it is refused"},
+    };
+}
+
 Entries of_what_is_written() {
     return {
         {"short",
@@ -528,9 +555,10 @@ Entries of_what_is_written() {
 
 Entries all_entries() {
     Entries all;
-    for (auto&& part : {of_the_whole(), of_the_beam(), of_the_solver(), of_ladders_and_grids(),
-                        of_other_studies(), of_expectations(), of_what_is_derived(),
-                        of_what_is_refused(), of_what_is_analysed(), of_what_is_written()})
+    for (auto&& part :
+         {of_the_whole(), of_the_beam(), of_the_solver(), of_ladders_and_grids(),
+          of_other_studies(), of_expectations(), of_what_is_derived(), of_what_is_refused(),
+          of_what_is_analysed(), of_equations(), of_what_is_written()})
         all.insert(all.end(), part.begin(), part.end());
     return all;
 }
