@@ -215,7 +215,7 @@ void expect_preparation(TableReader& expect, const Scene& scene,
                         std::vector<Expectation>& expectations) {
     const auto band = [&](TableReader& table, const std::string& key, auto figure) {
         expect_band(table, key, expectations,
-                    [name = table.full(key), figure](const StudyResult& result) {
+                    [name = what_of(table, key), figure](const StudyResult& result) {
                         return std::vector{Metric{name, figure(result), "none"}};
                     });
     };
