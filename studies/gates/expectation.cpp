@@ -323,7 +323,7 @@ void expect_figures(TableReader& table, const std::string& study,
                 Metric{fmt::format("{}.{}", study, name),
                        found == figures.end() ? std::nullopt : std::optional(found->second),
                        "no figure of this name" + did_you_mean(name, names) + "; the study has " +
-                           join(names, ", ")}};
+                           (names.empty() ? "none" : join(names, ", "))}};
         });
 }
 
