@@ -39,8 +39,9 @@ Said said_of(const Asked& asked) {
             derive_system(asked.text ? parse_equation_system(*asked.text, asked.file)
                                      : read_equation_system(asked.file));
         Said said;
-        for (const auto& remark : checked_system(derived))
-            said.remarks.push_back(remark.text);
+        if (!asked.language)
+            for (const auto& remark : checked_system(derived))
+                said.remarks.push_back(remark.text);
         said.text = asked.language ? system_code(derived, *asked.language) : system_text(derived);
         return said;
     } catch (const InputError& error) {
@@ -104,16 +105,21 @@ void expect_equations(TableReader& expect, const Scene& scene,
         const Asked asked = read_asked(table, scene);
         const auto says = read_words(table, "says");
         const auto refused = read_words(table, "refused");
+        if (asked.language && (says.empty() || table.has("remarks")))
+            throw table.error("language", " is of code, of which nothing but `says` is expected");
         if (refused.empty() == (says.empty() && !table.has("remarks")))
             throw table.error("", " must expect that it is `refused`, or else what it `says`, its "
                                   "`remarks`, or both");
-        const std::string key = refused.empty() ? "says" : "refused";
-        expectations.push_back(
-            [asked, words = refused.empty() ? says : refused, is_refused = !refused.empty(),
-             one = CheckedExpectation{what_of(table, key), "", "", table.place(key), false}](
-                const StudyResult& /*result*/) {
-                return found_words(said_of(asked), words, is_refused, one);
-            });
+        const bool is_refused = !refused.empty();
+        const auto& words = is_refused ? refused : says;
+        const std::string key = is_refused ? "refused" : "says";
+        if (!words.empty())
+            expectations.push_back(
+                [asked, words, is_refused,
+                 one = CheckedExpectation{what_of(table, key), "", "", table.place(key), false}](
+                    const StudyResult& /*result*/) {
+                    return found_words(said_of(asked), words, is_refused, one);
+                });
         expect_sentences(table, "remarks", expectations, [asked](const StudyResult& /*result*/) {
             const Said said = said_of(asked);
             return said.refused.empty() ? said.remarks : std::vector{said.refused};

@@ -93,6 +93,7 @@ BOOST_AUTO_TEST_CASE(what_expects_nothing_or_two_things_is_refused) {
     said(rod + "says = ['= ']", "must hold words of what is said");
     said("file = 'heat2d'\nsays = ['x']", "heat-2d");
     said(rod + "language = 'cobol'\nsays = ['x']", "cobol");
+    said(rod + "language = 'c'\nremarks = []", "is of code, of which nothing but `says`");
 }
 
 BOOST_AUTO_TEST_CASE(how_a_problem_is_prepared_is_held_against_what_a_scene_says) {
