@@ -136,6 +136,7 @@ RunResult attempt(const RunRequest& request, const ProblemData& data, const Obse
         result = run_in_sines(request, data, mesh, needs);
     if (!result)
         result = march(request, data, mesh, needs, observer);
+    result->counters.integration_cells = integration_mesh(mesh).elements();
     if (!result->errors.empty())
         result->uncertainties =
             quadrature_uncertainties(data, loads_of(data, request.scheme.algorithm), *resolution,

@@ -28,6 +28,7 @@ struct Counters {
     std::int64_t contact_steps = 0;          ///< steps that end on a stop
     std::int64_t fixed_point_iterations = 0; ///< the paper's algorithm only
     std::int64_t norm_evaluations = 0;       ///< spatial error norms integrated
+    std::int64_t integration_cells = 0;      ///< that the elements are cut into for quadrature
     std::int64_t doubles_allocated = 0;      ///< vectors held through the run, in doubles
 };
 

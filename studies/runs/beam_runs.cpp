@@ -38,6 +38,7 @@ std::vector<Count> counts_of(const Counters& counters) {
             {"contact_steps", counters.contact_steps},
             {"fixed_point_iterations", counters.fixed_point_iterations},
             {"norm_evaluations", counters.norm_evaluations},
+            {"integration_cells", counters.integration_cells},
             {"doubles_allocated", counters.doubles_allocated}};
 }
 
