@@ -115,9 +115,11 @@ ProblemData prepared(const Scene& scene, const ProblemData& data, StudyResult& r
     const auto norms = norms_of(scene.measures());
     problem.resolution = std::make_shared<const Resolution>(
         resolution_of(data, algorithms_of(scene), norms, scene.longest_time()));
-    for (const Interval& interval : problem.resolution->intervals())
-        result.quadrature.finest = std::min(result.quadrature.finest, interval.length);
-    result.quadrature.intervals = problem.resolution->intervals().size();
+    if (!scene.defect) {
+        result.quadrature = QuadratureResult{problem.resolution->intervals().size(), 1.0};
+        for (const Interval& interval : problem.resolution->intervals())
+            result.quadrature->finest = std::min(result.quadrature->finest, interval.length);
+    }
     // The paper's algorithm checks the other, and so reads the functions themselves.
     const auto algorithms = algorithms_of(scene);
     if (std::find(algorithms.begin(), algorithms.end(), Algorithm::fixed_point) != algorithms.end())

@@ -39,7 +39,7 @@ struct StudyResult {
     std::vector<std::string> remarks = {};         ///< on all studies, in sentences
     double law_distance = 0.0;                     ///< ExactSolution::law_distance
     std::optional<ReferenceResult> reference = {}; ///< if errors are measured against one
-    QuadratureResult quadrature = {};
+    std::optional<QuadratureResult> quadrature = {}; ///< none beside a defect, which is cut apart
     SeparationResult separation = {};
     ByKind records = {};
 

@@ -53,9 +53,9 @@ std::string json_report(const StudyResult& result) {
                  {"interrupted", result.interrupted()}});
     if (result.law_distance > 0.0)
         json["law_distance"] = result.law_distance;
-    if (result.quadrature.intervals > 1)
-        json["quadrature"] = {{"intervals", result.quadrature.intervals},
-                              {"finest", result.quadrature.finest}};
+    if (result.quadrature && result.quadrature->intervals > 1)
+        json["quadrature"] = {{"intervals", result.quadrature->intervals},
+                              {"finest", result.quadrature->finest}};
     if (result.separation.rank > 0)
         json["separation"] = {{"rank", result.separation.rank},
                               {"residual", result.separation.residual}};

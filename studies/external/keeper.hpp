@@ -23,7 +23,7 @@ public:
     [[nodiscard]] const std::filesystem::path& directory() const { return directory_; }
 
     /// A group is to be ended with this process, or has ended. The first is called by the group's
-    /// first process, between fork and exec: it does nothing else than write.
+    /// first process, between vfork and exec: it does nothing else than write.
     void begun(pid_t group) const { tell(group); }
     void ended(pid_t group) const { tell(-group); }
 

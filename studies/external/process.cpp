@@ -267,7 +267,8 @@ private:
         // The group's number is nobody else's until its first process is waited for.
         kill(-process_, SIGKILL);
         int status = 0;
-        while (waitpid(process_, &status, 0) < 0 && errno == EINTR) {
+        pid_t waited = 0;
+        while ((waited = waitpid(process_, &status, 0)) < 0 && errno == EINTR) {
         }
         keeper_.ended(process_);
         const std::chrono::duration<double> elapsed = Clock::now() - start_;
@@ -281,7 +282,9 @@ private:
         if (timed_out_)
             result_.failure = "timed out";
         else if (result_.failure.empty())
-            result_.failure = ending_of(status);
+            // The system keeps no statuses for whoever ignores SIGCHLD.
+            result_.failure =
+                waited == process_ ? ending_of(status) : "it is not known how it ended";
         // A scheduler ends all of a job at once: what was asked to end with us has not failed,
         // whether a signal ended it or it heard one and says so by its exit.
         if (!result_.failure.empty() && !task_.go_on())

@@ -29,7 +29,7 @@ struct ProcessResult {
     /// Why it is no success, as "exit 3", "killed by signal 9 (Killed)"; empty: exit 0.
     std::string failure;
     std::string last_lines; ///< on standard error, or where there are none on standard output
-    double seconds = 0.0;   ///< wall clock, from fork to the end
+    double seconds = 0.0;   ///< wall clock, from its beginning to the end
 };
 
 /// Runs a program in a process group of its own, without standard input, and reads what it writes

@@ -7,8 +7,11 @@
 #include "studies/scene/scene.hpp"
 #include "studies/scene/shipped.hpp"
 
+#include <boost/algorithm/string/join.hpp>
+
 #include <algorithm>
 #include <cctype>
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -20,38 +23,103 @@ namespace {
 
 constexpr std::size_t most_systems = 200;
 
-/// A file of equations, or the text of one, and what of it is asked for.
-struct Asked {
+/// A file of equations, or the text of one, and in which form it is asked for.
+struct AskedSystem {
     std::string file = "text"; ///< the name of the text, where there is one
     std::optional<std::string> text = {};
     std::optional<CodeLanguage> language = {}; ///< none: the report
 };
 
+/// What is expected of it, with the place of each list and how it is called.
+struct ExpectedOfSystem {
+    std::vector<std::string> says;
+    std::optional<std::vector<std::string>> remarks;
+    std::vector<std::string> refused;
+    std::map<std::string, std::pair<std::string, Place>> names;
+};
+
 struct Said {
     std::string text = {};
     std::vector<std::string> remarks = {};
-    std::string refused = {}; ///< why; empty: it is not
+    std::string refused = {}; ///< why, behind the name of the file; empty: it is not
 };
 
-Said said_of(const Asked& asked) {
+Said said_of(const AskedSystem& asked) {
     try {
         DerivedSystem derived =
             derive_system(asked.text ? parse_equation_system(*asked.text, asked.file)
                                      : read_equation_system(asked.file));
         Said said;
-        if (!asked.language)
-            for (const auto& remark : checked_system(derived))
-                said.remarks.push_back(remark.text);
-        said.text = asked.language ? system_code(derived, *asked.language) : system_text(derived);
+        if (asked.language) {
+            require_exact_values(derived);
+            said.text = system_code(derived, *asked.language);
+            return said;
+        }
+        for (const auto& remark : checked_system(derived))
+            said.remarks.push_back(remark.text);
+        said.text = system_text(derived);
         return said;
     } catch (const InputError& error) {
-        return {.refused = error.what()};
+        const std::string message = error.what();
+        return {.refused =
+                    message.starts_with(asked.file) ? message.substr(asked.file.size()) : message};
     }
 }
 
-Asked read_asked(TableReader& table, const Scene& scene) {
+/// So much of a text as a line shows.
+std::string shown(const std::string& text) {
+    constexpr std::size_t most = 400;
+    return text.size() <= most ? text : text.substr(0, most) + "…";
+}
+
+CheckedExpectation holds_words(const Said& said, const std::string& wanted, bool refused) {
+    const bool fits = said.refused.empty() != refused;
+    const std::string& text = said.refused.empty() ? said.text : said.refused;
+    return {.what = {},
+            .expected = (refused ? "refused with \"" : "\"") + wanted + "\"",
+            .found = (said.refused.empty() ? "" : "refused: ") + shown(text),
+            .place = {},
+            .holds = fits && text.find(wanted) != std::string::npos};
+}
+
+CheckedExpectation holds_remarks(const Said& said, const std::vector<std::string>& wanted) {
+    const auto listed = [](const std::vector<std::string>& texts) {
+        return texts.empty() ? "nothing" : boost::algorithm::join(texts, ", ");
+    };
+    return {.what = {},
+            .expected = listed(wanted),
+            .found = said.refused.empty() ? listed(said.remarks) : "refused: " + said.refused,
+            .place = {},
+            .holds = said.refused.empty() &&
+                     std::ranges::equal(said.remarks, wanted,
+                                        [](const std::string& remark, const std::string& begin) {
+                                            return remark.starts_with(begin);
+                                        })};
+}
+
+/// All that is expected of a system, which is derived once.
+std::vector<CheckedExpectation> checked_system_of(const AskedSystem& asked,
+                                                  const ExpectedOfSystem& wanted) {
+    const Said said = said_of(asked);
+    std::vector<CheckedExpectation> checked;
+    const auto add = [&](CheckedExpectation one, const char* key, const std::string& index) {
+        const auto& [what, place] = wanted.names.at(key);
+        one.what = what + index;
+        one.place = place;
+        checked.push_back(std::move(one));
+    };
+    for (std::size_t i = 0; i < wanted.says.size(); ++i)
+        add(holds_words(said, wanted.says[i], false), "says", "." + std::to_string(i));
+    for (std::size_t i = 0; i < wanted.refused.size(); ++i)
+        add(holds_words(said, wanted.refused[i], true), "refused", "." + std::to_string(i));
+    if (wanted.remarks)
+        add(holds_remarks(said, *wanted.remarks), "remarks", "");
+    return checked;
+}
+
+AskedSystem read_asked(TableReader& table, const Scene& scene) {
     const auto file = table.text("file");
-    Asked asked{.text = table.text("text")};
+    AskedSystem asked{.text = table.text("text")};
     if (file.has_value() == asked.text.has_value())
         throw table.error("", " must have a file of equations, or the text of one: give `file` or "
                               "`text`");
@@ -73,23 +141,19 @@ std::vector<std::string> read_words(TableReader& table, const std::string& key) 
     return words;
 }
 
-/// What one text of these words comes to, each an expectation of its own.
-std::vector<CheckedExpectation> found_words(const Said& said, const std::vector<std::string>& words,
-                                            bool refused, CheckedExpectation one) {
-    const bool fits = said.refused.empty() != refused;
-    const std::string& text = refused ? said.refused : said.text;
-    std::vector<CheckedExpectation> checked;
-    const std::string what = one.what;
-    for (std::size_t i = 0; i < words.size(); ++i) {
-        const std::string& wanted = words[i];
-        one.what = what + "." + std::to_string(i);
-        one.expected = (refused ? "refused with \"" : "\"") + wanted + "\"";
-        one.holds = fits && text.find(wanted) != std::string::npos;
-        one.found = refused ? (fits ? said.refused : "that it is not refused")
-                            : (fits ? "nothing of the kind" : said.refused);
-        checked.push_back(one);
-    }
-    return checked;
+ExpectedOfSystem read_wanted(TableReader& table, const AskedSystem& asked) {
+    ExpectedOfSystem wanted{
+        read_words(table, "says"), table.texts("remarks"), read_words(table, "refused"), {}};
+    for (const char* key : {"says", "remarks", "refused"})
+        wanted.names[key] = {what_of(table, key), table.place(key)};
+    if (asked.language && wanted.remarks)
+        throw table.error("remarks", " are of equations, not of their code: leave language out");
+    if (wanted.remarks && std::ranges::find(*wanted.remarks, "") != wanted.remarks->end())
+        throw table.error("remarks", " has a text without a letter, with which any begins");
+    if (wanted.refused.empty() == (wanted.says.empty() && !wanted.remarks))
+        throw table.error("", " must expect that it is `refused`, or else what it `says`, its "
+                              "`remarks`, or both");
+    return wanted;
 }
 
 } // namespace
@@ -102,27 +166,10 @@ void expect_equations(TableReader& expect, const Scene& scene,
                                             " systems; at most " + std::to_string(most_systems) +
                                             " are derived");
     for (auto& table : tables) {
-        const Asked asked = read_asked(table, scene);
-        const auto says = read_words(table, "says");
-        const auto refused = read_words(table, "refused");
-        if (asked.language && (says.empty() || table.has("remarks")))
-            throw table.error("language", " is of code, of which nothing but `says` is expected");
-        if (refused.empty() == (says.empty() && !table.has("remarks")))
-            throw table.error("", " must expect that it is `refused`, or else what it `says`, its "
-                                  "`remarks`, or both");
-        const bool is_refused = !refused.empty();
-        const auto& words = is_refused ? refused : says;
-        const std::string key = is_refused ? "refused" : "says";
-        if (!words.empty())
-            expectations.push_back(
-                [asked, words, is_refused,
-                 one = CheckedExpectation{what_of(table, key), "", "", table.place(key), false}](
-                    const StudyResult& /*result*/) {
-                    return found_words(said_of(asked), words, is_refused, one);
-                });
-        expect_sentences(table, "remarks", expectations, [asked](const StudyResult& /*result*/) {
-            const Said said = said_of(asked);
-            return said.refused.empty() ? said.remarks : std::vector{said.refused};
+        const AskedSystem asked = read_asked(table, scene);
+        const ExpectedOfSystem wanted = read_wanted(table, asked);
+        expectations.push_back([asked, wanted](const StudyResult& /*result*/) {
+            return checked_system_of(asked, wanted);
         });
         table.finish();
     }

@@ -213,33 +213,48 @@ std::string part_of(const std::string& sentence) {
 /// [expect.quadrature] and [expect.separation]: what is done to the problem before it is run.
 void expect_preparation(TableReader& expect, const Scene& scene,
                         std::vector<Expectation>& expectations) {
+    // figure: what it is, or the reason why there is none.
     const auto band = [&](TableReader& table, const std::string& key, auto figure) {
         expect_band(table, key, expectations,
                     [name = what_of(table, key), figure](const StudyResult& result) {
-                        return std::vector{Metric{name, figure(result), "none"}};
+                        const auto [value, absence] = figure(result);
+                        return std::vector{Metric{name, value, absence}};
                     });
     };
+    using Figure = std::pair<std::optional<double>, std::string>;
     const auto read = [&](const std::string& name, auto keys) {
         auto table = expect.table(name);
         if (!table)
             return;
-        if (!scene.poses_problem())
+        if (scene.solver || !scene.poses_problem())
             throw expect.error(name, " is of a problem that the scene poses, and it poses none");
         const std::size_t before = expectations.size();
         keys(*table);
         finish_expecting(*table, before, expectations);
     };
     read("quadrature", [&](TableReader& table) {
-        band(table, "intervals", [](const StudyResult& result) {
-            return static_cast<double>(result.quadrature.intervals);
-        });
-        band(table, "finest", [](const StudyResult& result) { return result.quadrature.finest; });
+        const auto of = [&](const std::string& key, auto value) {
+            band(table, key, [value](const StudyResult& result) -> Figure {
+                if (!result.quadrature)
+                    return {std::nullopt, "not known beside a [defect]"};
+                return {static_cast<double>((*result.quadrature).*value), ""};
+            });
+        };
+        of("intervals", &QuadratureResult::intervals);
+        of("finest", &QuadratureResult::finest);
     });
     read("separation", [&](TableReader& table) {
-        band(table, "rank",
-             [](const StudyResult& result) { return static_cast<double>(result.separation.rank); });
-        band(table, "residual",
-             [](const StudyResult& result) { return result.separation.residual; });
+        band(table, "rank", [](const StudyResult& result) -> Figure {
+            return {static_cast<double>(result.separation.rank), ""};
+        });
+        band(table, "residual", [](const StudyResult& result) -> Figure {
+            const SeparationResult& separation = result.separation;
+            if (separation.rank > 0)
+                return {separation.residual, ""};
+            return {std::nullopt,
+                    "no products: " + (separation.reason.empty() ? "there is nothing to replace"
+                                                                 : separation.reason)};
+        });
     });
 }
 

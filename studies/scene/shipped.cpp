@@ -76,6 +76,9 @@ std::filesystem::path find_file(Shipped kind, const std::string& name,
                                         (kind == Shipped::equations ? " '" : " file '") +
                                         path.string() + "'");
         require_no_other_file(path.extension() == ".toml" ? "" : path.string(), word, place);
+        // Nobody waits for what a file names that somebody else may have written.
+        if (std::error_code error; place.line > 0 && !std::filesystem::is_regular_file(path, error))
+            throw InputError(place, "'" + path.string() + "' is no regular file");
         return path;
     }
     std::vector<std::string> names;

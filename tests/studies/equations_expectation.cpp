@@ -29,6 +29,7 @@ const std::string pole = "text = \"[unknowns]\\nu = '1/x'\\n[equations]\\nf = 'd
 
 std::vector<CheckedExpectation> checked(const std::string& lines) {
     const TemporaryDirectory directory;
+    directory.write("negative.toml", "[unknowns]\nu = '1/x'\n[equations]\nf = 'u'\n");
     directory.write("rod.toml", "[unknowns]\nu = 'x^2'\n[equations]\nf = 'diff(u, x, 2)'\n");
     const auto file = directory.write("s.toml", scene + lines);
     return check(run_study(read_scene(file, {}, {.expectations = true})));
@@ -73,12 +74,18 @@ BOOST_AUTO_TEST_CASE(all_remarks_are_named_and_no_others) {
 }
 
 BOOST_AUTO_TEST_CASE(a_refusal_is_held_against_its_message) {
-    BOOST_TEST(all_hold(pole + "refused = ['text:2:6: u has a pole', 'x = 0']"));
+    BOOST_TEST(all_hold(pole + "refused = [':2:6: u has a pole', 'x = 0']"));
+    // The name of the file is none of the message.
+    BOOST_TEST(!all_hold(pole + "refused = ['text']"));
+    BOOST_TEST(!all_hold("file = './negative.toml'\nrefused = ['negative']"));
     BOOST_TEST(!all_hold(pole + "refused = ['no value']"));
     BOOST_TEST(!all_hold(rod + "refused = ['pole']"));
     // What is refused says nothing else, and what is expected of it does not hold.
     BOOST_TEST(!all_hold(pole + "says = ['pole']"));
     BOOST_TEST(!all_hold(pole + "remarks = []"));
+    BOOST_TEST(!all_hold(pole + "remarks = [':2:6: u has a pole']"));
+    BOOST_TEST(!all_hold(pole + "language = 'c'\nsays = ['double f(double x)']"));
+    BOOST_TEST(all_hold(pole + "language = 'c'\nrefused = ['u has a pole']"));
 }
 
 BOOST_AUTO_TEST_CASE(what_expects_nothing_or_two_things_is_refused) {
@@ -93,7 +100,7 @@ BOOST_AUTO_TEST_CASE(what_expects_nothing_or_two_things_is_refused) {
     said(rod + "says = ['= ']", "must hold words of what is said");
     said("file = 'heat2d'\nsays = ['x']", "heat-2d");
     said(rod + "language = 'cobol'\nsays = ['x']", "cobol");
-    said(rod + "language = 'c'\nremarks = []", "is of code, of which nothing but `says`");
+    said(rod + "language = 'c'\nremarks = []", "are of equations, not of their code");
 }
 
 BOOST_AUTO_TEST_CASE(how_a_problem_is_prepared_is_held_against_what_a_scene_says) {
@@ -109,6 +116,17 @@ BOOST_AUTO_TEST_CASE(how_a_problem_is_prepared_is_held_against_what_a_scene_says
         "[[expect.refused]]\nset = ['expect.separation={}']\n"
         "says = ['expects nothing']\n";
     BOOST_TEST(all_hold(rod + "says = ['= x']\n" + solution));
+}
+
+BOOST_AUTO_TEST_CASE(nothing_is_prepared_of_a_problem_that_is_another_program_s) {
+    const TemporaryDirectory directory;
+    for (const std::string block : {"quadrature.finest = [0, 2]", "separation.rank = [-1, 1]"}) {
+        const auto file = directory.write(
+            "s.toml", "[solver]\ncommand = ['true']\nerrors = { e = 'e = (\\S+)' }\n[ladder]\n"
+                      "elements = [1, 2]\nnorms = ['e']\n[expect]\n" +
+                          block + "\n");
+        BOOST_CHECK_THROW(read_scene(file, {}, {.expectations = true}), InputError);
+    }
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -252,6 +252,50 @@ BOOST_AUTO_TEST_CASE(an_ending_that_is_none_has_its_reason_and_last_lines) {
     BOOST_TEST(none.run().failure.starts_with("cannot be run: No such file"));
 }
 
+/// While it lives, the signal is treated so.
+class Treated {
+public:
+    Treated(int signal, void (*handler)(int))
+        : signal_(signal), before_(std::signal(signal, handler)) {}
+    ~Treated() { std::signal(signal_, before_); }
+    Treated(const Treated&) = delete;
+    Treated& operator=(const Treated&) = delete;
+    Treated(Treated&&) = delete;
+    Treated& operator=(Treated&&) = delete;
+
+private:
+    int signal_;
+    void (*before_)(int);
+};
+
+BOOST_AUTO_TEST_CASE(a_program_begins_with_the_signals_of_any_other) {
+    const Treated handled(SIGUSR1, [](int) {});
+    const Treated closed_pipes(SIGPIPE, SIG_IGN);
+    const Treated hung_up(SIGHUP, SIG_IGN); // as under nohup
+    // Bits of hexadecimal numbers: SIGHUP 1, SIGUSR1 2^9, SIGPIPE 2^12.
+    Shell shell("sed -n 's/^Sig\\(Blk\\|Ign\\|Cgt\\):\\s*//p' /proc/self/status");
+    BOOST_TEST(shell.run().failure == "");
+    BOOST_REQUIRE(shell.lines.size() == 3U);
+    BOOST_TEST(std::stoull(shell.lines[0], nullptr, 16) == 0U); // blocked
+    const auto ignored = std::stoull(shell.lines[1], nullptr, 16);
+    BOOST_TEST((ignored & 0x1U) == 0x1U);
+    BOOST_TEST((ignored & 0x1200U) == 0U);
+    Shell asked("kill -USR1 $$; echo deaf");
+    BOOST_TEST(asked.run().failure.starts_with("killed by signal 10"));
+    // Here it is as before: no signal is blocked, and the handler is there.
+    sigset_t mask;
+    pthread_sigmask(SIG_SETMASK, nullptr, &mask);
+    BOOST_TEST(sigismember(&mask, SIGUSR1) == 0);
+    BOOST_TEST(std::raise(SIGUSR1) == 0);
+}
+
+BOOST_AUTO_TEST_CASE(an_ending_that_the_system_does_not_tell_is_a_failure) {
+    // The ends of a process's own are not kept for whoever ignores them.
+    const Treated deaf(SIGCHLD, SIG_IGN);
+    Shell shell("sleep 0.1; exit 3");
+    BOOST_TEST(shell.run().failure == "it is not known how it ended");
+}
+
 BOOST_AUTO_TEST_CASE(at_the_time_out_the_whole_group_ends_and_not_much_later) {
     // The child would go on for a minute.
     Shell shell("sleep 60 & echo $!; wait");

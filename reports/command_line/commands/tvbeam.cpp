@@ -131,6 +131,8 @@ int main(int argc, char** argv) {
     mallopt(M_TRIM_THRESHOLD, keep);
     // A closed pipe then fails the write, which is reported like any other.
     std::signal(SIGPIPE, SIG_IGN);
+    // Who begins this program may ignore the ends of its own; of these it is asked how they ended.
+    std::signal(SIGCHLD, SIG_DFL);
     std::set_terminate(&terminate_said);
     try {
         return reported_command_line(argc, argv);
