@@ -380,6 +380,32 @@ BOOST_AUTO_TEST_CASE(a_line_is_chosen_by_what_it_narrows) {
     BOOST_TEST(gain_of_step(open, 2.0) == 0.15, boost::test_tools::tolerance(1e-12));
 }
 
+// Of halved widths h^p leaves 2^-p, and Δt^q 2^-q.
+BOOST_AUTO_TEST_CASE(a_limit_narrows_in_each_width_with_its_own_order) {
+    const OrdersBlock block = block_of(two_by_two + "until = { order = 0.05, runs = 100 }\n");
+    const GridLines lines = lines_of(block.grid);
+    GridLimit limit;
+    limit.half_in_h = 0.3;
+    limit.half_in_dt = 0.2;
+    const auto expected = [&] {
+        return open_limit(limit, 1.0, lines, *with_mesh(block, lines), *with_step(block, lines));
+    };
+    const auto known = [](double value) {
+        OrderInterval order;
+        order.determined = true;
+        order.value = value;
+        return order;
+    };
+    const auto close = boost::test_tools::tolerance(1e-12);
+    limit.p = known(2.0);
+    limit.q = known(3.0);
+    BOOST_TEST(expected().now == 0.5, close);
+    BOOST_TEST(expected().with_mesh == 0.3 / 4.0 + 0.2, close);
+    BOOST_TEST(expected().with_step == 0.3 + 0.2 / 8.0, close);
+    limit.q = {}; // not known: taken for one
+    BOOST_TEST(expected().with_step == 0.3 + 0.2 / 2.0, close);
+}
+
 // cov of next_line.hpp for s → 0, with J by central differences of e² = T² + 2ρTS + S² itself.
 BOOST_DATA_TEST_CASE(what_a_line_narrows_is_the_covariance_of_the_two_term_fit,
                      data::make({true, false}) * data::make({0.3, 3.0, 30.0}), in_h, a) {

@@ -339,6 +339,36 @@ BOOST_AUTO_TEST_CASE(a_heated_end_is_certified_by_every_scheme) {
 
 // With zeta = 0 the curvature leaps in the first step, and the square of its rate is beyond the
 // range of floating point; those of the steps after it are numbers.
+// Without stops the problem is linear: what is larger by 2^30 has the same defects in parts of
+// itself.
+BOOST_AUTO_TEST_CASE(checks_do_not_depend_on_the_size_of_the_data) {
+    for (const auto& time : TimeScheme::names()) {
+        StressParameters ordinary;
+        ordinary.alpha = 0.5;
+        ordinary.zeta = 0.1;
+        ordinary.dt = 0.01;
+        ordinary.elements = 20;
+        ordinary.steps = 20;
+        ordinary.load = 1e-3;
+        ordinary.theta_A = 1.0;
+        ordinary.time = time;
+        const StressCase one = judge(ordinary);
+        StressParameters large = ordinary;
+        large.load = std::ldexp(ordinary.load, 30);
+        large.theta_A = std::ldexp(ordinary.theta_A, 30);
+        const StressCase other = judge(large);
+        BOOST_TEST_CONTEXT(time << ": " << one.reason << other.reason) {
+            BOOST_REQUIRE(one.checks && other.checks);
+            const auto close = boost::test_tools::tolerance(0.5);
+            BOOST_TEST(other.checks->heat_residual == one.checks->heat_residual, close);
+            BOOST_TEST(other.checks->beam_residual == one.checks->beam_residual, close);
+            BOOST_TEST(other.checks->energy == one.checks->energy, close);
+            BOOST_REQUIRE((one.checks->path && other.checks->path));
+            BOOST_TEST(*other.checks->path == *one.checks->path, close);
+        }
+    }
+}
+
 BOOST_AUTO_TEST_CASE(what_was_not_a_number_once_is_not_certified_by_later_steps) {
     StressParameters leap;
     leap.alpha = 1.0;
