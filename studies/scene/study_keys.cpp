@@ -4,8 +4,12 @@
 #include "mms/text/nearest_name.hpp"
 #include "mms/text/toml_reader.hpp"
 
+#include <boost/algorithm/string/join.hpp>
+
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <set>
 
 namespace tvbeam {
 
@@ -43,18 +47,22 @@ const Measure* named(const std::vector<Measure>& measures, const std::string& na
 
 std::string unknown_norm(const std::string& name, const SolverKeys& keys, bool is_value) {
     std::vector<std::string> roots;
-    std::string list;
-    bool squares = false;
+    std::set<std::string> squares;
     for (const auto& measure : keys.measures) {
-        squares = squares || measure.squared;
-        if (measure.is_value == is_value && measure.name == measure.root()) {
+        if (measure.squared)
+            squares.insert(measure.root());
+        if (measure.is_value == is_value && measure.name == measure.root())
             roots.push_back(measure.name);
-            list += (list.empty() ? "" : ", ") + measure.name;
-        }
     }
+    std::vector<std::string> without;
+    std::ranges::copy_if(roots, std::back_inserter(without),
+                         [&](const std::string& root) { return !squares.contains(root); });
+    std::string known = boost::algorithm::join(roots, ", ");
+    if (!squares.empty())
+        known += ", and their squares with _sq behind the name" +
+                 (without.empty() ? "" : ", but of " + boost::algorithm::join(without, ", "));
     return std::string("unknown ") + (is_value ? "value" : "norm") + " '" + name + "'" +
-           did_you_mean(name, roots) + "; known: " + list +
-           (squares ? ", and their squares with _sq behind the name" : "");
+           did_you_mean(name, roots) + "; known: " + known;
 }
 
 /// The measures that a list names, behind those that are there.
