@@ -49,7 +49,7 @@ std::string unknown_norm(const std::string& name, const SolverKeys& keys, bool i
     std::vector<std::string> roots;
     std::set<std::string> squares;
     for (const auto& measure : keys.measures) {
-        if (measure.squared)
+        if (measure.squared && measure.name != measure.root())
             squares.insert(measure.root());
         if (measure.is_value == is_value && measure.name == measure.root())
             roots.push_back(measure.name);
