@@ -72,17 +72,26 @@ BOOST_AUTO_TEST_CASE(half_a_picture_is_left_out_with_a_sentence) {
 BOOST_DATA_TEST_CASE(reading_ends_at_the_first_signal, data::make({"INT", "TERM", "HUP"}), signal) {
     const TemporaryDirectory directory;
     const std::string fifo = (directory.path() / "fifo.toml").string();
-    std::string text = scene("");
-    text.replace(text.find("copetti-fernandez-2011"), 22, "./fifo.toml");
-    const std::string in = directory.write("scene.toml", text);
     for (const std::string& arguments :
-         {"run " + fifo, "run " + in, "derive " + fifo, "analyse " + fifo, "check " + fifo}) {
+         {"run " + fifo, "derive " + fifo, "analyse " + fifo, "check " + fifo}) {
         const Called called =
             call(directory, arguments,
                  "rm -f " + fifo + "; mkfifo " + fifo + "; " + asked_to_end(signal, "0.3"));
         BOOST_TEST(called.exit == heard, arguments << ": " << called.errors);
         BOOST_TEST(called.output.empty());
     }
+}
+
+BOOST_AUTO_TEST_CASE(nobody_waits_for_what_a_scene_names) {
+    const TemporaryDirectory directory;
+    std::string text = scene("");
+    text.replace(text.find("copetti-fernandez-2011"), 22, "./fifo.toml");
+    const Called called =
+        call(directory, "run " + directory.write("scene.toml", text),
+             "mkfifo " + (directory.path() / "fifo.toml").string() + "; timeout 60 ");
+    BOOST_TEST(called.exit == 2, called.errors);
+    BOOST_TEST(has(called.errors, "fifo.toml' is no regular file"), called.errors);
+    BOOST_TEST(called.output.empty());
 }
 
 // A million elements take far longer to set up than the program has.
