@@ -29,8 +29,8 @@ struct SeparatedProblem {
 /// polynomials of x and, piece by piece, of t, until the coefficients have fallen to round-off
 /// (Townsend and Trefethen, SIAM J. Sci. Comput. 35 (2013) C495, expand likewise); the φ_k are an
 /// orthonormal basis of all the columns of coefficients, by a QR factorisation with pivoting. The
-/// result is compared with g in 16 places at a time in every four steps, at least 1024 and at most
-/// 16384 times. What is smaller than all of these in time and in space can be missed. Where a layer
+/// result is compared with g in 16 places at a time in every eight steps, at least 512 and at most
+/// 8192 times. What is smaller than all of these in time and in space can be missed. Where a layer
 /// or a kink would take too high a degree, the rank would not pay, or the comparison fails, the
 /// problem stays as it is, with a reason. The paper's algorithm reads other fields, which stay as
 /// they are: it checks this.
