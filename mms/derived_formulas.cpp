@@ -92,6 +92,16 @@ ex computed(const std::string& symbol, const DerivedPhase& phase) {
     return phase.*parts.at(symbol);
 }
 
+/// A body force that is not printed counts as zero in every phase.
+std::vector<DerivedFormula> with_body_force(std::vector<DerivedFormula> formulas) {
+    if (std::ranges::find(formulas, "q", &DerivedFormula::symbol) == formulas.end())
+        for (std::size_t i = formulas.size(); i-- > 0;)
+            if (const DerivedFormula& heat = formulas[i]; heat.symbol == "f")
+                formulas.insert(formulas.begin() + static_cast<std::ptrdiff_t>(i) + 1,
+                                {"q", heat.interval, heat.interval_latex, "0", "0"});
+    return formulas;
+}
+
 } // namespace
 
 std::vector<DerivedFormula> derived_formulas(const Solution& solution, bool penalised_stops) {
@@ -141,7 +151,7 @@ double distance_of_formulas(const Solution& solution, const Beam& beam, double f
     const DerivedSolution derived = derive_on(solution, beam);
     std::size_t next = 0; // the phase that the next f is of
     std::map<std::string, Sizes> sizes;
-    for (const auto& formula : derived_formulas(solution, penalised)) {
+    for (const auto& formula : with_body_force(derived_formulas(solution, penalised))) {
         const bool at_start = formula.interval == "t = 0";
         next += formula.symbol == "f" ? 1 : 0;
         const std::size_t i = at_start ? 0 : next - 1;

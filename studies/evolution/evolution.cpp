@@ -122,11 +122,12 @@ std::map<std::string, double> EvolutionResult::figures() const {
                                                    periods.back().changes.end(), 0.0, worse);
     int onsets = 0;
     int releases = 0;
-    for (const auto& event : events)
-        if (event.kind == ContactEvent::Kind::onset)
-            figures["onset." + std::to_string(++onsets)] = event.t;
-        else
-            figures["release." + std::to_string(++releases)] = event.t;
+    for (const auto& event : events) {
+        const bool is_onset = event.kind == ContactEvent::Kind::onset;
+        const std::string which = std::to_string(++(is_onset ? onsets : releases));
+        figures[(is_onset ? "onset." : "release.") + which] = event.t;
+        figures["beyond." + which] = event.beyond;
+    }
     figures["onsets"] = onsets;
     figures["releases"] = releases;
     return figures;

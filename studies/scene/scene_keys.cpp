@@ -424,7 +424,7 @@ Entries of_expectations() {
         {"expect.evolution.FIGURE", KeyType::band, "anything",
          "\"PROBE.least\", .greatest, .first, .last, .mean, .error, .period_change; samples, "
          "onsets, "
-         "releases, onset.1, release.1, beyond_stops, period_change"},
+         "releases, onset.1, release.1, beyond.1, beyond_stops, period_change"},
         {"expect.sensitivity", KeyType::table, "anything", "of the sensitivity study"},
         {"expect.sensitivity.FIGURE", KeyType::band, "anything",
          "a defect's name: the least factor that is caught"},
