@@ -1,5 +1,6 @@
 #include "mms/expression/algebra.hpp"
 #include "mms/expression/expression_parser.hpp"
+#include "mms/expression/magnitude.hpp"
 #include "mms/expression/numeric_value.hpp"
 #include "mms/expression/symbols.hpp"
 #include "mms/expression/tape_compiler.hpp"
@@ -290,6 +291,19 @@ BOOST_AUTO_TEST_CASE(a_part_that_leaves_the_range_at_one_point_is_not_lost_there
                    .evaluate(ArrayXd::Zero(1), ArrayXd::Ones(1))(0, 0) == 0.0);
     const Tape pole = compile_tape({parsed("1/x")});
     BOOST_TEST(std::isinf(pole.evaluate(ArrayXd::Zero(1), ArrayXd::Zero(1))(0, 0)));
+}
+
+// The sizes of coefficients and exponents, by hand: x and t count as 1.
+BOOST_AUTO_TEST_CASE(how_large_an_expression_becomes_is_told_by_its_coefficients) {
+    const std::pair<std::string, double> sizes[] = {
+        {"8*x", 3.0},           {"x + t", 1.0},        {"(x + 1)^10", 10.0},  {"x + 3*t + 4", 3.0},
+        {"(2*x + 2*t)^3", 6.0}, {"sin(64*x)/4", -2.0}, {"2^(-600)*x", -600.0}};
+    for (const auto& [text, bits] : sizes)
+        BOOST_TEST(std::abs(magnitude(*canonical(parsed(text))).whole - bits) < 0.01, text);
+    // Beyond doubles to a bit.
+    BOOST_TEST(std::abs(magnitude(*canonical(parsed("1000^118"))).whole - 1175.96) < 1.0);
+    BOOST_TEST(fits_doubles(magnitude(*canonical(parsed("1000^50*x")))));
+    BOOST_TEST(!fits_doubles(magnitude(*canonical(parsed("(1000*x + 1)^118/1000^118")))));
 }
 
 BOOST_AUTO_TEST_SUITE_END()
