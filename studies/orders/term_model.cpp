@@ -81,7 +81,7 @@ double reference_of(const Eigen::VectorXd& log_reference, Eigen::Index i) {
 
 /// ln e at one row, and its gradient where that is not null; NaN where the model has no error.
 double log_error_at(const Layout& layout, const Eigen::VectorXd& theta,
-                    const Eigen::Ref<const Eigen::VectorXd>& log_widths,
+                    const Eigen::Ref<const Eigen::VectorXd, 0, Eigen::InnerStride<>>& log_widths,
                     const Eigen::VectorXd& log_reference,
                     const std::function<void(Eigen::Index, double)>* gradient) {
     constexpr Eigen::Index most = 8;
