@@ -65,6 +65,7 @@ const std::vector<Printed> printed = {
     {"exp(t)*sin(pi*x)", "exp(t)*sin(pi*x)", "e^{t} \\sin\\left(\\pi x\\right)"},
     {"asin(x)^2+log(t)", "asin(x)^2 + log(t)",
      "\\left(\\arcsin\\left(x\\right)\\right)^{2} + \\ln\\left(t\\right)"},
+    {"exp(x)^t", "exp(x)^t", "\\left(e^{x}\\right)^{t}"},
     {"alpha*theta_A*g1", "alpha*g1*theta_A", "\\alpha g_{1} \\theta_A"},
 };
 

@@ -2,6 +2,7 @@
 
 #include "mms/manufactured_problem.hpp"
 #include "studies/ladder/ladder.hpp"
+#include "studies/runs/run.hpp"
 #include "studies/study.hpp"
 #include "tests/temporary_directory.hpp"
 
@@ -71,6 +72,16 @@ BOOST_AUTO_TEST_CASE(what_quadrature_does_not_resolve_is_said_and_nowhere_asympt
         for (const auto& row : norm.verdicts)
             BOOST_TEST((row.verdict == Verdict::unresolved), row.reason);
     BOOST_TEST(ladder.quadrature_remark.find("s = 8: theta_L") != std::string::npos);
+}
+
+BOOST_AUTO_TEST_CASE(every_norm_keeps_its_own_uncertainty) {
+    RungResult rung;
+    rung.rung = {.elements = 8, .steps = 10, .dt = 0.1};
+    rung.errors = {0.5, 0.25};
+    rung.uncertainties = {0.0, 0.125};
+    BOOST_TEST(records_of({rung}, 0).front().uncertainty == 0.0);
+    BOOST_TEST(records_of({rung}, 1).front().uncertainty == 0.125);
+    BOOST_TEST(records_of({rung}, 1).front().error == 0.25);
 }
 
 BOOST_AUTO_TEST_SUITE_END()
