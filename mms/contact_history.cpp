@@ -112,9 +112,7 @@ private:
         const auto forced = [&](std::size_t k) { return contacts_[k] == Contact::force; };
         const bool after_force = i > 0 && forced(i - 1);
         const bool before_force = i + 1 < phases_.size() && forced(i + 1);
-        if (contacts_[i] == Contact::rest)
-            result_.touch = phase.begin;
-        else if (!after_force && is_on_stop(phase, phase.begin))
+        if (contacts_[i] == Contact::rest || (!after_force && is_on_stop(phase, phase.begin)))
             result_.touch = phase.begin;
         else if (!before_force && is_on_stop(phase, phase.end))
             result_.touch = phase.end;
@@ -122,15 +120,21 @@ private:
             result_.touch = touch_inside(phase);
     }
 
-    /// Where the gap has a minimum that is nothing, at a distance from both ends.
+    /// Where the gap has a minimum that is nothing; next to an end on a stop it belongs to that
+    /// end.
     [[nodiscard]] std::optional<double> touch_inside(const Interval& phase) const {
         const ArrayXd times = samples(phase);
         const ArrayXd gaps = times.unaryExpr([&](double t) { return gap(phase, t); });
-        for (Index k = 1; k + 1 < times.size(); ++k) {
-            if (gaps(k) > gaps(k - 1) || gaps(k) > gaps(k + 1))
+        const Index last = times.size() - 1;
+        const double begin = is_on_stop(phase, phase.begin) ? times(1) : phase.begin;
+        const double end = is_on_stop(phase, phase.end) ? times(last - 1) : phase.end;
+        for (Index k = 0; k <= last; ++k) {
+            const Index before = std::max<Index>(k - 1, 0);
+            const Index behind = std::min(k + 1, last);
+            if (gaps(k) > gaps(before) || gaps(k) > gaps(behind))
                 continue;
-            double left = times(k - 1);
-            double right = times(k + 1);
+            double left = times(before);
+            double right = times(behind);
             constexpr int thirds = 80;
             for (int step = 0; step < thirds; ++step) {
                 const double third = (right - left) / 3.0;
@@ -140,8 +144,7 @@ private:
                     left += third;
             }
             const double nearest = 0.5 * (left + right);
-            if (is_on_stop(phase, nearest) && nearest > times(1) &&
-                nearest < times(times.size() - 2))
+            if (is_on_stop(phase, nearest) && nearest > begin && nearest < end)
                 return nearest;
         }
         return std::nullopt;

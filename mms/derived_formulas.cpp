@@ -92,7 +92,7 @@ ex computed(const std::string& symbol, const DerivedPhase& phase) {
     return phase.*parts.at(symbol);
 }
 
-/// A body force that is not printed counts as zero in every phase.
+/// A body force that is not printed is said to be zero: what a run has of one then shows.
 std::vector<DerivedFormula> with_body_force(std::vector<DerivedFormula> formulas) {
     if (std::ranges::find(formulas, "q", &DerivedFormula::symbol) == formulas.end())
         for (std::size_t i = formulas.size(); i-- > 0;)

@@ -35,9 +35,9 @@ std::vector<DerivedFormula> derived_formulas(const Solution& solution,
 /// How far these texts, read again with the beam's numbers, are from what a run of the solution up
 /// to final_time is driven by: for each symbol the greatest difference on a grid of [0,1] × its
 /// times over its greatest value there (or 1e-12 of that of all symbols, where that is more); of
-/// all symbols the greatest. What is not printed stands for 0. A G that holds `sigma` and points
-/// without a value are passed over. Throws InputError as derive_on does, and where a text cannot be
-/// read.
+/// all symbols the greatest. A body force that is not printed stands for 0. A G that holds `sigma`
+/// and points without a value are passed over. Throws InputError as derive_on does, and where a
+/// text cannot be read.
 double distance_of_formulas(const Solution& solution, const Beam& beam, double final_time);
 
 } // namespace tvbeam

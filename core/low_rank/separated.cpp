@@ -220,12 +220,13 @@ private:
 };
 
 /// The greatest difference between the functions and their products, over the greatest value of
-/// each. A bump exp(−(t/d)²) shows over ten times d, so that a time in every eight steps finds all
-/// that the steps resolve, and its places all that is wider than 1/30.
+/// each. A bump exp(−((x − x₀)/w)² − ((t − t₀)/d)²) shows over ten times w and d, so that a time in
+/// every eight steps, evenly or up to twice as far apart, finds all that lasts two, and places 1/16
+/// apart all that is wider than w = 1/160.
 double residual_of(const Expansion& expansion, const std::vector<SpaceTimeFunction>& functions,
                    const MatrixXd& basis, const PiecewiseAmplitudes& amplitudes,
                    std::int64_t steps) {
-    const auto all_times = static_cast<double>(std::clamp<std::int64_t>(steps / 8, 512, 8192));
+    const auto all_times = static_cast<double>(std::clamp<std::int64_t>(steps / 8, 512, 65536));
     constexpr Index at_least = 16;
     Comparison comparison(basis);
     const double final_time = expansion.pieces.back().end;

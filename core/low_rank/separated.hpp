@@ -29,13 +29,14 @@ struct SeparatedProblem {
 /// polynomials of x and, piece by piece, of t, until the coefficients have fallen to round-off
 /// (Townsend and Trefethen, SIAM J. Sci. Comput. 35 (2013) C495, expand likewise); the φ_k are an
 /// orthonormal basis of all the columns of coefficients, by a QR factorisation with pivoting. The
-/// result is compared with g in 16 places at a time in every eight steps, at least 512 and at most
-/// 8192 times. What is smaller than all of these in time and in space can be missed. Where a layer
+/// result is compared with g in 16 places at a time in every eight steps, at least at 512 and at
+/// most at 65536 times, and at 16 more a piece. What is there for a shorter time than between two
+/// of these can be missed, and what is narrower than 1/160 and there for few of them. Where a layer
 /// or a kink would take too high a degree, the rank would not pay, or the comparison fails, the
 /// problem stays as it is, with a reason. The paper's algorithm reads other fields, which stay as
 /// they are: it checks this.
 ///
-/// steps: the most that a run makes of the final time.
+/// steps: the most that a run makes of the final time; 0: not known, as few as are compared.
 ///
 /// data.resolution, where it is there, is kept: that of the functions themselves.
 SeparatedProblem separated(const ProblemData& data, const std::vector<Norm>& norms,

@@ -126,7 +126,7 @@ std::map<std::string, double> EvolutionResult::figures() const {
         const bool is_onset = event.kind == ContactEvent::Kind::onset;
         const std::string which = std::to_string(++(is_onset ? onsets : releases));
         figures[(is_onset ? "onset." : "release.") + which] = event.t;
-        figures["beyond." + which] = event.beyond;
+        figures["beyond." + which] = event.beyond; // of a contact that has ended, its release's
     }
     figures["onsets"] = onsets;
     figures["releases"] = releases;

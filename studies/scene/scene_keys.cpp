@@ -423,8 +423,8 @@ Entries of_expectations() {
          "all of them: \"onset g2\", \"release g2\""},
         {"expect.evolution.FIGURE", KeyType::band, "anything",
          "\"PROBE.least\", .greatest, .first, .last, .mean, .error, .period_change; samples, "
-         "onsets, "
-         "releases, onset.1, release.1, beyond.1, beyond_stops, period_change"},
+         "onsets, releases, \"onset.1\", \"release.1\", \"beyond.1\" (how far into the stop the "
+         "first contact goes), beyond_stops, period_change"},
         {"expect.sensitivity", KeyType::table, "anything", "of the sensitivity study"},
         {"expect.sensitivity.FIGURE", KeyType::band, "anything",
          "a defect's name: the least factor that is caught"},
