@@ -324,6 +324,7 @@ BOOST_AUTO_TEST_CASE(failed_and_exact_runs_are_named_and_left_out) {
     BOOST_TEST(fit.rejected.size() == 3U);
     BOOST_TEST(rejects(fit, 3, Rejection::failed));
     BOOST_TEST(rejects(fit, 7, Rejection::exact));
+    BOOST_TEST(std::string(words_for(Rejection::exact)).find("zero") != std::string::npos);
     BOOST_TEST(rejects(fit, 9, Rejection::failed));
     BOOST_TEST(std::abs(fit.model.p - 2) < 1e-4);
 }
@@ -335,6 +336,8 @@ BOOST_AUTO_TEST_CASE(records_whose_error_is_uncertain_are_rejected_as_such) {
     const auto fit = fit_two_term(records);
     BOOST_TEST(fit.rejected.size() == 1);
     BOOST_TEST(rejects(fit, 6, Rejection::unresolved));
+    BOOST_TEST(std::string(words_for(Rejection::unresolved)).find("quadrature") !=
+               std::string::npos);
     BOOST_TEST(std::abs(fit.model.p - 2) < 1e-4);
 }
 

@@ -5,6 +5,7 @@
 #include "core/run.hpp"
 #include "studies/ladder/ladder.hpp"
 #include "studies/scene/scene.hpp"
+#include "studies/stress/stress_cases.hpp"
 #include "studies/stress/stress_problem.hpp"
 #include "studies/study.hpp"
 #include "tests/temporary_directory.hpp"
@@ -479,6 +480,26 @@ BOOST_AUTO_TEST_CASE(the_regime_of_stops_is_that_of_the_nearer_one) {
     BOOST_TEST(regime({-1e-9, 1.0}) == "stops both, < 1e-6");
     BOOST_TEST(regime({-1.0, 1e-9}) == "stops both, < 1e-6");
     BOOST_TEST(regime({-1.0, 1e-3}) == "stops both, >= 1e-6");
+}
+
+// All eight sets of checks that a case may have been asked for.
+BOOST_DATA_TEST_CASE(of_a_kept_case_every_check_is_there_that_was_made_and_no_other,
+                     boost::unit_test::data::xrange(8), made) {
+    StressCase one;
+    one.checks.emplace();
+    if ((made & 1) != 0)
+        one.checks->path = 1.5;
+    if ((made & 2) != 0)
+        one.checks->error = 2.5;
+    if ((made & 4) != 0)
+        one.checks->order_defect = 3.5;
+    StressCases cases;
+    cases.add(one);
+    const auto kept = cases.at(0).checks;
+    BOOST_REQUIRE(kept);
+    BOOST_TEST((kept->path == one.checks->path));
+    BOOST_TEST((kept->error == one.checks->error));
+    BOOST_TEST((kept->order_defect == one.checks->order_defect));
 }
 
 BOOST_AUTO_TEST_SUITE_END()
