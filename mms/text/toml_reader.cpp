@@ -537,8 +537,8 @@ std::optional<std::vector<double>> TableReader::numbers(std::string_view key, In
 TableReader::Band TableReader::checked_band(std::string_view key, const toml::node& node) const {
     if (const toml::table* inner = node.as_table(); inner != nullptr && !inner->empty())
         throw InputError(place_of(node),
-                         fmt::format("{} must be a band [lowest, highest]; a name with a dot in it "
-                                     "stands in quotes: \"{}.{}\"",
+                         fmt::format("{} must be a band [lowest, highest]; if a name with a dot in "
+                                     "it is meant, it stands in quotes: \"{}.{}\"",
                                      full(key), key, inner->begin()->first.str()));
     const toml::array* pair = node.as_array();
     if (pair == nullptr || pair->size() != 2)

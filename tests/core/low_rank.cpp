@@ -229,6 +229,29 @@ BOOST_AUTO_TEST_CASE(layers_kinks_and_what_is_not_finite_stay_as_they_are_with_a
                }).find("more than the") != std::string::npos);
 }
 
+// Two steps long and 1/100 wide, wherever and whenever, in one phase and in several.
+BOOST_AUTO_TEST_CASE(bumps_that_the_steps_resolve_are_found_in_long_runs_too) {
+    const auto is_missed = [](double x0, double t0, std::int64_t steps, bool phases) {
+        const double d = 2.0 / static_cast<double>(steps);
+        ProblemData problem = problem_of(
+            [=](const ArrayXd& x, double t) -> ArrayXd {
+                const double late = (t - t0) / d;
+                return (3.0 * x * t).cos() + (-((x - x0) / 0.01).square() - late * late).exp();
+            },
+            {});
+        if (phases)
+            problem.phase_ends = {0.1, 0.47};
+        return separated(problem, {}, 1.0, steps).reason.empty();
+    };
+    for (int k = 1; k <= 200; ++k) {
+        const double x0 = 1.0 / 32 + std::fmod(0.754878 * k, 1.0) * 15.0 / 16;
+        const double t0 = std::fmod(0.569840 * k, 1.0);
+        BOOST_TEST(!is_missed(x0, t0, 12000, k % 2 == 0), "x = " << x0 << ", t = " << t0);
+    }
+    for (const double t0 : {0.185, 0.1856, 0.61803})
+        BOOST_TEST(!is_missed(0.4, t0, 400000, false), "t = " << t0);
+}
+
 BOOST_AUTO_TEST_CASE(what_separates_is_left_alone) {
     const ProblemData problem =
         manufactured_problem(read_solution(find_file(Shipped::solution, "copetti-fernandez-2011")),
