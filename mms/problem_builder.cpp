@@ -110,21 +110,56 @@ SpaceTimeFunction compiled_rest(const ex& formula) {
     };
 }
 
+/// For each phase all functions in one tape, from one formula a phase for each of them.
+std::vector<Tape> tapes_of(const std::vector<std::vector<ex>>& functions) {
+    std::vector<Tape> tapes;
+    for (std::size_t phase = 0; phase < functions.front().size(); ++phase) {
+        std::vector<ex> formulas;
+        for (const std::vector<ex>& function : functions)
+            formulas.push_back(function[phase]);
+        tapes.push_back(compile_tape(formulas));
+    }
+    return tapes;
+}
+
+/// The values of a tape a phase, at points whose times mostly come in order: a phase is one piece,
+/// or a few. x has as many points as t, or is one for all of them.
+Eigen::ArrayXXd evaluated(const std::vector<Tape>& tapes, const PhaseTimes& times,
+                          const Eigen::ArrayXd& x, const Eigen::ArrayXd& t) {
+    if (tapes.size() == 1)
+        return tapes.front().evaluate(x, t);
+    Eigen::ArrayXXd values(tapes.front().output_count(), t.size());
+    for (Eigen::Index begin = 0, end = 0; begin < t.size(); begin = end) {
+        const std::size_t phase = times.phase_at(t(begin));
+        while (end < t.size() && times.phase_at(t(end)) == phase)
+            ++end;
+        const Eigen::Index count = end - begin;
+        values.middleCols(begin, count) = tapes[phase].evaluate(
+            x.size() == 1 ? x : Eigen::ArrayXd(x.segment(begin, count)), t.segment(begin, count));
+    }
+    return values;
+}
+
 Amplitudes compiled_amplitudes(std::vector<Tape> tapes, const std::vector<TimePhase>& phases) {
     return [tapes = std::move(tapes), times = PhaseTimes(phases)](const Eigen::ArrayXd& t) {
-        const Eigen::ArrayXd nowhere = Eigen::ArrayXd::Zero(1);
-        if (tapes.size() == 1)
-            return tapes.front().evaluate(nowhere, t);
-        Eigen::ArrayXXd values(tapes.front().output_count(), t.size());
-        // Times mostly come in order: a phase is one piece, or a few.
-        for (Eigen::Index begin = 0, end = 0; begin < t.size(); begin = end) {
-            const std::size_t phase = times.phase_at(t(begin));
-            while (end < t.size() && times.phase_at(t(end)) == phase)
-                ++end;
-            values.middleCols(begin, end - begin) =
-                tapes[phase].evaluate(nowhere, t.segment(begin, end - begin));
+        return evaluated(tapes, times, Eigen::ArrayXd::Zero(1), t);
+    };
+}
+
+/// Not together where that would be computed in long double: one function may not need it.
+FunctionFamily compiled_family(std::vector<Tape> tapes, const std::vector<TimePhase>& phases) {
+    return [tapes = std::move(tapes), times = PhaseTimes(phases)](
+               const std::vector<Eigen::Index>& members) -> JointFunctions {
+        std::vector<Tape> chosen;
+        for (const Tape& tape : tapes) {
+            if (tape.is_wide())
+                return {};
+            chosen.push_back(tape.only(members));
         }
-        return values;
+        return
+            [chosen = std::move(chosen), times](const Eigen::ArrayXd& x, const Eigen::ArrayXd& t) {
+                return evaluated(chosen, times, x, t);
+            };
     };
 }
 
@@ -224,12 +259,12 @@ Separation ProblemBuilder::finite_separation(const ex& formula, const TimePhase&
 }
 
 Field ProblemBuilder::field(const std::vector<ex>& formulas) {
-    std::vector<SpaceTimeFunction> rests;
+    std::vector<ex> rests;
     bool gentle = true;
     std::vector<std::pair<Eigen::Index, std::vector<ex>>> terms; // profile, amplitude by phase
     for (std::size_t phase = 0; phase < phases_.size(); ++phase) {
         const Separation parts = finite_separation(formulas[phase], phases_[phase]);
-        rests.push_back(compiled_rest(parts.rest));
+        rests.push_back(parts.rest);
         gentle = gentle && is_gentle(parts.rest, final_time_);
         for (const SeparatedProduct& product : parts.products) {
             Profile& profile = known_profile(product.profile);
@@ -244,7 +279,7 @@ Field ProblemBuilder::field(const std::vector<ex>& formulas) {
     Field result;
     for (const auto& [profile, amplitude] : terms)
         result.terms.push_back({amplitude_index(amplitude), profile});
-    result.rest = in_phases(std::move(rests));
+    result.rest = rest(rests);
     result.gentle = result.rest && gentle;
     return result;
 }
@@ -259,6 +294,17 @@ Field::Term ProblemBuilder::term(const std::vector<ex>& amplitude, SpaceFunction
     // No expression equals this one, so that the profile is shared with none.
     Profile& added = profiles_.emplace_back(Profile{GiNaC::symbol(), {std::move(profile)}});
     return {amplitude_index(amplitude), index_of(added)};
+}
+
+SpaceTimeFunction ProblemBuilder::rest(const std::vector<ex>& formulas) {
+    if (all_zero(formulas))
+        return {};
+    std::vector<SpaceTimeFunction> functions;
+    for (const ex& formula : formulas)
+        functions.push_back(compiled_rest(formula));
+    rests_.push_back(formulas);
+    return FamilyMember{in_phases(std::move(functions)), family_,
+                        static_cast<Eigen::Index>(rests_.size()) - 1};
 }
 
 SpaceTimeFunction ProblemBuilder::in_phases(std::vector<SpaceTimeFunction> functions) const {
@@ -307,16 +353,10 @@ void ProblemBuilder::finish(ProblemData& problem) const {
         problem.gentle_profiles[index] = is_gentle(profile.formula, final_time_);
     }
     problem.amplitude_count = static_cast<Eigen::Index>(amplitudes_.size());
-    if (amplitudes_.empty())
-        return;
-    std::vector<Tape> tapes;
-    for (std::size_t phase = 0; phase < phases_.size(); ++phase) {
-        std::vector<ex> formulas;
-        for (const std::vector<ex>& amplitude : amplitudes_)
-            formulas.push_back(amplitude[phase]);
-        tapes.push_back(compile_tape(formulas));
-    }
-    problem.amplitudes = compiled_amplitudes(std::move(tapes), phases_);
+    if (!amplitudes_.empty())
+        problem.amplitudes = compiled_amplitudes(tapes_of(amplitudes_), phases_);
+    if (rests_.size() > 1)
+        *family_ = compiled_family(tapes_of(rests_), phases_);
 }
 
 } // namespace tvbeam

@@ -1,10 +1,12 @@
 #pragma once
 
+#include "core/joint_functions.hpp"
 #include "core/problem.hpp"
 #include "mms/separation.hpp"
 
 #include <ginac/ginac.h>
 
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -58,6 +60,8 @@ private:
         std::optional<Eigen::Index> index{}; ///< in the problem, if a term has it
     };
 
+    /// What of a field does not separate, by phase, as a member of the family of all of them.
+    SpaceTimeFunction rest(const std::vector<GiNaC::ex>& formulas);
     Profile& known_profile(const GiNaC::ex& formula);
     Eigen::Index index_of(Profile& profile);
     /// The products of a formula in its phase; none, and all of it the rest, where one overflows.
@@ -70,6 +74,8 @@ private:
     std::vector<Profile> profiles_;
     Eigen::Index profile_count_ = 0;                 ///< of those with an index
     std::vector<std::vector<GiNaC::ex>> amplitudes_; ///< for each amplitude one formula a phase
+    std::vector<std::vector<GiNaC::ex>> rests_;      ///< likewise for each rest
+    std::shared_ptr<FunctionFamily> family_ = std::make_shared<FunctionFamily>(); ///< of the rests
 };
 
 } // namespace tvbeam

@@ -1,5 +1,7 @@
 #include "core/low_rank/chebyshev.hpp"
 
+#include "core/dense_kernels.hpp"
+
 #include <cmath>
 #include <numbers>
 
@@ -46,19 +48,9 @@ Eigen::MatrixXd chebyshev_values(Eigen::Index n, const Eigen::ArrayXd& y) {
 }
 
 Eigen::ArrayXd chebyshev_sum(const Eigen::VectorXd& coefficients, const Eigen::ArrayXd& y) {
-    constexpr Eigen::Index block = 256; // stays in cache
     Eigen::ArrayXd sum(y.size());
-    for (Eigen::Index first = 0; first < y.size(); first += block) {
-        const Eigen::Index count = std::min(block, y.size() - first);
-        const Eigen::ArrayXd at = y.segment(first, count);
-        Eigen::ArrayXd b1 = Eigen::ArrayXd::Zero(count);
-        Eigen::ArrayXd b2 = b1;
-        for (Eigen::Index k = coefficients.size() - 1; k > 0; --k) {
-            b2 = 2.0 * at * b1 - b2 + coefficients(k);
-            b1.swap(b2);
-        }
-        sum.segment(first, count) = at * b1 - b2 + coefficients(0);
-    }
+    chosen_dense_kernel().chebyshev_sum(
+        {sum.data(), y.data(), y.size(), coefficients.data(), coefficients.size()});
     return sum;
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/problem.hpp"
+#include "core/joint_functions.hpp"
 
 #include <Eigen/Core>
 
@@ -20,8 +20,8 @@ struct ExpandedPiece {
 /// All of (0, T], piece after piece.
 struct Expansion {
     std::vector<ExpandedPiece> pieces;
-    std::vector<double> greatest; ///< max |g| of each function, as sampled
-    std::string reason;           ///< why there is none; empty: there is one
+    Eigen::ArrayXd greatest; ///< max |g| of each function, as sampled
+    std::string reason;      ///< why there is none; empty: there is one
 };
 
 /// The place in [−1, 1] of a time of a piece.
@@ -31,7 +31,7 @@ inline double place_in(double begin, double end, double t) {
 
 /// Expands functions that are smooth in each of the intervals between `ends` (from 0 on,
 /// increasing). An interval is halved where it takes too high a degree of t.
-Expansion expanded(const std::vector<SpaceTimeFunction>& functions,
+Expansion expanded(const JointFunctions& functions, Eigen::Index count,
                    const std::vector<double>& ends);
 
 } // namespace tvbeam

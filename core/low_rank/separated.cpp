@@ -1,5 +1,7 @@
 #include "core/low_rank/separated.hpp"
 
+#include "core/dense_kernels.hpp"
+#include "core/joint_functions.hpp"
 #include "core/low_rank/chebyshev.hpp"
 #include "core/low_rank/expansion.hpp"
 #include "core/norms/norm_sums.hpp"
@@ -31,10 +33,11 @@ constexpr Index most_profiles = 40;
 constexpr double most_residual = 1000.0 * ulp;
 
 /// The fields of a problem that runs read and that do not separate. The initial curvature is read
-/// at t = 0 alone, and comes last.
+/// at t = 0 alone; it comes last, where it is not one of the others.
 struct Fields {
     std::vector<Field*> in_time;
     Field* initial = nullptr;
+    Index function_of_initial = 0;
 
     Fields(ProblemData& data, const std::vector<Norm>& norms) {
         const auto add = [&](Field& field) {
@@ -52,24 +55,43 @@ struct Fields {
                 if (needed[q])
                     add(*fields[q]);
         }
-        if (!data.curvature_initial.is_separable())
-            initial = &data.curvature_initial;
+        if (data.curvature_initial.is_separable())
+            return;
+        initial = &data.curvature_initial;
+        const auto same = std::find_if(in_time.begin(), in_time.end(), [&](const Field* field) {
+            return are_same(field->rest, initial->rest);
+        });
+        function_of_initial = same - in_time.begin();
     }
     [[nodiscard]] bool none() const { return in_time.empty() && initial == nullptr; }
-    [[nodiscard]] std::vector<SpaceTimeFunction> functions() const {
+    [[nodiscard]] Index count() const {
+        const auto others = static_cast<Index>(in_time.size());
+        return initial == nullptr ? others : std::max(others, function_of_initial + 1);
+    }
+    [[nodiscard]] JointFunctions functions() const {
         std::vector<SpaceTimeFunction> all;
         for (const Field* field : in_time)
             all.push_back(field->rest);
-        if (initial != nullptr)
-            all.push_back(
-                [rest = initial->rest](const ArrayXd& x, double) { return rest(x, 0.0); });
-        return all;
+        const auto others = static_cast<Index>(all.size());
+        JointFunctions together = in_one(all);
+        if (count() == others)
+            return together;
+        return [together = std::move(together), others,
+                at_start = in_one({initial->rest})](const ArrayXd& x, const ArrayXd& t) {
+            Eigen::ArrayXXd values(others + 1, x.size());
+            if (others > 0)
+                values.topRows(others) = together(x, t);
+            values.bottomRows(1) = at_start(x, ArrayXd::Zero(x.size()));
+            return values;
+        };
     }
-    [[nodiscard]] std::vector<Field*> all() const {
-        std::vector<Field*> fields = in_time;
+    /// Calls visit(field, number of its function) for all of them.
+    template <typename Visit>
+    void for_each(const Visit& visit) const {
+        for (std::size_t f = 0; f < in_time.size(); ++f)
+            visit(*in_time[f], static_cast<Index>(f));
         if (initial != nullptr)
-            fields.push_back(initial);
-        return fields;
+            visit(*initial, function_of_initial);
     }
 };
 
@@ -88,12 +110,12 @@ std::vector<double> ends_of(const ProblemData& data, double final_time) {
 MatrixXd basis_of(const Expansion& expansion) {
     const MatrixXd& first = expansion.pieces.front().coefficients.front();
     const Index each = first.cols();
-    const auto functions = static_cast<Index>(expansion.greatest.size());
+    const Index functions = expansion.greatest.size();
     MatrixXd columns(first.rows(), static_cast<Index>(expansion.pieces.size()) * functions * each);
     Index column = 0;
     for (const auto& piece : expansion.pieces)
         for (Index f = 0; f < functions; ++f, column += each) {
-            const double greatest = expansion.greatest[static_cast<std::size_t>(f)];
+            const double greatest = expansion.greatest(f);
             columns.middleCols(column, each) = piece.coefficients[static_cast<std::size_t>(f)] *
                                                (greatest > 0.0 ? 1.0 / greatest : 0.0);
         }
@@ -122,7 +144,7 @@ public:
 
     /// Shape: functions · rank × times. A time that ends a piece belongs to it.
     [[nodiscard]] MatrixXd at(const ArrayXd& times) const {
-        MatrixXd values(pieces_.front().coefficients.rows(), times.size());
+        MatrixXd values = MatrixXd::Zero(pieces_.front().coefficients.rows(), times.size());
         for (Index first = 0; first < times.size();) {
             const Piece& piece = piece_of(times(first));
             Index count = 1;
@@ -131,8 +153,8 @@ public:
             const ArrayXd places = times.segment(first, count).unaryExpr([&](double t) {
                 return place_in(piece.begin, piece.end, t);
             });
-            values.middleCols(first, count).noalias() =
-                piece.coefficients * chebyshev_values(piece.coefficients.cols(), places);
+            add_product(values.middleCols(first, count), piece.coefficients,
+                        chebyshev_values(piece.coefficients.cols(), places), values.rows());
             first += count;
         }
         return values;
@@ -179,82 +201,76 @@ void add_profiles(ProblemData& data, const MatrixXd& basis) {
     }
 }
 
-/// Where products are compared with what they stand for: at times without pattern, each time in
-/// places that are 1/16 apart, 1/240 from those of other times.
-class Comparison {
-public:
-    explicit Comparison(const MatrixXd& basis)
-        : sequence_(gsl_qrng_alloc(gsl_qrng_halton, 1), &gsl_qrng_free) {
-        if (!sequence_)
-            throw std::bad_alloc();
-        for (int shift = 0; shift < shifts; ++shift) {
-            const double first = (0.5 + shift) / (shifts * places);
-            x_.emplace_back(ArrayXd::LinSpaced(places, first, first + (places - 1.0) / places));
-            profiles_.emplace_back(basis.transpose() *
-                                   chebyshev_values(basis.rows(), 2.0 * x_.back() - 1.0));
-        }
-    }
+/// Times in (0, 1), without pattern: gaps of at most twice the mean.
+ArrayXd scattered_times(Index count) {
+    const std::unique_ptr<gsl_qrng, decltype(&gsl_qrng_free)> sequence(
+        gsl_qrng_alloc(gsl_qrng_halton, 1), &gsl_qrng_free);
+    if (!sequence)
+        throw std::bad_alloc();
+    ArrayXd times(count);
+    for (double& time : times)
+        gsl_qrng_get(sequence.get(), &time);
+    return times;
+}
 
-    /// Times in (0, 1), which leave gaps of at most twice the mean: the sequence begins anew.
-    ArrayXd times(Index count) {
-        gsl_qrng_init(sequence_.get());
-        ArrayXd times(count);
-        for (double& time : times)
-            gsl_qrng_get(sequence_.get(), &time);
-        return times;
-    }
-
-    /// The places of the i-th time, and the profiles there; shape: rank × places.
-    [[nodiscard]] const ArrayXd& x(Index i) const {
-        return x_[static_cast<std::size_t>(i % shifts)];
-    }
-    [[nodiscard]] const MatrixXd& profiles(Index i) const {
-        return profiles_[static_cast<std::size_t>(i % shifts)];
-    }
-
-private:
-    static constexpr Index places = 16;
-    static constexpr int shifts = 15; // no power of two, which the sequence of times goes by
-    std::unique_ptr<gsl_qrng, decltype(&gsl_qrng_free)> sequence_;
-    std::vector<ArrayXd> x_;
-    std::vector<MatrixXd> profiles_;
-};
+/// Where products are compared with what they stand for: each time in places that are 1/16 apart,
+/// 1/240 from those of other times.
+constexpr Index places = 16;
+constexpr Index shifts = 15; // no power of two, which the sequence of times goes by
 
 /// The greatest difference between the functions and their products, over the greatest value of
 /// each. A bump exp(−((x − x₀)/w)² − ((t − t₀)/d)²) is seen down to 2e-13 of its height, (5.4)² =
 /// 29 in the exponent. In up to 524288 steps times are at most twice eight steps apart, and places
 /// 1/16: from a bump of d = two steps and w = 1/100, with its middle 1/32 or more from both ends,
 /// one is never further than 4² + (3.1)² = 26, so that it is found whenever it is.
-double residual_of(const Expansion& expansion, const std::vector<SpaceTimeFunction>& functions,
+double residual_of(const Expansion& expansion, const JointFunctions& functions,
                    const MatrixXd& basis, const PiecewiseAmplitudes& amplitudes,
                    std::int64_t steps) {
     const auto all_times = static_cast<double>(std::clamp<std::int64_t>(steps / 8, 512, 65536));
     constexpr Index at_least = 16;
-    Comparison comparison(basis);
+    constexpr Index most_at_once = 64; // what is evaluated stays in the cache
     const double final_time = expansion.pieces.back().end;
-    std::vector<double> greatest = expansion.greatest;
-    std::vector<double> differences(functions.size(), 0.0);
+    const Index rank = basis.cols();
+    ArrayXd greatest = expansion.greatest;
+    ArrayXd differences = ArrayXd::Zero(greatest.size());
+    std::vector<ArrayXd> x;
+    std::vector<MatrixXd> profiles; // shape of each: places × rank
+    for (Index shift = 0; shift < shifts; ++shift) {
+        const double first =
+            (0.5 + static_cast<double>(shift)) / static_cast<double>(shifts * places);
+        x.emplace_back(ArrayXd::LinSpaced(places, first, first + (places - 1.0) / places));
+        profiles.emplace_back(chebyshev_values(basis.rows(), 2.0 * x.back() - 1.0).transpose() *
+                              basis);
+    }
     for (const auto& piece : expansion.pieces) {
         const double length = piece.end - piece.begin;
         const auto count = at_least + static_cast<Index>(all_times * length / final_time);
-        const ArrayXd t = piece.begin + length * comparison.times(count);
-        const MatrixXd of_all = amplitudes.at(t);
-        for (std::size_t f = 0; f < functions.size(); ++f) {
-            const auto own = of_all.middleRows(static_cast<Index>(f) * basis.cols(), basis.cols());
-            for (Index i = 0; i < count; ++i) {
-                const ArrayXd exact = functions[f](comparison.x(i), t(i));
+        const ArrayXd t = piece.begin + length * scattered_times(count);
+        for (Index first = 0; first < count; first += most_at_once * shifts)
+            for (Index shift = 0; shift < std::min(shifts, count - first); ++shift) {
+                const Index rest = count - first - shift;
+                const Index n = std::min(most_at_once, (rest + shifts - 1) / shifts);
+                const ArrayXd times = t(Eigen::seqN(first + shift, n, shifts));
+                const auto at = static_cast<std::size_t>(shift);
+                const Eigen::ArrayXXd exact = functions(
+                    x[at].replicate(n, 1), times.transpose().replicate(places, 1).reshaped());
                 if (!exact.isFinite().all())
                     return std::numeric_limits<double>::infinity();
-                const ArrayXd sums = (comparison.profiles(i).transpose() * own.col(i)).array();
-                greatest[f] = std::max(greatest[f], exact.abs().maxCoeff());
-                differences[f] = std::max(differences[f], (exact - sums).abs().maxCoeff());
+                const MatrixXd of_all = amplitudes.at(times);
+                for (Index f = 0; f < greatest.size(); ++f) {
+                    const ArrayXd sums =
+                        (profiles[at] * of_all.middleRows(f * rank, rank)).reshaped().array();
+                    const ArrayXd of_function = exact.row(f).transpose();
+                    greatest(f) = std::max(greatest(f), of_function.abs().maxCoeff());
+                    differences(f) =
+                        std::max(differences(f), (of_function - sums).abs().maxCoeff());
+                }
             }
-        }
     }
     double residual = 0.0;
-    for (std::size_t f = 0; f < functions.size(); ++f)
-        if (greatest[f] > 0.0)
-            residual = std::max(residual, differences[f] / greatest[f]);
+    for (Index f = 0; f < greatest.size(); ++f)
+        if (greatest(f) > 0.0)
+            residual = std::max(residual, differences(f) / greatest(f));
     return residual;
 }
 
@@ -270,8 +286,8 @@ SeparatedProblem separated(const ProblemData& data, const std::vector<Norm>& nor
     const Fields fields(result.data, norms);
     if (fields.none())
         return result;
-    const auto functions = fields.functions();
-    const Expansion expansion = expanded(functions, ends_of(data, final_time));
+    const JointFunctions functions = fields.functions();
+    const Expansion expansion = expanded(functions, fields.count(), ends_of(data, final_time));
     if (!expansion.reason.empty())
         return unchanged(data, expansion.reason);
     const MatrixXd basis = basis_of(expansion);
@@ -285,15 +301,17 @@ SeparatedProblem separated(const ProblemData& data, const std::vector<Norm>& nor
         return unchanged(data,
                          fmt::format("{} products differ from it by {:.1e} of its greatest value",
                                      result.rank, result.residual));
-    Index amplitude = data.amplitude_count;
-    for (Field* field : fields.all()) {
-        field->rest = nullptr;
-        field->gentle = false;
+    const Index first_amplitude = data.amplitude_count;
+    const auto first_profile = static_cast<Index>(data.profiles.size());
+    fields.for_each([&](Field& field, Index function) {
+        field.rest = nullptr;
+        field.gentle = false;
         for (Index k = 0; k < result.rank; ++k)
-            field->terms.push_back({amplitude++, static_cast<Index>(data.profiles.size()) + k});
-    }
-    result.data.amplitudes = joined(data, amplitudes, amplitude - data.amplitude_count);
-    result.data.amplitude_count = amplitude;
+            field.terms.push_back(
+                {first_amplitude + function * result.rank + k, first_profile + k});
+    });
+    result.data.amplitudes = joined(data, amplitudes, fields.count() * result.rank);
+    result.data.amplitude_count += fields.count() * result.rank;
     add_profiles(result.data, basis);
     return result;
 }

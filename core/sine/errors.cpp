@@ -1,5 +1,7 @@
 #include "core/sine/errors.hpp"
 
+#include "core/dense_kernels.hpp"
+
 #include <algorithm>
 #include <utility>
 

@@ -1,6 +1,7 @@
 #include "core/sine/form.hpp"
 
 #include "core/contact/contact.hpp"
+#include "core/dense_kernels.hpp"
 
 #include <algorithm>
 #include <cmath>

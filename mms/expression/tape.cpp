@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cfenv>
 #include <cmath>
+#include <iterator>
 #include <stdexcept>
 
 namespace tvbeam {
@@ -196,6 +197,37 @@ void Tape::evaluate_in(const Eigen::ArrayXd& x, const Eigen::ArrayXd& t,
                         .transpose()
                         .template cast<double>();
     }
+}
+
+Tape Tape::only(const std::vector<Eigen::Index>& outputs) const {
+    Tape result;
+    result.register_count_ = register_count_;
+    result.wide_ = wide_;
+    std::vector<bool> needed(static_cast<std::size_t>(register_count_), false);
+    const auto is_needed = [&](int at) { return needed[static_cast<std::size_t>(at)]; };
+    for (const Eigen::Index output : outputs) {
+        result.outputs_.push_back(outputs_.at(static_cast<std::size_t>(output)));
+        needed[static_cast<std::size_t>(result.outputs_.back())] = true;
+    }
+    // Backwards: what is read later must have been written last before.
+    for (std::size_t i = instructions_.size(); i > 0; --i) {
+        if (i == time_only_count_)
+            std::copy_if(persistent_.begin(), persistent_.end(),
+                         std::back_inserter(result.persistent_), is_needed);
+        const Instruction& instruction = instructions_[i - 1];
+        if (!is_needed(instruction.target))
+            continue;
+        needed[static_cast<std::size_t>(instruction.target)] = false;
+        needed[static_cast<std::size_t>(instruction.left)] = true;
+        if (instruction.right >= 0)
+            needed[static_cast<std::size_t>(instruction.right)] = true;
+        result.instructions_.push_back(instruction);
+        result.time_only_count_ += i <= time_only_count_ ? 1 : 0;
+    }
+    std::reverse(result.instructions_.begin(), result.instructions_.end());
+    std::copy_if(constants_.begin(), constants_.end(), std::back_inserter(result.constants_),
+                 [&](const Constant& constant) { return is_needed(constant.target); });
+    return result;
 }
 
 } // namespace tvbeam

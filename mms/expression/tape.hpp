@@ -27,6 +27,13 @@ public:
     /// tape; where it may have no value, or a jump, there are none.
     [[nodiscard]] Enclosure enclose(Eigen::Index output, double x, double begin, double end) const;
 
+    /// The tape of these expressions alone, with the instructions that they need. Their values are
+    /// the same to the last bit, but where an intermediate result of another left the range.
+    [[nodiscard]] Tape only(const std::vector<Eigen::Index>& outputs) const;
+
+    /// Whether it is always computed in long double.
+    [[nodiscard]] bool is_wide() const { return wide_; }
+
     [[nodiscard]] Eigen::Index output_count() const {
         return static_cast<Eigen::Index>(outputs_.size());
     }

@@ -176,6 +176,25 @@ BOOST_AUTO_TEST_CASE(the_rank_is_that_of_all_fields_together) {
     BOOST_TEST(separated(problem, {}, 1.0).rank == 3);
 }
 
+// x cos t begins as the x of the initial curvature; t x² has a profile of its own.
+BOOST_AUTO_TEST_CASE(the_initial_curvature_is_that_of_the_start) {
+    ProblemData problem = problem_of(
+        {}, [](const ArrayXd& x, double t) -> ArrayXd { return x * std::cos(t) + t * x.square(); });
+    problem.curvature_initial.rest = [](const ArrayXd& x, double t) -> ArrayXd {
+        return 2.0 * x + t * x.exp(); // is read at t = 0 alone
+    };
+    const SeparatedProblem products = separated(problem, {}, 1.0);
+    BOOST_TEST(products.rank == 2);
+    const ArrayXd x = ArrayXd::LinSpaced(17, 0.0, 1.0);
+    const auto of = [&](const Field& field, double t) {
+        return values(products.data, field, x, t);
+    };
+    BOOST_TEST((of(products.data.curvature_initial, 0.0) - 2.0 * x).abs().maxCoeff() <= 1e-14);
+    BOOST_TEST(
+        (of(products.data.moment_load, 0.7) - problem.moment_load.rest(x, 0.7)).abs().maxCoeff() <=
+        1e-14);
+}
+
 BOOST_AUTO_TEST_CASE(each_phase_has_its_own_function_up_to_its_end) {
     const double end = 0.3;
     ProblemData problem = problem_of(

@@ -206,6 +206,43 @@ BOOST_AUTO_TEST_CASE(rests_follow_the_phases) {
     BOOST_TEST(theta(0.5, 1.5) == 0.25 * std::exp(1.125));
 }
 
+// Phases, and a part that a phase does not have; points whose times go back and forth.
+BOOST_AUTO_TEST_CASE(what_does_not_separate_is_the_same_together_as_alone) {
+    const auto solution = parse_solution(R"toml(
+        name = "two-phases"
+        theta = "sin(pi*x*(1 + t*(1 - x)))"
+        [[phase]]
+        until = "0.5"
+        u = "x^2*exp(x*t)/100"
+        [[phase]]
+        u = "x^2*exp(x/2)*cos(x*(t - 1/2))/100"
+    )toml",
+                                         "two-phases");
+    const Beam beam = {0.017, 0.1, 0.0, {}};
+    const ProblemData problem = manufactured_problem(solution, beam, 1.0);
+    const std::vector<SpaceTimeFunction> functions{
+        problem.heat_source.rest, problem.moment_load.rest, problem.exact->u_xx.rest};
+    BOOST_TEST(are_same(problem.curvature_initial.rest, problem.exact->u_xx.rest));
+    BOOST_TEST(!are_same(problem.heat_source.rest, problem.exact->u_xx.rest));
+    BOOST_TEST(!!*functions.front().target<FamilyMember>()->family); // else each goes alone
+    const JointFunctions together = in_one(functions);
+    ArrayXd x(5), t(5);
+    x << 0.1, 0.9, 0.4, 1.0, 0.0;
+    t << 0.2, 0.8, 0.5, 0.5, 0.9;
+    const Eigen::ArrayXXd values = together(x, t);
+    BOOST_REQUIRE(values.rows() == 3);
+    BOOST_REQUIRE(values.cols() == 5);
+    for (Index i = 0; i < x.size(); ++i)
+        for (Index f = 0; f < 3; ++f) {
+            const double alone = functions[static_cast<std::size_t>(f)](x.segment(i, 1), t(i))(0);
+            BOOST_TEST(std::abs(values(f, i) - alone) <= 1e-14 * (1.0 + std::abs(alone)));
+        }
+    // The same for functions that know of no family.
+    const JointFunctions strangers =
+        in_one({SpaceTimeFunction(functions[0].target<FamilyMember>()->alone), functions[1]});
+    BOOST_TEST((strangers(x, t) - values.topRows(2)).abs().maxCoeff() <= 1e-13);
+}
+
 BOOST_AUTO_TEST_CASE(phases_after_the_final_time_do_no_harm) {
     const Solution solution =
         parse_solution("theta = \"t*sin(pi*x)\"\n[[phase]]\nuntil = 2\nu = \"x^2*t\"\n"

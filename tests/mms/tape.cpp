@@ -102,6 +102,33 @@ BOOST_AUTO_TEST_CASE(many_expressions_together_are_each_by_itself) {
     }
 }
 
+// Of a tape of all formulas, with parts that depend on t alone, and one that is a constant.
+BOOST_AUTO_TEST_CASE(chosen_expressions_keep_their_values_and_what_they_need) {
+    std::vector<GiNaC::ex> expressions;
+    for (const std::string& formula : formulas)
+        expressions.push_back(parsed(formula));
+    expressions.push_back(parsed("exp(t)"));
+    expressions.push_back(parsed("3"));
+    const Tape all = compile_tape(expressions);
+    const ArrayXd x = random_array(300, 0.05, 1.0, 3);
+    const ArrayXd t = random_array(300, 0.05, 2.0, 4);
+    for (Eigen::Index k = 0; k < all.output_count(); ++k) {
+        const Eigen::Index other = (k + 5) % all.output_count();
+        const Tape two = all.only({k, other});
+        const std::size_t needed = compile_tape({expressions[static_cast<std::size_t>(k)],
+                                                 expressions[static_cast<std::size_t>(other)]})
+                                       .instruction_count();
+        BOOST_TEST(two.instruction_count() == needed);
+        for (const ArrayXd& times : {t, ArrayXd(t.head(1))}) {
+            const Eigen::ArrayXXd values = two.evaluate(x, times);
+            const Eigen::ArrayXXd expected = all.evaluate(x, times);
+            BOOST_REQUIRE(values.rows() == 2);
+            BOOST_TEST((values.row(0) == expected.row(k)).all());
+            BOOST_TEST((values.row(1) == expected.row(other)).all());
+        }
+    }
+}
+
 // More points than a block, in part blocks too; one time for many points, one point for many times.
 BOOST_AUTO_TEST_CASE(a_value_does_not_depend_on_its_place_in_the_array) {
     std::vector<GiNaC::ex> expressions;
