@@ -162,6 +162,41 @@ template <std::int64_t bytes>
         }
 }
 
+/// So many columns from the j-th at once: what is read of v serves them all.
+template <std::int64_t bytes, std::int64_t together>
+[[gnu::always_inline]] inline void add_inner_products_of(const DenseKernel::InnerProducts& p,
+                                                         std::int64_t j) {
+    using Piece = Rows<bytes, 1>;
+    const double* const in = p.in + j * p.stride;
+    Piece sums[together];
+    std::int64_t row = 0;
+    for (; row + Piece::count <= p.rows; row += Piece::count) {
+        const Piece v(p.with + row);
+        for (std::int64_t c = 0; c < together; ++c)
+            sums[c] += v * Piece(in + c * p.stride + row);
+    }
+    for (std::int64_t c = 0; c < together; ++c) {
+        double lanes[Piece::count];
+        sums[c].store(lanes);
+        double sum = 0.0;
+        for (const double lane : lanes)
+            sum += lane;
+        for (std::int64_t i = row; i < p.rows; ++i)
+            sum += p.with[i] * in[c * p.stride + i];
+        p.out[j + c] += sum;
+    }
+}
+
+template <std::int64_t bytes>
+[[gnu::always_inline]] inline void inner_products_with(const DenseKernel::InnerProducts& p) {
+    constexpr std::int64_t together = 4;
+    std::int64_t j = 0;
+    for (; j + together <= p.columns; j += together)
+        add_inner_products_of<bytes, together>(p, j);
+    for (; j < p.columns; ++j)
+        add_inner_products_of<bytes, 1>(p, j);
+}
+
 template <std::int64_t bytes>
 [[gnu::always_inline]] inline void chebyshev_with(const DenseKernel::ChebyshevSum& c) {
     in_pieces<bytes, 4>(
@@ -195,6 +230,9 @@ TVBEAM_V4 void product_v4(const DenseKernel::Product& p) {
 TVBEAM_V4 void forms_v4(const DenseKernel::Forms& f) {
     forms_with<64>(f);
 }
+TVBEAM_V4 void inner_products_v4(const DenseKernel::InnerProducts& p) {
+    inner_products_with<64>(p);
+}
 TVBEAM_V4 void chebyshev_v4(const DenseKernel::ChebyshevSum& c) {
     chebyshev_with<64>(c);
 }
@@ -203,6 +241,9 @@ TVBEAM_V3 void product_v3(const DenseKernel::Product& p) {
 }
 TVBEAM_V3 void forms_v3(const DenseKernel::Forms& f) {
     forms_with<32>(f);
+}
+TVBEAM_V3 void inner_products_v3(const DenseKernel::InnerProducts& p) {
+    inner_products_with<32>(p);
 }
 TVBEAM_V3 void chebyshev_v3(const DenseKernel::ChebyshevSum& c) {
     chebyshev_with<32>(c);
@@ -214,6 +255,9 @@ void product_anywhere(const DenseKernel::Product& p) {
 void forms_anywhere(const DenseKernel::Forms& f) {
     forms_with<16>(f);
 }
+void inner_products_anywhere(const DenseKernel::InnerProducts& p) {
+    inner_products_with<16>(p);
+}
 void chebyshev_anywhere(const DenseKernel::ChebyshevSum& c) {
     chebyshev_with<16>(c);
 }
@@ -224,11 +268,12 @@ std::span<const DenseKernel> dense_kernels() {
     static const DenseKernel kernels[] = {
 #if defined(__x86_64__) && !defined(__clang__)
         {"x86-64-v4", __builtin_cpu_supports("x86-64-v4") != 0, &product_v4, &forms_v4,
-         &chebyshev_v4},
+         &inner_products_v4, &chebyshev_v4},
         {"x86-64-v3", __builtin_cpu_supports("x86-64-v3") != 0, &product_v3, &forms_v3,
-         &chebyshev_v3},
+         &inner_products_v3, &chebyshev_v3},
 #endif
-        {"any", true, &product_anywhere, &forms_anywhere, &chebyshev_anywhere},
+        {"any", true, &product_anywhere, &forms_anywhere, &inner_products_anywhere,
+         &chebyshev_anywhere},
     };
     return kernels;
 }
@@ -251,6 +296,11 @@ void add_forms(Eigen::VectorXd& out, const Eigen::MatrixXd& series, const Eigen:
                Eigen::Index rows) {
     chosen_dense_kernel().add_forms({out.data(), series.data(), series.outerStride(), gram.data(),
                                      gram.outerStride(), rows, gram.cols()});
+}
+
+void add_inner_products(Eigen::VectorXd& out, const Eigen::MatrixXd& in, const Eigen::VectorXd& v) {
+    chosen_dense_kernel().add_inner_products(
+        {out.data(), in.data(), in.outerStride(), v.data(), in.rows(), in.cols()});
 }
 
 } // namespace tvbeam

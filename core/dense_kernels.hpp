@@ -43,6 +43,17 @@ struct DenseKernel {
     };
     void (*add_forms)(const Forms& forms);
 
+    /// out_j += Σ_i in_ij v_i for every column j. Shapes: columns, rows × columns, rows.
+    struct InnerProducts {
+        double* out;
+        const double* in;
+        Index stride;
+        const double* with;
+        Index rows;
+        Index columns;
+    };
+    void (*add_inner_products)(const InnerProducts& products);
+
     /// Σ_k c_k T_k(y) at every point, by Clenshaw's recurrence; at least one coefficient.
     struct ChebyshevSum {
         double* out;
@@ -67,5 +78,8 @@ void add_product(Eigen::Ref<Eigen::MatrixXd> out, const Eigen::MatrixXd& in,
 /// out += vᵀ G v for each of the first rows v of the series; G symmetric.
 void add_forms(Eigen::VectorXd& out, const Eigen::MatrixXd& series, const Eigen::MatrixXd& gram,
                Eigen::Index rows);
+
+/// out_j += (column j of in, v).
+void add_inner_products(Eigen::VectorXd& out, const Eigen::MatrixXd& in, const Eigen::VectorXd& v);
 
 } // namespace tvbeam

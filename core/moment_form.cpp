@@ -1,6 +1,7 @@
 #include "core/moment_form.hpp"
 
 #include "core/contact/contact.hpp"
+#include "core/dense_kernels.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -206,7 +207,7 @@ void MomentForm::solve_heat(double t, const Eigen::Ref<const Eigen::VectorXd>& a
         if (coupled_)
             load_weights_ += exchange * weight_changes_;
         column_weights_ = load_weights_(columns_);
-        increment_.noalias() += loads_ * column_weights_;
+        add_product(increment_, loads_, column_weights_, inner);
     }
     if (const auto& rest = data_.heat_source.rest) {
         increment_ +=

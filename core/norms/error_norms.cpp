@@ -1,5 +1,6 @@
 #include "core/norms/error_norms.hpp"
 
+#include "core/dense_kernels.hpp"
 #include "core/moment_form.hpp"
 #include "core/space/cells.hpp"
 #include "core/space/deflection.hpp"
@@ -54,8 +55,9 @@ struct ProfileSelection {
 /// eᵀM_c e + 2 γ·(defectᵀe) + γᵀQγ with the nodal error e.
 double split_square(const Mesh& mesh, const ErrorProfiles& profiles, const Eigen::VectorXd& error,
                     const Eigen::VectorXd& gamma, const Eigen::MatrixXd& gram) {
-    return squared_norm(mesh, error) + 2.0 * gamma.dot(profiles.defect_load.transpose() * error) +
-           gamma.dot(gram * gamma);
+    Eigen::VectorXd with_defects = Eigen::VectorXd::Zero(gamma.size());
+    add_inner_products(with_defects, profiles.defect_load, error);
+    return squared_norm(mesh, error) + 2.0 * gamma.dot(with_defects) + gamma.dot(gram * gamma);
 }
 
 /// A square that round-off made negative is zero; NaN stays NaN.
@@ -80,7 +82,7 @@ public:
         for (const auto& term : field_.terms)
             gamma_(selection_.column(term.profile)) -= amplitudes(term.amplitude);
         error_ = solver.temperature() + lift_;
-        error_.noalias() += profiles_.nodal * gamma_;
+        add_product(error_, profiles_.nodal, gamma_, error_.size());
         return non_negative(
             split_square(mesh_, profiles_, error_, gamma_, profiles_.interpolation));
     }
@@ -123,7 +125,7 @@ public:
         error_ = w.weights.tail<1>()(0) * arm_;
         if (w.nodal.size() > 0)
             error_ += w.nodal;
-        error_.noalias() += profiles_.nodal * gamma_;
+        add_product(error_, profiles_.nodal, gamma_, error_.size());
         return non_negative(split_square(mesh_, profiles_, error_, gamma_, between_) +
                             tau_.dot(profiles_.projection * tau_));
     }

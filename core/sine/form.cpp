@@ -34,6 +34,12 @@ bool measures_fields(const std::vector<Norm>& norms) {
     return wants(needed, Quantity::theta) || wants_curvature(needed);
 }
 
+/// Whether they measure what is integrated from the curvature.
+bool integrates_curvature(const std::vector<Norm>& norms) {
+    const QuantitySet needed = quantities_of(norms);
+    return wants(needed, Quantity::u) || wants(needed, Quantity::u_x);
+}
+
 /// The fields in whose profiles the run is written.
 std::vector<const Field*> used_fields(const ProblemData& data, const QuantitySet& needed, bool heat,
                                       bool bending) {
@@ -103,7 +109,7 @@ SineForm::SineForm(const Beam& beam, const ProblemData& data, const Mesh& mesh,
       stops_(bending_ && beam.stops.exist()), basis_(mesh.elements()),
       profiles_(mesh, basis_, data.profiles,
                 used_profiles(data, used_fields(data, quantities_of(norms), heat_, bending_)),
-                heat_, measures_fields(norms)),
+                {heat_, measures_fields(norms), integrates_curvature(norms)}),
       levels_(data, scheme.time, final_time, steps), most_steps_(std::min(block_steps, steps)),
       errors_(beam, data, mesh, basis_, profiles_, norms, coupled_, most_steps_) {
     find_sources();

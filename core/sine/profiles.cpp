@@ -1,9 +1,12 @@
 #include "core/sine/profiles.hpp"
 
+#include "core/dense_kernels.hpp"
 #include "core/space/cells.hpp"
 #include "core/space/linear_elements.hpp"
 #include "core/space/profile.hpp"
 #include "core/space/quadrature.hpp"
+
+#include <Eigen/QR>
 
 #include <algorithm>
 #include <cmath>
@@ -18,19 +21,23 @@ namespace {
 /// Of values of size 1, what is taken for round-off.
 constexpr double round_off = 4.0 * std::numeric_limits<double>::epsilon();
 
+/// Fewer functions than this are left as they are, and as many modes as are marched together.
+constexpr Eigen::Index fewest_to_combine = 6;
+constexpr Eigen::Index most_modes_together = packs_in_group * Pack::size;
+
 /// One of the functions g_j.
 struct Column {
-    Eigen::Index profile = -1; // of which it is the φ°; −1: 1 − x or x
-    Eigen::VectorXd nodal;     // g_j at the nodes of 1 − x and x
-    Eigen::VectorXd hat_load;  // (φ°, χ_i)
-    Eigen::ArrayXd modes;      // (g_j, φ̂_k)
-    Eigen::Index extent = 0;   // how many of them are not zero
+    Eigen::VectorXd parts;    // φ_r° = Σ_j parts_j(r) g_j; empty: 1 − x or x
+    Eigen::VectorXd nodal;    // g_j at the nodes of 1 − x and x
+    Eigen::VectorXd hat_load; // (φ°, χ_i)
+    Eigen::ArrayXd modes;     // (g_j, φ̂_k)
+    Eigen::Index extent = 0;  // how many of them are not zero
     // For norms:
-    Eigen::Index error = -1;  // its place among the error profiles
+    Eigen::Index place = -1;  // among the φ°, and among their error profiles
     Eigen::VectorXd defect;   // (φ° − I_hφ°, χ_i)
     Eigen::ArrayXd deviation; // (φ° − I_hφ°, φ̂_k)
 
-    [[nodiscard]] bool is_linear() const { return profile < 0; }
+    [[nodiscard]] bool is_linear() const { return parts.size() == 0; }
 };
 
 /// φ, which must outlive the result, without the linear function of these end values.
@@ -90,12 +97,10 @@ std::vector<Column> linear_columns(const Mesh& mesh, const SineBasis& basis, boo
 /// Reads the errors of interpolation into the columns, and their modes from them.
 void read_defects(const Mesh& mesh, const SineBasis& basis, const ErrorProfiles& errors,
                   std::vector<Column>& columns) {
-    for (std::size_t j = 0; j < columns.size(); ++j) {
-        Column& column = columns[j];
-        column.error = static_cast<Eigen::Index>(j);
-        column.defect = errors.defect_load.col(column.error);
+    for (Column& column : columns) {
+        column.defect = errors.defect_load.col(column.place);
         column.deviation = basis.of_load(column.defect);
-        Eigen::VectorXd nodal = errors.nodal.col(column.error);
+        Eigen::VectorXd nodal = errors.nodal.col(column.place);
         nodal(0) = 0.0;
         nodal(mesh.elements()) = 0.0;
         column.modes = basis.of_nodal(nodal) + column.deviation;
@@ -114,7 +119,7 @@ double remainder_entry(const Column& i, const Column& j, const ErrorProfiles& er
         return i.nodal.dot(j.defect) - (i.modes * j.deviation).sum();
     if (j.is_linear())
         return remainder_entry(j, i, errors);
-    return errors.interpolation(i.error, j.error) - (i.deviation * j.deviation).sum();
+    return errors.interpolation(i.place, j.place) - (i.deviation * j.deviation).sum();
 }
 
 /// The profiles without their linear parts.
@@ -144,7 +149,8 @@ Split split(const Mesh& mesh, const std::vector<SpaceFunction>& profiles,
             continue;
         SpaceFunction function = without_ends(phi, parts.at_ends(0, r), parts.at_ends(1, r));
         Column column;
-        column.profile = r;
+        column.parts = Eigen::VectorXd::Unit(arm, r);
+        column.place = static_cast<Eigen::Index>(parts.inner.size());
         column.hat_load = hat_loads(mesh, function);
         // Of a linear profile nothing is left but round-off.
         if (column.hat_load.cwiseAbs().maxCoeff() <= round_off * scale * mesh.lengths(0))
@@ -153,6 +159,75 @@ Split split(const Mesh& mesh, const std::vector<SpaceFunction>& profiles,
         parts.functions.push_back(std::move(function));
     }
     return parts;
+}
+
+/// The orthogonal matrix V after which the columns of modes · V reach no further than they must: in
+/// blocks from the highest modes down, what a block has of the columns that are still free goes to
+/// as few of them as its rank.
+Eigen::MatrixXd combinations_of(const Eigen::MatrixXd& modes) {
+    constexpr Eigen::Index group = packs_in_group * Pack::size;
+    const double bound = round_off * modes.cwiseAbs().maxCoeff();
+    Eigen::MatrixXd all(modes.cols(), modes.cols());
+    Eigen::MatrixXd free = Eigen::MatrixXd::Identity(modes.cols(), modes.cols());
+    Eigen::Index groups = (modes.rows() + group - 1) / group;
+    Eigen::Index end = modes.rows();
+    while (end > 0 && free.cols() > 0) {
+        groups -= std::max<Eigen::Index>(1, groups / 4);
+        const Eigen::Index begin = groups * group;
+        const Eigen::MatrixXd block =
+            free.transpose() * modes.middleRows(begin, end - begin).transpose();
+        end = begin;
+        if (block.cwiseAbs().maxCoeff() <= bound)
+            continue;
+        const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(block);
+        const auto pivots = qr.matrixQR().diagonal().cwiseAbs();
+        Eigen::Index rank = 0;
+        while (rank < pivots.size() && pivots(rank) > bound)
+            ++rank;
+        free = (free * qr.householderQ()).eval();
+        all.middleCols(modes.cols() - free.cols(), rank) = free.leftCols(rank);
+        free = free.rightCols(free.cols() - rank).eval();
+    }
+    all.rightCols(free.cols()) = free;
+    return all;
+}
+
+/// Puts the combinations Σ_i g_i factors(i, j) in place of one vector of all columns.
+template <typename Vector>
+void combine(std::vector<Column>& columns, const Eigen::MatrixXd& factors, Vector Column::*member) {
+    const Eigen::Index rows = (columns.front().*member).size();
+    Eigen::MatrixXd before(rows, factors.rows());
+    for (std::size_t j = 0; j < columns.size(); ++j)
+        before.col(static_cast<Eigen::Index>(j)) = columns[j].*member;
+    Eigen::MatrixXd after = Eigen::MatrixXd::Zero(rows, factors.cols());
+    add_product(after, before, factors, rows);
+    for (std::size_t j = 0; j < columns.size(); ++j)
+        columns[j].*member = after.col(static_cast<Eigen::Index>(j));
+}
+
+/// Puts combinations of the columns in their place, each over its size first.
+void combine(std::vector<Column>& columns, ErrorProfiles& errors) {
+    const auto count = static_cast<Eigen::Index>(columns.size());
+    Eigen::MatrixXd modes(columns.front().modes.size(), count);
+    Eigen::VectorXd sizes(count);
+    for (Eigen::Index j = 0; j < count; ++j) {
+        const Column& column = columns[static_cast<std::size_t>(j)];
+        sizes(j) = column.hat_load.cwiseAbs().maxCoeff() * static_cast<double>(modes.rows());
+        if (!(sizes(j) > 0.0) || !std::isfinite(1.0 / sizes(j)))
+            return;
+        modes.col(j) = column.modes / sizes(j);
+    }
+    const Eigen::MatrixXd turn = combinations_of(modes);
+    const Eigen::MatrixXd factors = sizes.cwiseInverse().asDiagonal() * turn;
+    combine(columns, factors, &Column::hat_load);
+    combine(columns, factors, &Column::modes);
+    combine(columns, sizes.asDiagonal() * turn, &Column::parts);
+    if (errors.interpolation.size() == 0)
+        return;
+    combine(columns, factors, &Column::defect);
+    combine(columns, factors, &Column::deviation);
+    for (Eigen::MatrixXd* gram : {&errors.interpolation, &errors.projection})
+        *gram = (factors.transpose() * *gram * factors).eval();
 }
 
 ModeArrays table_of(const std::vector<Column>& columns, Eigen::Index modes) {
@@ -191,7 +266,7 @@ std::vector<SpaceFunction> functions_of(const Split& parts, bool right) {
     if (right)
         functions.emplace_back([](const Eigen::ArrayXd& x) { return x; });
     for (const auto& column : parts.inner)
-        functions.push_back(parts.functions[static_cast<std::size_t>(column.error)]);
+        functions.push_back(parts.functions[static_cast<std::size_t>(column.place)]);
     return functions;
 }
 
@@ -218,16 +293,19 @@ std::int64_t ModeArrays::size() const {
 
 SineProfiles::SineProfiles(const Mesh& mesh, const SineBasis& basis,
                            const std::vector<SpaceFunction>& profiles,
-                           const std::vector<bool>& used, bool with_modes, bool with_norms) {
+                           const std::vector<bool>& used, const Wanted& wanted) {
     Split parts = split(mesh, profiles, used);
     ErrorProfiles errors;
-    if (with_norms) {
+    if (wanted.norms) {
         errors = error_profiles(mesh, parts.functions);
         read_defects(mesh, basis, errors, parts.inner);
-    } else if (with_modes) {
+    } else if (wanted.modes) {
         for (auto& column : parts.inner)
             column.modes = basis.of_load(column.hat_load);
     }
+    if (wanted.modes && !wanted.functions && basis.size() > most_modes_together &&
+        static_cast<Eigen::Index>(parts.inner.size()) >= fewest_to_combine)
+        combine(parts.inner, errors);
     for (auto& column : parts.inner)
         cut_off(column);
     // Those that reach far come first, so that every group of modes reads a head of them.
@@ -238,7 +316,7 @@ SineProfiles::SineProfiles(const Mesh& mesh, const SineBasis& basis,
     const bool right = (parts.at_ends.row(1).array() != 0.0).any();
     std::vector<Column> columns = linear_columns(mesh, basis, right);
     linear = static_cast<Eigen::Index>(columns.size());
-    if (with_norms)
+    if (wanted.functions)
         functions = functions_of(parts, right);
     std::move(parts.inner.begin(), parts.inner.end(), std::back_inserter(columns));
 
@@ -248,21 +326,22 @@ SineProfiles::SineProfiles(const Mesh& mesh, const SineBasis& basis,
     tip_moments = (parts.at_ends.row(0) / 3.0 + parts.at_ends.row(1) / 6.0).transpose();
     for (Eigen::Index j = linear; j < count; ++j) {
         const Column& column = columns[static_cast<std::size_t>(j)];
-        expansion(j, column.profile) = 1.0;
-        tip_moments(column.profile) += column.hat_load.dot(columns.front().nodal);
+        expansion.row(j).head(column.parts.size()) = column.parts.transpose();
+        tip_moments.head(column.parts.size()) +=
+            column.hat_load.dot(columns.front().nodal) * column.parts;
     }
-    if (with_modes) {
+    if (wanted.modes) {
         table = table_of(columns, basis.size());
         active = active_columns(columns, table.groups(), linear);
     }
-    if (with_norms) {
+    if (wanted.norms) {
         remainder = of_pairs(columns, [&](const Column& i, const Column& j) {
             return remainder_entry(i, j, errors);
         });
         modes_gram = of_pairs(
             columns, [](const Column& i, const Column& j) { return (i.modes * j.modes).sum(); });
         projection = of_pairs(columns, [&](const Column& i, const Column& j) {
-            return i.is_linear() || j.is_linear() ? 0.0 : errors.projection(i.error, j.error);
+            return i.is_linear() || j.is_linear() ? 0.0 : errors.projection(i.place, j.place);
         });
     }
 }

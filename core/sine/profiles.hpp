@@ -43,13 +43,26 @@ private:
 /// if some φ_r(1) is not zero, then the φ_r° that are not zero. What P_0, the L² projection on
 /// S_0^h, leaves of a function is orthogonal to every mode, so squared norms add up: ‖v‖² = Σ_k (v,
 /// φ̂_k)² + ‖v − P_0v‖².
+///
+/// Of many φ_r° the g_j are orthogonal combinations, such that as few as can be reach the high
+/// modes: of a smooth φ° the products (φ°, φ̂_k) fall like k⁻³ where its second derivative is not
+/// zero at both ends, like k⁻⁵ where its fourth is not, and so on, so that all combinations but a
+/// few have fallen to round-off after a hundred modes or so.
 struct SineProfiles {
+    /// What is read of them.
+    struct Wanted {
+        bool modes = true;
+        bool norms = true;
+        bool functions = false; ///< the g_j themselves, which are the φ_r° then
+    };
+
     Eigen::MatrixXd
         expansion; ///< the profiles, then the moment arm, in the g_j; shape: J × (R + 1)
-    std::vector<SpaceFunction> functions; ///< the g_j; they refer to the profiles; empty: no norms
-    Eigen::Index linear = 1;              ///< how many of the g_j are 1 − x and x
-    ModeArrays table;                     ///< T_jk = (g_j, φ̂_k)
-    std::vector<std::int64_t> active;     ///< of each group: the g_j behind are zero there
+    std::vector<SpaceFunction>
+        functions;                    ///< the g_j; they refer to the profiles; empty: not wanted
+    Eigen::Index linear = 1;          ///< how many of the g_j are 1 − x and x
+    ModeArrays table;                 ///< T_jk = (g_j, φ̂_k)
+    std::vector<std::int64_t> active; ///< of each group: the g_j behind are zero there
     Eigen::VectorXd tip_moments; ///< (φ_r, 1 − x), then that of the moment arm; shape: R + 1
     Eigen::MatrixXd remainder; ///< (g_i − P_0g_i, g_j − P_0g_j); shape: J × J; empty: no norms
     Eigen::MatrixXd modes_gram; ///< Σ_k T_ik T_jk; shape and emptiness as above
@@ -59,7 +72,7 @@ struct SineProfiles {
     /// used: the profiles that matter; the others keep zeros. Without modes the table stays empty.
     SineProfiles(const Mesh& mesh, const SineBasis& basis,
                  const std::vector<SpaceFunction>& profiles, const std::vector<bool>& used,
-                 bool with_modes, bool with_norms);
+                 const Wanted& wanted);
 
     [[nodiscard]] Eigen::Index columns() const { return expansion.rows(); }
 };

@@ -31,13 +31,9 @@ Eigen::VectorXd Tridiagonal::operator*(const Eigen::VectorXd& x) const {
 }
 
 TridiagonalFactor::TridiagonalFactor(const Tridiagonal& matrix)
-    : multipliers_(matrix.diagonal.size()), inverse_pivots_(matrix.diagonal.size()) {
-    double pivot = 0.0;
-    double sum = 0.0; // of the row, of what elimination has left of the matrix
-    for (Eigen::Index i = 0; i < order(); ++i) {
-        multipliers_(i) = i == 0 ? 0.0 : matrix.coupling(i - 1) / pivot;
-        sum = matrix.row_sums(i) - multipliers_(i) * sum;
-        pivot = i + 1 < order() ? sum - matrix.coupling(i) : sum;
+    : multipliers_(Eigen::VectorXd::Zero(matrix.diagonal.size())),
+      inverse_pivots_(matrix.diagonal.size()) {
+    const auto invert = [&](Eigen::Index i, double pivot) {
         if (!std::isfinite(pivot) || !std::isfinite(1.0 / pivot))
             throw std::domain_error(
                 "the matrix of the step is beyond the range of floating point: pivot " +
@@ -46,17 +42,51 @@ TridiagonalFactor::TridiagonalFactor(const Tridiagonal& matrix)
             throw std::domain_error("the matrix of the step is not positive definite: pivot " +
                                     std::to_string(i) + " is " + std::to_string(pivot));
         inverse_pivots_(i) = 1.0 / pivot;
+    };
+    if (order() == 0)
+        return;
+    const Eigen::Index m = middle();
+    double sum = 0.0; // of the row, of what elimination has left of the matrix
+    for (Eigen::Index i = 0; i < m; ++i) {
+        sum = matrix.row_sums(i) - multipliers_(i) * sum;
+        const double pivot = sum - matrix.coupling(i);
+        invert(i, pivot);
+        multipliers_(i + 1) = matrix.coupling(i) / pivot;
     }
+    double of_middle = matrix.row_sums(m) - multipliers_(m) * sum;
+    sum = 0.0;
+    for (Eigen::Index i = order() - 1; i > m; --i) {
+        sum = matrix.row_sums(i) - (i + 1 < order() ? multipliers_(i + 1) * sum : 0.0);
+        const double pivot = sum - matrix.coupling(i - 1);
+        invert(i, pivot);
+        multipliers_(i) = matrix.coupling(i - 1) / pivot;
+    }
+    of_middle -= m + 1 < order() ? multipliers_(m + 1) * sum : 0.0;
+    invert(m, of_middle);
 }
 
 void TridiagonalFactor::solve_in_place(Eigen::Ref<Eigen::VectorXd> x) const {
     const Eigen::Index n = order();
-    for (Eigen::Index i = 1; i < n; ++i)
-        x(i) -= multipliers_(i) * x(i - 1);
-    if (n > 0)
-        x(n - 1) *= inverse_pivots_(n - 1);
-    for (Eigen::Index i = n - 2; i >= 0; --i)
-        x(i) = x(i) * inverse_pivots_(i) - multipliers_(i + 1) * x(i + 1);
+    if (n == 0)
+        return;
+    const Eigen::Index m = middle();
+    const double* const l = multipliers_.data();
+    const double* const inverse = inverse_pivots_.data();
+    double* const v = x.data();
+    // n − 1 − m rows from either end, and one more on the left of an even number of them.
+    for (Eigen::Index i = 1, j = n - 1; j > m; ++i, --j) {
+        v[i] -= l[i] * v[i - 1];
+        v[j - 1] -= l[j] * v[j];
+    }
+    if (n % 2 == 0)
+        v[m] -= l[m] * v[m - 1];
+    v[m] *= inverse[m];
+    for (Eigen::Index i = m - 1, j = m + 1; j < n; --i, ++j) {
+        v[i] = v[i] * inverse[i] - l[i + 1] * v[i + 1];
+        v[j] = v[j] * inverse[j] - l[j] * v[j - 1];
+    }
+    if (n % 2 == 0)
+        v[0] = v[0] * inverse[0] - l[1] * v[1];
 }
 
 } // namespace tvbeam

@@ -17,9 +17,10 @@ struct Tridiagonal {
     Eigen::VectorXd operator*(const Eigen::VectorXd& x) const;
 };
 
-/// A = L D Lᵀ of a symmetric positive definite tridiagonal matrix, by elimination without pivoting.
-/// The pivots follow from row sums and couplings without a subtraction where no coupling is
-/// positive (Alfa, Xue and Ye 2002), so that the solution is accurate whatever the condition.
+/// A symmetric positive definite tridiagonal matrix, eliminated without pivoting from both ends to
+/// the middle row m, A = N D Nᵀ: the two recurrences of a solve do not wait for each other. The
+/// pivots follow from row sums and couplings without a subtraction where no coupling is positive
+/// (Alfa, Xue and Ye 2002), so that the solution is accurate whatever the condition.
 class TridiagonalFactor {
 public:
     TridiagonalFactor() = default;
@@ -33,7 +34,9 @@ public:
     [[nodiscard]] Eigen::Index order() const { return inverse_pivots_.size(); }
 
 private:
-    Eigen::VectorXd multipliers_;    // l_i = A(i, i−1) / d_{i−1}; l_0 is not used
+    [[nodiscard]] Eigen::Index middle() const { return order() / 2; }
+
+    Eigen::VectorXd multipliers_; // A(i, i−1) / d_{i−1} up to i = m, A(i, i−1) / d_i behind it
     Eigen::VectorXd inverse_pivots_; // 1 / d_i
 };
 

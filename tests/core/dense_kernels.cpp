@@ -103,6 +103,19 @@ BOOST_DATA_TEST_CASE(every_kernel_adds_the_forms, row_counts* data::make({1, 6, 
     }
 }
 
+// Five columns are more than are summed together.
+BOOST_DATA_TEST_CASE(every_kernel_adds_the_inner_products, row_counts, rows) {
+    const Eigen::MatrixXd in = some_numbers(rows + 3, 5, 1.2);
+    const Eigen::VectorXd v = some_numbers(rows + 3, 1, 1.3);
+    const Eigen::VectorXd before = some_numbers(5, 1, 1.4);
+    const Eigen::VectorXd expected = before + in.topRows(rows).transpose() * v.head(rows);
+    for_each_kernel_here([&](const DenseKernel& kernel) {
+        Eigen::VectorXd out = before;
+        kernel.add_inner_products({out.data(), in.data(), in.outerStride(), v.data(), rows, 5});
+        BOOST_TEST((out - expected).cwiseAbs().maxCoeff() <= 2.0 * rows * ulp + 2.0 * ulp);
+    });
+}
+
 // T_k(cos φ) = cos kφ. Clenshaw's recurrence is as good as k² ulp at the ends, k inside.
 BOOST_DATA_TEST_CASE(every_kernel_sums_chebyshev_polynomials, row_counts* data::make({1, 2, 3, 40}),
                      points, count) {
