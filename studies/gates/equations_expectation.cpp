@@ -114,6 +114,8 @@ std::vector<CheckedExpectation> checked_system_of(const AskedSystem& asked,
         add(holds_words(said, wanted.refused[i], true), "refused", "." + std::to_string(i));
     if (wanted.remarks)
         add(holds_remarks(said, *wanted.remarks), "remarks", "");
+    checked.front().examined =
+        said.text + boost::algorithm::join(said.remarks, "\n") + said.refused;
     return checked;
 }
 
