@@ -103,8 +103,11 @@ Json kept_of(const Json& json, const std::string& folder) {
     }
     if (json.is_number_float())
         return rounded(json);
-    if (json.is_string())
-        return boost::algorithm::replace_all_copy(json.get<std::string>(), folder, "");
+    if (json.is_string()) {
+        const std::string text =
+            boost::algorithm::replace_all_copy(json.get<std::string>(), folder, "");
+        return boost::algorithm::replace_all_copy(text, "./", "");
+    }
     return json;
 }
 
