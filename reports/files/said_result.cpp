@@ -5,6 +5,7 @@
 #include "reports/files/json_values.hpp"
 #include "reports/formats/json_report.hpp"
 #include "reports/studies/study_report.hpp"
+#include "studies/predicted_work.hpp"
 #include "studies/stress/stress_tally.hpp"
 #include "studies/text/number_text.hpp"
 
@@ -155,6 +156,7 @@ Json said_by(const StudyResult& result, const std::vector<CheckedExpectation>& c
         if (kind->timed())
             json[kind->name()].erase("remarks"); // on seconds
     json["basis"] = result.scene.scheme.basis == Basis::nodal ? "nodal" : "automatic";
+    json["predicted"] = predicted_work(result.scene).text();
     json["sentences"] = sentences_of(result);
     json["examined"] = examined_by(checked);
     const std::filesystem::path folder = std::filesystem::path(result.scene.file).parent_path();

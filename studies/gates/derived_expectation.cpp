@@ -70,7 +70,11 @@ public:
         return known->second;
     }
 
-    [[nodiscard]] double distance_of_formulas() const {
+    double distance_of_formulas() {
+        for (const auto& [symbol, interval, interval_latex, formula, latex] :
+             derived_formulas(solution_, scene_.beam.stops.epsilon > 0.0))
+            formulas_ += fmt::format("{} for {} = {}\n{} for {}\n", symbol, interval, formula,
+                                     latex, interval_latex);
         return tvbeam::distance_of_formulas(solution_, scene_.beam, final_time_);
     }
 
@@ -89,7 +93,7 @@ public:
 
     /// All of what was asked for, line by line.
     [[nodiscard]] std::string examined() {
-        std::string text;
+        std::string text = formulas_;
         for (const auto& term : terms_.value_or(std::vector<TermUse>()))
             text += term.term + ": " +
                     (term.is_exercised() ? metric_text(term.largest) : term.why_not) + "\n";
@@ -115,6 +119,7 @@ private:
     const Solution& solution_;
     const Scene& scene_;
     double final_time_;
+    std::string formulas_;
     std::optional<std::vector<TermUse>> terms_;
     std::optional<ExpectedOrders> orders_;
     std::optional<TimeResiduals> in_time_;
