@@ -323,7 +323,8 @@ bool may_be_read_as(KeyType type, KeyType asked) {
 } // namespace
 
 const toml::node* TableReader::find(std::string_view key, KeyType type) {
-    known_.emplace_back(key);
+    if (std::ranges::find(known_, key) == known_.end())
+        known_.emplace_back(key);
     const toml::node* node = table_->get(key);
     const KeyTable::Node* entry = keys_ != nullptr ? keys_->find(key) : nullptr;
     if (keys_ != nullptr && (entry == nullptr || !may_be_read_as(entry->entry->type, type)))

@@ -5,9 +5,12 @@
 
 namespace tvbeam {
 
-std::string json_text(const nlohmann::ordered_json& json) {
+namespace {
+
+/// indent: of each level; -1: all in one line.
+std::string escaped_text(const nlohmann::ordered_json& json, int indent) {
     const std::string text =
-        json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+        json.dump(indent, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
     std::string escaped;
     escaped.reserve(text.size() + 1);
     for (std::size_t i = 0; i < text.size(); ++i) {
@@ -22,7 +25,17 @@ std::string json_text(const nlohmann::ordered_json& json) {
             escaped += text[i];
         }
     }
-    return escaped + "\n";
+    return escaped;
+}
+
+} // namespace
+
+std::string json_text(const nlohmann::ordered_json& json) {
+    return escaped_text(json, 2) + "\n";
+}
+
+std::string json_line(const nlohmann::ordered_json& json) {
+    return escaped_text(json, -1);
 }
 
 } // namespace tvbeam

@@ -11,4 +11,7 @@ namespace tvbeam {
 /// terminals obey them.
 std::string json_text(const nlohmann::ordered_json& json);
 
+/// The same in one line, without its end.
+std::string json_line(const nlohmann::ordered_json& json);
+
 } // namespace tvbeam

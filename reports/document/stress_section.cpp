@@ -107,26 +107,13 @@ private:
     std::vector<Worst> worst_ = std::vector<Worst>(stress_checks().size());
 };
 
-/// The text of a reason without its numbers, to count those alike.
-std::string kind_of(const std::string& reason) {
-    std::string kind;
-    for (const char c : reason) {
-        const bool digit = (c >= '0' && c <= '9') || c == '.';
-        if (!digit)
-            kind += c;
-        else if (!kind.ends_with('#'))
-            kind += '#';
-    }
-    return kind;
-}
-
 /// The reasons of cases that are not certified, those alike together.
 class Reasons {
 public:
     void add(const StressCase& one) {
         if (one.outcome == Outcome::certified)
             return;
-        auto& [count, example] = kinds_[one.outcome][kind_of(one.reason)];
+        auto& [count, example] = kinds_[one.outcome][without_numbers(one.reason)];
         if (count++ == 0)
             example = text_of(one.parameters) + ": " + one.reason;
     }

@@ -3,6 +3,8 @@
 #include "mms/text/file_text.hpp"
 #include "mms/text/input_error.hpp"
 #include "reports/document/json_text.hpp"
+#include "reports/files/held_values.hpp"
+#include "reports/files/said_result.hpp"
 #include "studies/ladder/ladder_block.hpp"
 
 #include <fmt/format.h>
@@ -24,7 +26,10 @@ constexpr const char* baseline_schema = "tvbeam-baseline/1";
 constexpr std::size_t largest_baseline = 64 << 20; // bytes
 
 /// Of values within each other, above what a baseline has.
-constexpr int deepest_baseline = 8;
+constexpr int deepest_baseline = 24;
+
+/// Of what a scene says, beside its figures, which have a study before a dot.
+constexpr const char* said_key = "said";
 
 /// Figures of the size of round-off, which another compiler changes; they want a band of [expect].
 bool is_round_off(const std::string& study, const std::string& figure) {
@@ -64,6 +69,13 @@ BaselineEntry baseline_entry(const StudyResult& result) {
     return {result.scene.name, {result.scene.file}, std::move(errors)};
 }
 
+BaselineEntry whole_entry(const StudyResult& result,
+                          const std::vector<CheckedExpectation>& checked) {
+    BaselineEntry entry = baseline_entry(result);
+    entry.said = said_by(result, checked).dump();
+    return entry;
+}
+
 BaselineEntry baseline_entry(const DataAnalysis& analysis) {
     std::map<std::string, double> figures;
     for (const auto& column : analysis.columns)
@@ -93,20 +105,29 @@ std::string baseline_of(const std::vector<BaselineEntry>& entries, const std::st
     std::set<std::string> names;
     if (!earlier.empty())
         scenes = Json::parse(earlier)["scenes"];
-    for (const auto& [name, place, figures] : entries) {
+    for (const auto& [name, place, figures, said] : entries) {
         if (!names.insert(name).second)
             throw InputError(place, "is the second scene that is called " + name +
                                         "; a baseline goes by their names: rename one");
         Json errors = Json::object();
         for (const auto& [what, error] : figures)
             errors[what] = std::isfinite(error) ? Json(error) : Json();
+        if (!said.empty())
+            errors[said_key] = Json::parse(said);
         if (errors.empty())
             throw InputError(place,
                              "measures nothing that a baseline could keep; add norms, or a block "
                              "with figures");
         scenes[name] = std::move(errors);
     }
-    return json_text({{"schema", baseline_schema}, {"scenes", std::move(scenes)}});
+    // A line a scene: its history shows which has changed.
+    std::string text = fmt::format("{{\"schema\": \"{}\", \"scenes\": {{", baseline_schema);
+    std::string separator = "\n";
+    for (const auto& [name, kept] : scenes.items()) {
+        text += separator + json_line(Json(name)) + ": " + json_line(kept);
+        separator = ",\n";
+    }
+    return text + "\n}}\n";
 }
 
 Baseline::Baseline(const std::string& file) : file_(file) {
@@ -116,7 +137,7 @@ Baseline::Baseline(const std::string& file) : file_(file) {
             throw InputError({file}, std::string("is not a baseline (schema ") + baseline_schema +
                                          "); record one with --record");
     };
-    // Its names are sorted: of many thousands each is found at once. A baseline has two levels, and
+    // Its names are sorted: of many thousands each is found at once. A baseline has few levels, and
     // a deep value would be copied and written by recursion.
     const auto shallow = [&](int depth, nlohmann::json::parse_event_t /*event*/,
                              nlohmann::json& /*value*/) {
@@ -130,8 +151,12 @@ Baseline::Baseline(const std::string& file) : file_(file) {
     for (const auto& [scene, figures] : json["scenes"].items()) {
         auto& recorded = scenes_[scene];
         for (const auto& [what, figure] : figures.items())
-            recorded[what] = {figure.is_number() ? std::optional<double>(figure) : std::nullopt,
-                              figure.dump(-1, ' ', false, Json::error_handler_t::replace)};
+            if (what == said_key) {
+                require(figure.is_object());
+                said_[scene] = figure.dump(-1, ' ', false, Json::error_handler_t::replace);
+            } else
+                recorded[what] = {figure.is_number() ? std::optional<double>(figure) : std::nullopt,
+                                  figure.dump(-1, ' ', false, Json::error_handler_t::replace)};
     }
 }
 
@@ -160,6 +185,16 @@ std::vector<CheckedExpectation> Baseline::check(const BaselineEntry& entry,
         if (!errors.contains(what))
             checked.push_back(
                 {"baseline: " + what, before.text, "this run is not made any more", place, false});
+    if (const auto said = said_.find(entry.name); said != said_.end()) {
+        const Json now = entry.said.empty() ? Json::object() : Json::parse(entry.said);
+        const auto differences = held_values(Json::parse(said->second), now, tolerance);
+        if (differences.empty())
+            checked.push_back(
+                {"baseline: what it says", "as recorded", "as recorded", place, true});
+        for (const auto& one : differences)
+            checked.push_back({"baseline: " + one.what, one.first.value_or("nothing of the kind"),
+                               one.second.value_or("it is not said any more"), place, false});
+    }
     return checked;
 }
 

@@ -17,8 +17,13 @@ struct BaselineEntry {
     std::string name;
     Place place; ///< for messages
     std::map<std::string, double> figures;
+    std::string said = {}; ///< all that the result says (said_result.hpp), as JSON; empty: not kept
 };
 BaselineEntry baseline_entry(const StudyResult& result);
+
+/// With all that the result says and its expectations looked at.
+BaselineEntry whole_entry(const StudyResult& result,
+                          const std::vector<CheckedExpectation>& checked);
 
 /// Throws InputError where the clock decides which runs a scene makes: no digits of another attempt
 /// can be held against it.
@@ -43,9 +48,12 @@ public:
     /// Holds new figures against what was recorded by their name: every error within the relative
     /// tolerance of the recorded one, on both sides. A scene, run or norm that was not recorded, or
     /// that is not there any more, does not hold. The figures found are always those of the new
-    /// result.
+    /// result. Of what it says besides (held_values.hpp) only what does not hold is told.
     [[nodiscard]] std::vector<CheckedExpectation> check(const BaselineEntry& entry,
                                                         double tolerance) const;
+
+    /// Whether what the scene says was recorded, too.
+    [[nodiscard]] bool has_said(const std::string& scene) const { return said_.contains(scene); }
 
 private:
     /// What stands for a figure: its number, or none where the run failed.
@@ -56,6 +64,7 @@ private:
 
     std::string file_;
     std::map<std::string, std::map<std::string, Recorded>> scenes_;
+    std::map<std::string, std::string> said_; ///< BaselineEntry::said
 };
 
 } // namespace tvbeam

@@ -2,6 +2,7 @@
 
 #include "mms/text/file_text.hpp"
 #include "mms/text/input_error.hpp"
+#include "reports/files/json_values.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -10,9 +11,7 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
-#include <map>
-#include <set>
-#include <string_view>
+#include <string>
 
 namespace tvbeam {
 
@@ -24,7 +23,9 @@ constexpr std::size_t largest_result = std::size_t{1} << 30U; // bytes
 constexpr int deepest_result = 40;                            // values within each other
 
 /// Different from run to run of the same.
-const std::set<std::string> not_compared{"provenance", "seconds", "schema"};
+bool is_not_compared(const std::string& key) {
+    return key == "provenance" || key == "seconds" || key == "schema";
+}
 
 Json result_in(const std::string& name) {
     std::error_code error;
@@ -46,45 +47,6 @@ Json result_in(const std::string& name) {
     return json;
 }
 
-/// What tells an element of a list from the others: its level, its name, the value of a sweep; else
-/// its place.
-std::string element_name(const Json& element, bool of_sweep, std::size_t place) {
-    std::string name;
-    if (element.is_object())
-        for (const auto& [key, word] : std::array<std::pair<const char*, const char*>, 3>{
-                 {{of_sweep ? "value" : "name", ""}, {"elements", "s = "}, {"dt", "dt = "}}})
-            if (element.contains(key) && (element[key].is_number() || element[key].is_string()))
-                name += (name.empty() ? " " : ", ") + std::string(word) + element[key].dump();
-    return name.empty() ? fmt::format(" {}", place + 1) : name + ":";
-}
-
-/// Every number, text and truth value by where it stands.
-using Values = std::map<std::string, Json>;
-
-std::string inside(const std::string& path, const std::string& key) {
-    std::string name = path;
-    if (!path.empty())
-        name += path.ends_with(':') ? ' ' : '.';
-    return name += key;
-}
-
-void collect(const Json& json, const std::string& path, Values& values) {
-    if (json.is_object()) {
-        for (const auto& [key, value] : json.items())
-            if (!not_compared.contains(key))
-                collect(value, inside(path, key), values);
-    } else if (json.is_array()) {
-        for (std::size_t i = 0; i < json.size(); ++i) {
-            std::string name = path + element_name(json[i], path == "rows", i);
-            if (values.contains(name))
-                name += fmt::format(" ({})", i + 1);
-            collect(json[i], name, values);
-        }
-    } else {
-        values[path] = json;
-    }
-}
-
 std::optional<double> relative_difference(const Json& a, const Json& b) {
     if (!a.is_number() || !b.is_number())
         return std::nullopt;
@@ -94,7 +56,7 @@ std::optional<double> relative_difference(const Json& a, const Json& b) {
     return size == 0.0 ? 0.0 : std::abs(second - first) / size;
 }
 
-std::vector<ResultDifference> differences(const Values& first, const Values& second,
+std::vector<ResultDifference> differences(const JsonValues& first, const JsonValues& second,
                                           double tolerance, std::size_t& equal) {
     std::vector<ResultDifference> found;
     const auto text = [](const Json& value) {
@@ -121,15 +83,15 @@ std::vector<ResultDifference> differences(const Values& first, const Values& sec
 
 ComparedResults compare_results(const std::string& first, const std::string& second,
                                 double tolerance) {
-    std::array<Values, 2> scenes;
-    std::array<Values, 2> results;
+    std::array<JsonValues, 2> scenes;
+    std::array<JsonValues, 2> results;
     const std::array<const std::string*, 2> names{&first, &second};
     for (std::size_t i = 0; i < names.size(); ++i) {
         Json json = result_in(*names.at(i));
         if (json.contains("scene"))
-            collect(json["scene"], "", scenes.at(i));
+            scenes.at(i) = json_values(json["scene"], is_not_compared);
         json.erase("scene");
-        collect(json, "", results.at(i));
+        results.at(i) = json_values(json, is_not_compared);
     }
     ComparedResults compared;
     std::size_t in_scene = 0;

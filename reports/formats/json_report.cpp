@@ -41,7 +41,7 @@ nlohmann::ordered_json provenance_json(const Scene& scene) {
             {"overrides", p.overrides}};
 }
 
-std::string json_report(const StudyResult& result) {
+nlohmann::ordered_json result_json(const StudyResult& result) {
     Json json = Json::object();
     if (result.scene.defect)
         json["defect"] = defect_words;
@@ -65,7 +65,11 @@ std::string json_report(const StudyResult& result) {
         json["reference"] = json_of(*result.reference, *result.scene.reference);
     for (const auto* report : reports_of(result))
         json[report->study()] = report->json(result);
-    return json_text(json);
+    return json;
+}
+
+std::string json_report(const StudyResult& result) {
+    return json_text(result_json(result));
 }
 
 struct JsonFormat final : ReportFormat {

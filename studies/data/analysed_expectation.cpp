@@ -5,6 +5,7 @@
 #include "studies/scene/scene.hpp"
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <system_error>
@@ -39,6 +40,8 @@ std::vector<CheckedExpectation> checked_analysis(const DataAnalysis& analysis,
         for (const auto& remark : analysis.remarks)
             if (!one.holds)
                 one.found += " (" + remark + ")";
+    if (!checked.empty())
+        checked.front().analysed = std::make_shared<const DataAnalysis>(analysis);
     return checked;
 }
 
@@ -48,7 +51,8 @@ CheckedExpectation no_table(const InputError& error) {
             .expected = "a table that can be analysed",
             .found = error.what(),
             .place = {},
-            .holds = false};
+            .holds = false,
+            .examined = error.what()};
 }
 
 } // namespace

@@ -33,14 +33,22 @@ const Solution& solution_of(const TableReader& table, const Scene& scene) {
     return *solution;
 }
 
+/// An equation, "heat" or "beam", and where its residual is looked at: "heat in space".
+std::vector<std::pair<std::string, std::optional<double>>> last_orders(const Residual& residual,
+                                                                       const std::string& where) {
+    return {{"heat in " + where, residual.heat_order}, {"beam in " + where, residual.beam_order}};
+}
+
 /// What is derived of the solution of a scene, each part when it is first asked for.
 class DerivedParts {
 public:
     DerivedParts(const Solution& solution, const Scene& scene)
         : solution_(solution), scene_(scene), final_time_(scene.longest_time()) {}
 
-    [[nodiscard]] std::vector<TermUse> terms() const {
-        return coverage(solution_, scene_.beam, final_time_);
+    const std::vector<TermUse>& terms() {
+        if (!terms_)
+            terms_ = coverage(solution_, scene_.beam, final_time_);
+        return *terms_;
     }
 
     const ExpectedOrders& orders() {
@@ -62,7 +70,11 @@ public:
         return known->second;
     }
 
-    [[nodiscard]] double distance_of_formulas() const {
+    double distance_of_formulas() {
+        for (const auto& [symbol, interval, interval_latex, formula, latex] :
+             derived_formulas(solution_, scene_.beam.stops.epsilon > 0.0))
+            formulas_ += fmt::format("{} for {} = {}\n{} for {}\n", symbol, interval, formula,
+                                     latex, interval_latex);
         return tvbeam::distance_of_formulas(solution_, scene_.beam, final_time_);
     }
 
@@ -79,10 +91,36 @@ public:
         return in_time_->of(time).back();
     }
 
+    /// All of what was asked for, line by line.
+    [[nodiscard]] std::string examined() {
+        std::string text = formulas_;
+        for (const auto& term : terms_.value_or(std::vector<TermUse>()))
+            text += term.term + ": " +
+                    (term.is_exercised() ? metric_text(term.largest) : term.why_not) + "\n";
+        if (orders_)
+            for (const auto& row : orders_->orders)
+                text += fmt::format("{}: {}; {}; {}; {}\n", row.norm, words_of(row.in_h),
+                                    words_of(row.euler), words_of(row.bdf2), words_of(row.sdirk2));
+        const auto size = [](const std::optional<LeadingTerm>& term) {
+            return term ? metric_text(term->constant) : std::string("-");
+        };
+        for (const auto& [time, sizes] : sizes_)
+            for (const auto& row : sizes.norms)
+                text += fmt::format("{} with {}: {}, {}\n", row.norm, time, size(row.in_h),
+                                    size(row.in_dt));
+        for (const auto& time : in_time_ ? TimeScheme::names() : std::vector<std::string>())
+            for (const auto& [equation, order] : last_orders(last_in_time(time), "time"))
+                text += fmt::format("{} with {}: {}\n", equation, time,
+                                    order ? metric_text(*order) : "none");
+        return text;
+    }
+
 private:
     const Solution& solution_;
     const Scene& scene_;
     double final_time_;
+    std::string formulas_;
+    std::optional<std::vector<TermUse>> terms_;
     std::optional<ExpectedOrders> orders_;
     std::optional<TimeResiduals> in_time_;
     std::map<std::string, ErrorConstants> sizes_; ///< by time scheme
@@ -165,12 +203,6 @@ void expect_largest(const DerivedTable& of, const std::vector<TermUse>& terms) {
                            band->highest, inner.table.place(name)));
         }
     });
-}
-
-/// An equation, "heat" or "beam", and where its residual is looked at: "heat in space".
-std::vector<std::pair<std::string, std::optional<double>>> last_orders(const Residual& residual,
-                                                                       const std::string& where) {
-    return {{"heat in " + where, residual.heat_order}, {"beam in " + where, residual.beam_order}};
 }
 
 CheckedExpectation no_residual(const std::string& what, const std::optional<double>& order,
@@ -303,6 +335,7 @@ void expect_derived(TableReader& table, const Scene& scene,
                     std::vector<Expectation>& expectations) {
     DerivedParts parts(solution_of(table, scene), scene);
     const DerivedTable whole{table, parts, expectations};
+    const std::size_t before = expectations.size();
     const std::vector<TermUse> terms =
         table.has("exercises") || table.has("untested") || table.has("largest")
             ? parts.terms()
@@ -323,6 +356,13 @@ void expect_derived(TableReader& table, const Scene& scene,
     });
     expect_residual_sizes(whole, scene.scheme.time.name);
     expect_norms(whole);
+    if (expectations.size() > before)
+        expectations[before] = [first = expectations[before],
+                                examined = parts.examined()](const StudyResult& result) {
+            auto checked = first(result);
+            checked.front().examined = examined;
+            return checked;
+        };
 }
 
 } // namespace tvbeam

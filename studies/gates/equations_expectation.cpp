@@ -40,6 +40,7 @@ struct ExpectedOfSystem {
 
 struct Said {
     std::string text = {};
+    std::string latex = {};
     std::vector<std::string> remarks = {};
     std::string refused = {}; ///< why, behind the name of the file; empty: it is not
 };
@@ -58,6 +59,7 @@ Said said_of(const AskedSystem& asked) {
         for (const auto& remark : checked_system(derived))
             said.remarks.push_back(remark.text);
         said.text = system_text(derived);
+        said.latex = system_latex(derived);
         return said;
     } catch (const InputError& error) {
         const std::string message = error.what();
@@ -114,6 +116,8 @@ std::vector<CheckedExpectation> checked_system_of(const AskedSystem& asked,
         add(holds_words(said, wanted.refused[i], true), "refused", "." + std::to_string(i));
     if (wanted.remarks)
         add(holds_remarks(said, *wanted.remarks), "remarks", "");
+    checked.front().examined =
+        said.text + said.latex + boost::algorithm::join(said.remarks, "\n") + said.refused;
     return checked;
 }
 

@@ -5,12 +5,14 @@
 
 #include <cstddef>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace tvbeam {
 
+struct DataAnalysis;
 struct OrderInterval;
 struct Refined;
 struct RowVerdict;
@@ -31,6 +33,10 @@ struct CheckedExpectation {
     std::string found;    ///< the figure, or why there is none
     Place place;          ///< where the scene says so
     bool holds = false;
+    /// What was looked at beside the result, in full, at the first expectation of it: a message, a
+    /// text that is derived, or the analysis of a table.
+    std::string examined = {};
+    std::shared_ptr<const DataAnalysis> analysed = {};
 };
 
 /// A metric held against a band. One that has no value does not meet any.

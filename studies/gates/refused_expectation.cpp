@@ -102,7 +102,8 @@ void expect_refused(TableReader& expect, const Scene& scene, const Reading& read
                      .expected = "a message with \"" + says[i] + "\"",
                      .found = outcome.said,
                      .place = place,
-                     .holds = outcome.refused && outcome.said.find(says[i]) != std::string::npos});
+                     .holds = outcome.refused && outcome.said.find(says[i]) != std::string::npos,
+                     .examined = i == 0 ? outcome.said : std::string()});
             return checked;
         });
     }

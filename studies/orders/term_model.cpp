@@ -311,7 +311,7 @@ FittedNumber TermFit::order(Eigen::Index width) const {
 
 FittedNumber TermFit::correlation(Eigen::Index first, Eigen::Index second) const {
     const auto at = Layout(shape, log_centre.size()).pair(first, second);
-    return {std::sin(theta[at]), std::cos(theta[at]) * std::sqrt(covariance(at, at))};
+    return {std::sin(theta[at]), std::abs(std::cos(theta[at])) * std::sqrt(covariance(at, at))};
 }
 
 double TermFit::term(Eigen::Index width, double log_width) const {

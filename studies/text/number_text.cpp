@@ -59,6 +59,18 @@ double number_in(const std::string& text) {
     return value;
 }
 
+std::string without_numbers(const std::string& text) {
+    std::string kind;
+    for (const char c : text) {
+        const bool digit = (c >= '0' && c <= '9') || c == '.';
+        if (!digit)
+            kind += c;
+        else if (!kind.ends_with('#'))
+            kind += '#';
+    }
+    return kind;
+}
+
 std::string shortest(double value) {
     const std::string plain = without_filling(fmt::format("{}", value));
     const std::string exponent = without_filling(fmt::format("{:e}", value));

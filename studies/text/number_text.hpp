@@ -14,6 +14,9 @@ std::string scientific(std::optional<double> value, int decimals);
 /// the doubles.
 double number_in(const std::string& text);
 
+/// A text with # for every number, to count those alike.
+std::string without_numbers(const std::string& text);
+
 /// The shortest of plain and scientific notation that reads back as the same double.
 std::string shortest(double value);
 

@@ -4,6 +4,7 @@
 #include "tests/temporary_directory.hpp"
 
 #include <boost/test/unit_test.hpp>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 
@@ -108,6 +109,42 @@ BOOST_AUTO_TEST_CASE(a_baseline_keeps_figures_and_refuses_what_it_would_lose) {
     BOOST_TEST(twice.exit == 2);
     BOOST_TEST(has(twice.errors, "is the second scene that is called free-oscillation"));
     BOOST_TEST(has(directory.read("base.json"), "figure1")); // as it was
+}
+
+// Beside its figures a whole record keeps what a result says, and what its expectations look at.
+BOOST_AUTO_TEST_CASE(a_whole_record_holds_words_and_counters) {
+    const TemporaryDirectory directory;
+    const std::string file = (directory.path() / "base.json").string();
+    const std::string checked = "check sheared refused-keys --short ";
+    BOOST_TEST(call(directory, checked + "--whole").exit == 2); // without --record
+    BOOST_TEST(call(directory, checked + "--whole --record " + file).exit == 0);
+    const auto said = nlohmann::json::parse(directory.read("base.json"))
+                          .at("scenes")
+                          .at("refused-keys")
+                          .at("said");
+    BOOST_TEST(has(said.at("examined").at("refused.0.says.0").get<std::string>(),
+                   "it must divide final_time = 2"));
+    BOOST_TEST(!has(said.dump(), "seconds"));
+    const Called again = call(directory, checked + "--baseline " + file);
+    BOOST_TEST(again.exit == 0, again.output);
+
+    // Other words, with the same numbers.
+    std::string changed = directory.read("base.json");
+    const std::string words = "it must divide final_time = 2";
+    changed.replace(changed.find(words), words.size(), "it must split final_time = 2");
+    const Called failed =
+        call(directory, checked + "--baseline " + directory.write("changed.json", changed));
+    BOOST_TEST(failed.exit == 1);
+    BOOST_TEST(has(failed.output, "baseline: examined.refused.0.says.0: expected"), failed.output);
+    BOOST_TEST(has(failed.output, "ok    sheared"), failed.output);
+
+    // A record that is none.
+    const Called none = call(
+        directory, checked + "--baseline " +
+                       directory.write("none.json", "{\"schema\": \"tvbeam-baseline/1\", "
+                                                    "\"scenes\": {\"sheared\": {\"said\": 1}}}"));
+    BOOST_TEST(none.exit == 2);
+    BOOST_TEST(has(none.errors, "is not a baseline"), none.errors);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -1,3 +1,4 @@
+#include "studies/orders/term_model.hpp"
 #include "studies/orders/two_term_fit.hpp"
 
 #include <boost/test/unit_test.hpp>
@@ -219,6 +220,19 @@ BOOST_AUTO_TEST_CASE(the_standard_error_of_rho_is_how_far_it_scatters) {
     BOOST_TEST_MESSAGE("rho scatters by " << scatter << ", stated " << stated);
     BOOST_TEST(stated < 1.6 * scatter);
     BOOST_TEST(stated > 0.6 * scatter);
+}
+
+// ρ = sin ψ has the error |cos ψ| dψ also where a fit has come to ψ beyond ±π/2.
+BOOST_AUTO_TEST_CASE(a_standard_error_is_no_negative_number) {
+    for (const double angle : {0.3, std::numbers::pi - 0.3, std::numbers::pi + 0.3}) {
+        TermFit fit;
+        fit.shape.next = {TermShape::none, TermShape::none};
+        fit.theta = Eigen::VectorXd::Constant(5, angle);
+        fit.covariance = 0.01 * Eigen::MatrixXd::Identity(5, 5);
+        fit.log_centre = Eigen::VectorXd::Zero(2);
+        BOOST_TEST(fit.correlation(0, 1).error == 0.1 * std::cos(0.3),
+                   boost::test_tools::tolerance(1e-14));
+    }
 }
 
 // Errors that do not depend on Δt have an order in h, and none in Δt.

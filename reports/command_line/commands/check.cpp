@@ -31,20 +31,13 @@ struct CheckOptions {
     bool short_form = false;
     std::string junit;
     std::string record;
+    bool whole = false;
     std::string baseline;
     double tolerance = 1e-6;
     bool quiet = false;
     bool really_long = false;
     int jobs = 1;
 };
-
-std::vector<BaselineEntry> entries_of(const std::vector<StudyResult>& results) {
-    std::vector<BaselineEntry> entries;
-    entries.reserve(results.size());
-    for (const auto& result : results)
-        entries.push_back(baseline_entry(result));
-    return entries;
-}
 
 std::string recorded_report(const std::vector<BaselineEntry>& entries, const std::string& file) {
     std::string text;
@@ -90,6 +83,7 @@ int check_command(const CheckOptions& options) {
     Destination record = destination(options.record);
 
     std::vector<StudyResult> results;
+    std::vector<BaselineEntry> entries; // to be recorded
     std::vector<CheckedScene> checked;
     std::mutex mutex; // of what is checked
     const auto add = [&](const CheckedScene& one) {
@@ -124,8 +118,14 @@ int check_command(const CheckOptions& options) {
         }
         CheckedScene one{shown, 0.0, results.back().ending().reason, check(results.back())};
         one.seconds = elapsed(); // what is expected may take its time, too
+        if (record.wanted())
+            entries.push_back(options.whole ? whole_entry(results.back(), one.expectations)
+                                            : baseline_entry(results.back()));
         if (baseline) {
-            const auto more = baseline->check(baseline_entry(results.back()), options.tolerance);
+            const auto more = baseline->check(baseline->has_said(scene.name)
+                                                  ? whole_entry(results.back(), one.expectations)
+                                                  : baseline_entry(results.back()),
+                                              options.tolerance);
             one.expectations.insert(one.expectations.end(), more.begin(), more.end());
         }
         const bool only_recorded = record.wanted() && one.passed() && one.expectations.empty();
@@ -138,7 +138,6 @@ int check_command(const CheckOptions& options) {
     if (junit.wanted())
         junit.write(junit_report(checked));
     if (record.wanted() && !results.back().interrupted()) {
-        const auto entries = entries_of(results);
         record.write(baseline_of(entries, earlier));
         if (!record.standard_output() && !junit.standard_output() && !options.quiet)
             write_standard_output(recorded_report(entries, options.record));
@@ -167,6 +166,10 @@ Command add_check(CLI::App& app) {
                     "with the scenes' [short] blocks: the form for CI");
     add_file(*check, "--junit", options->junit, "write JUnit XML");
     add_file(*check, "--record", options->record, "write a baseline of every error found");
+    check
+        ->add_flag("--whole", options->whole,
+                   "record all that results say, too: orders, verdicts, reasons, remarks, ...")
+        ->needs("--record");
     add_baseline(*check, options->baseline, options->tolerance, "error");
     check->add_flag("--quiet", options->quiet, "only the scenes that fail, and no progress line");
     add_really_long(*check, options->really_long);

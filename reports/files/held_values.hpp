@@ -1,0 +1,28 @@
+#pragma once
+
+#include "reports/files/compared_results.hpp"
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <vector>
+
+namespace tvbeam {
+
+/// What a result says (said_result.hpp) otherwise than was recorded, beyond what round-off changes
+/// with another processor, compiler or basis. Words are the same to the letter, and whole numbers
+/// to the digit; other numbers are the same
+///
+/// - to a part `tolerance`; those of fits, which are found by iteration, and of what is measured in
+///   a stress case to 1e-4, and likewise observed orders;
+/// - half widths of intervals to 5 %, ends and middles to 5 % of them: which windows of rows count
+///   is decided at thresholds, and round-off at one has moved a half width by 2.6 %;
+/// - in sentences to 0.1 %, beside ± to one in their last digit, behind it to 5 %;
+/// - residuals and other figures of round-off to a factor 4, and below their unit all of them;
+/// - everywhere below 1e-14.
+///
+/// Asked to march in another basis than the recorded one, a scene counts other things: counters are
+/// not compared then.
+std::vector<ResultDifference> held_values(const nlohmann::ordered_json& recorded,
+                                          const nlohmann::ordered_json& found, double tolerance);
+
+} // namespace tvbeam

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include <functional>
+#include <map>
+#include <string>
+
+namespace tvbeam {
+
+/// Every number, text, truth value and null of a JSON value by where it stands, as
+/// "ladder.rungs s = 10, dt = 0.001: errors.theta_L2L2_sq".
+using JsonValues = std::map<std::string, nlohmann::ordered_json>;
+
+/// leaves_out: keys whose values are not wanted.
+JsonValues json_values(const nlohmann::ordered_json& json,
+                       const std::function<bool(const std::string& key)>& leaves_out);
+
+} // namespace tvbeam
