@@ -73,20 +73,30 @@ void TridiagonalFactor::solve_in_place(Eigen::Ref<Eigen::VectorXd> x) const {
     const double* const l = multipliers_.data();
     const double* const inverse = inverse_pivots_.data();
     double* const v = x.data();
-    // n − 1 − m rows from either end, and one more on the left of an even number of them.
-    for (Eigen::Index i = 1, j = n - 1; j > m; ++i, --j) {
-        v[i] -= l[i] * v[i - 1];
-        v[j - 1] -= l[j] * v[j];
+    // Of an even number of rows the left half has one more.
+    const bool even = n % 2 == 0;
+    double left = v[0];
+    double right = v[n - 1];
+    Eigen::Index i = 1;
+    for (Eigen::Index j = n - 2; j > m; ++i, --j) {
+        v[i] = left = v[i] - l[i] * left;
+        v[j] = right = v[j] - l[j + 1] * right;
     }
-    if (n % 2 == 0)
-        v[m] -= l[m] * v[m - 1];
-    v[m] *= inverse[m];
-    for (Eigen::Index i = m - 1, j = m + 1; j < n; --i, ++j) {
-        v[i] = v[i] * inverse[i] - l[i + 1] * v[i + 1];
-        v[j] = v[j] * inverse[j] - l[j] * v[j - 1];
+    if (even && i < m)
+        v[i] = left = v[i] - l[i] * left;
+    double middle_value = v[m];
+    if (m > 0)
+        middle_value -= l[m] * left;
+    if (m + 1 < n)
+        middle_value -= l[m + 1] * right;
+    v[m] = left = right = middle_value * inverse[m];
+    i = m - 1;
+    for (Eigen::Index j = m + 1; j < n; --i, ++j) {
+        v[i] = left = v[i] * inverse[i] - l[i + 1] * left;
+        v[j] = right = v[j] * inverse[j] - l[j] * right;
     }
-    if (n % 2 == 0)
-        v[0] = v[0] * inverse[0] - l[1] * v[1];
+    if (even)
+        v[0] = v[0] * inverse[0] - l[1] * left;
 }
 
 } // namespace tvbeam
