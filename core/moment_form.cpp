@@ -119,7 +119,7 @@ void MomentForm::eliminate(double c) {
         if (coupled_)
             matrix = std::move(matrix) + thermal_mass_matrix(mesh_, ThermalMass::consistent) *
                                              (beam_.alpha * beam_.alpha * leading_ * kappa_);
-        factor_ = TridiagonalFactor(matrix);
+        factor_ = TridiagonalFactor(matrix, Elimination::from_both_ends);
     }
     if (stops_)
         find_contact_response();

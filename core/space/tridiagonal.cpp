@@ -30,8 +30,10 @@ Eigen::VectorXd Tridiagonal::operator*(const Eigen::VectorXd& x) const {
     return y;
 }
 
-TridiagonalFactor::TridiagonalFactor(const Tridiagonal& matrix)
-    : multipliers_(Eigen::VectorXd::Zero(matrix.diagonal.size())),
+TridiagonalFactor::TridiagonalFactor(const Tridiagonal& matrix, Elimination elimination)
+    : last_(elimination == Elimination::from_both_ends ? matrix.diagonal.size() / 2
+                                                       : matrix.diagonal.size() - 1),
+      multipliers_(Eigen::VectorXd::Zero(matrix.diagonal.size())),
       inverse_pivots_(matrix.diagonal.size()) {
     const auto invert = [&](Eigen::Index i, double pivot) {
         if (!std::isfinite(pivot) || !std::isfinite(1.0 / pivot))
@@ -45,7 +47,7 @@ TridiagonalFactor::TridiagonalFactor(const Tridiagonal& matrix)
     };
     if (order() == 0)
         return;
-    const Eigen::Index m = middle();
+    const Eigen::Index m = last_;
     double sum = 0.0; // of the row, of what elimination has left of the matrix
     for (Eigen::Index i = 0; i < m; ++i) {
         sum = matrix.row_sums(i) - multipliers_(i) * sum;
@@ -53,7 +55,7 @@ TridiagonalFactor::TridiagonalFactor(const Tridiagonal& matrix)
         invert(i, pivot);
         multipliers_(i + 1) = matrix.coupling(i) / pivot;
     }
-    double of_middle = matrix.row_sums(m) - multipliers_(m) * sum;
+    double of_last = matrix.row_sums(m) - multipliers_(m) * sum;
     sum = 0.0;
     for (Eigen::Index i = order() - 1; i > m; --i) {
         sum = matrix.row_sums(i) - (i + 1 < order() ? multipliers_(i + 1) * sum : 0.0);
@@ -61,20 +63,18 @@ TridiagonalFactor::TridiagonalFactor(const Tridiagonal& matrix)
         invert(i, pivot);
         multipliers_(i) = matrix.coupling(i - 1) / pivot;
     }
-    of_middle -= m + 1 < order() ? multipliers_(m + 1) * sum : 0.0;
-    invert(m, of_middle);
+    of_last -= m + 1 < order() ? multipliers_(m + 1) * sum : 0.0;
+    invert(m, of_last);
 }
 
 void TridiagonalFactor::solve_in_place(Eigen::Ref<Eigen::VectorXd> x) const {
     const Eigen::Index n = order();
     if (n == 0)
         return;
-    const Eigen::Index m = middle();
+    const Eigen::Index m = last_;
     const double* const l = multipliers_.data();
     const double* const inverse = inverse_pivots_.data();
     double* const v = x.data();
-    // Of an even number of rows the left half has one more.
-    const bool even = n % 2 == 0;
     double left = v[0];
     double right = v[n - 1];
     Eigen::Index i = 1;
@@ -82,21 +82,21 @@ void TridiagonalFactor::solve_in_place(Eigen::Ref<Eigen::VectorXd> x) const {
         v[i] = left = v[i] - l[i] * left;
         v[j] = right = v[j] - l[j + 1] * right;
     }
-    if (even && i < m)
+    for (; i < m; ++i)
         v[i] = left = v[i] - l[i] * left;
-    double middle_value = v[m];
+    double last = v[m];
     if (m > 0)
-        middle_value -= l[m] * left;
+        last -= l[m] * left;
     if (m + 1 < n)
-        middle_value -= l[m + 1] * right;
-    v[m] = left = right = middle_value * inverse[m];
+        last -= l[m + 1] * right;
+    v[m] = left = right = last * inverse[m];
     i = m - 1;
     for (Eigen::Index j = m + 1; j < n; --i, ++j) {
         v[i] = left = v[i] * inverse[i] - l[i + 1] * left;
         v[j] = right = v[j] * inverse[j] - l[j] * right;
     }
-    if (even)
-        v[0] = v[0] * inverse[0] - l[1] * left;
+    for (; i >= 0; --i)
+        v[i] = left = v[i] * inverse[i] - l[i + 1] * left;
 }
 
 } // namespace tvbeam

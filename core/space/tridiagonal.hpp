@@ -17,16 +17,21 @@ struct Tridiagonal {
     Eigen::VectorXd operator*(const Eigen::VectorXd& x) const;
 };
 
-/// A symmetric positive definite tridiagonal matrix, eliminated without pivoting from both ends to
-/// the middle row m, A = N D Nᵀ: the two recurrences of a solve do not wait for each other. The
-/// pivots follow from row sums and couplings without a subtraction where no coupling is positive
-/// (Alfa, Xue and Ye 2002), so that the solution is accurate whatever the condition.
+/// Where the elimination of a tridiagonal matrix ends: in its last row, as in the paper's
+/// algorithm, or in the middle, which it reaches from both ends, so that a solve has two
+/// recurrences that do not wait for each other.
+enum class Elimination { from_the_left, from_both_ends };
+
+/// A symmetric positive definite tridiagonal matrix, eliminated without pivoting towards a row m.
+/// The pivots follow from row sums and couplings without a subtraction where no coupling is
+/// positive (Alfa, Xue and Ye 2002), so that the solution is accurate whatever the condition.
 class TridiagonalFactor {
 public:
     TridiagonalFactor() = default;
 
     /// Throws std::domain_error when a pivot is not positive and finite.
-    explicit TridiagonalFactor(const Tridiagonal& matrix);
+    explicit TridiagonalFactor(const Tridiagonal& matrix,
+                               Elimination elimination = Elimination::from_the_left);
 
     /// x ← A⁻¹ x.
     void solve_in_place(Eigen::Ref<Eigen::VectorXd> x) const;
@@ -34,8 +39,7 @@ public:
     [[nodiscard]] Eigen::Index order() const { return inverse_pivots_.size(); }
 
 private:
-    [[nodiscard]] Eigen::Index middle() const { return order() / 2; }
-
+    Eigen::Index last_ = 0;       // m
     Eigen::VectorXd multipliers_; // A(i, i−1) / d_{i−1} up to i = m, A(i, i−1) / d_i behind it
     Eigen::VectorXd inverse_pivots_; // 1 / d_i
 };

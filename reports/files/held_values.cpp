@@ -24,6 +24,7 @@ constexpr double of_half_widths = 0.05;
 constexpr double of_sentences = 1e-3;
 constexpr double of_round_off = 4.0; // a factor
 constexpr double zero = 1e-14;
+constexpr double printed_zero = 1e-13; // in sentences
 
 bool is_one_of(std::string_view word, std::initializer_list<std::string_view> words) {
     return std::ranges::find(words, word) != words.end();
@@ -89,7 +90,9 @@ bool same_words(const std::string& before, const std::string& now) {
                                  ? 0.0
                                  : part * std::abs(first->value) +
                                        (is_half_width || has_half_width ? 1.01 * first->unit : 0.0);
-        if (!(std::abs(second->value - first->value) <= slack))
+        const bool both_zero = !first->is_whole && !second->is_whole &&
+                               std::max(first->value, second->value) <= printed_zero;
+        if (!both_zero && !(std::abs(second->value - first->value) <= slack))
             return false;
         i += first->length;
         j += second->length;
