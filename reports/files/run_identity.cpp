@@ -36,7 +36,7 @@ nlohmann::ordered_json run_identity(const Scene& scene) {
     Identity binaries = Identity::object();
     for (const auto& [name, id] : build_ids())
         binaries[name] = id;
-    Identity text = Identity::parse(scene.json);
+    Identity text = Identity::parse(scene.json());
     for (const char* words : {"title", "long", "expect", "report", "short"})
         text.erase(words); // no result depends on them
     Identity identity{{"scene", std::move(text)},

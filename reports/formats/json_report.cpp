@@ -46,7 +46,7 @@ nlohmann::ordered_json result_json(const StudyResult& result) {
     if (result.scene.defect)
         json["defect"] = defect_words;
     json.update({{"schema", "tvbeam-result/1"},
-                 {"scene", Json::parse(result.scene.json)},
+                 {"scene", Json::parse(result.scene.json())},
                  {"provenance", provenance_json(result.scene)},
                  {"left_out", result.left_out},
                  {"remarks", result.remarks},

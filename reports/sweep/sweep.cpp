@@ -238,7 +238,7 @@ std::string sweep_json(const Sweep& sweep, const std::vector<StudyResult>& resul
     if (has_defect(results))
         json["defect"] = defect_words;
     if (!results.empty()) {
-        json["scene"] = Json::parse(results.front().scene.json); // of the first value
+        json["scene"] = Json::parse(results.front().scene.json()); // of the first value
         json["provenance"] = provenance_json(results.front().scene);
     }
     json["interrupted"] = results.size() < sweep.values.size() ||

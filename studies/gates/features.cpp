@@ -29,7 +29,7 @@ namespace tvbeam {
 namespace {
 
 /// Keys that change no number of a result.
-const std::vector<FeatureTable::Exception> without_numbers{
+const std::vector<FeatureTable::Exception> known_exceptions{
     {"key title", "what the scene is called"},
     {"key long", "that it may take long"},
     {"key short", "its keys are those of the scene itself"},
@@ -387,7 +387,7 @@ std::vector<Feature> listed(const Scenes& scenes) {
 FeatureTable feature_table(const std::vector<ShippedFile>& files) {
     Scenes features;
     Scenes pairs;
-    FeatureTable table{.features = {}, .pairs = {}, .exceptions = without_numbers};
+    FeatureTable table{.features = {}, .pairs = {}, .exceptions = known_exceptions};
     for (const auto& factor : factors())
         for (std::size_t i = 0; i < factor.levels.size(); ++i)
             features[factor.level_name(i)];
@@ -414,7 +414,7 @@ FeatureTable feature_table(const std::vector<ShippedFile>& files) {
         note(uses, scene.name, features);
         note(used_pairs, scene.name, pairs);
     }
-    for (const auto& exception : without_numbers)
+    for (const auto& exception : known_exceptions)
         features.erase(exception.name);
     table.features = listed(features);
     table.pairs = listed(pairs);

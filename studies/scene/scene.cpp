@@ -20,6 +20,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <memory>
 #include <set>
 #include <sstream>
 
@@ -358,7 +359,6 @@ Scene read_scene(const std::string& name_or_file, const std::vector<std::string>
     scene.name = path.stem().string();
     scene.text = document.text;
     scene.overrides = overrides;
-    scene.json = json_of(document.table);
     TableReader root(document, document.table, "", &scene_keys().root());
     scene.title = root.text("title").value_or(scene.name);
     scene.is_long = root.flag("long").value_or(false);
@@ -402,6 +402,9 @@ Scene read_scene(const std::string& name_or_file, const std::vector<std::string>
         scene.report = read_report(*std::move(report), reading.report_files);
     root.table("short"); // what it holds is read in the short form
     root.finish();
+    scene.json = [table = std::make_shared<const toml::table>(std::move(document.table))] {
+        return json_of(*table);
+    };
     return scene;
 }
 

@@ -12,6 +12,7 @@
 #include "studies/scene/report_block.hpp"
 #include "studies/study_kind.hpp"
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <variant>
@@ -38,7 +39,7 @@ struct Scene {
     bool is_long = false;               ///< it may take as long as it does (predicted_work.hpp)
     std::string text;                   ///< the file as it stands, without overrides
     std::vector<std::string> overrides; ///< KEY=VALUE each, in their order
-    std::string json;                   ///< the scene with its overrides, as JSON
+    std::function<std::string()> json;  ///< the scene with its overrides, as JSON
 
     [[nodiscard]] bool has_exact_solution() const {
         return std::holds_alternative<Solution>(problem);

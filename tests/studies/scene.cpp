@@ -184,7 +184,7 @@ BOOST_AUTO_TEST_CASE(a_letter_beyond_16_bits_stands_in_the_json_of_a_scene) {
         "s.toml", "title = '\xF0\x9D\x9B\xBC'\nsolution = 'free-oscillation'\n[beam]\nalpha = 0.3\n"
                   "zeta = 0.05\nstops = [-0.1, 0.1]\n[ladder]\nfinal_time = 1.0\nelements = [5]\n"
                   "dt = [0.1]\nnorms = ['theta_L2L2']\n");
-    BOOST_TEST(read_scene(file).json.find("\xF0\x9D\x9B\xBC") != std::string::npos);
+    BOOST_TEST(read_scene(file).json().find("\xF0\x9D\x9B\xBC") != std::string::npos);
 }
 
 BOOST_AUTO_TEST_CASE(what_may_be_absent_has_its_default) {
