@@ -27,9 +27,9 @@ struct RowRegister<8> {
     using Lanes = double;
 };
 
-/// So many registers of rows.
+/// So many registers of rows. Where nothing is optimised they wait on the stack, aligned.
 template <std::int64_t bytes, std::int64_t registers>
-struct Rows {
+struct alignas(bytes) Rows {
     using Lanes = typename RowRegister<bytes>::Lanes;
     static constexpr std::int64_t in_register = bytes / static_cast<std::int64_t>(sizeof(double));
     static constexpr std::int64_t count = in_register * registers;
@@ -55,14 +55,14 @@ struct Rows {
         return *this;
     }
     [[gnu::always_inline]] Rows& operator+=(double number) {
-        for (auto& value : values)
-            value += number;
+        for (std::int64_t v = 0; v < registers; ++v)
+            values[v] += number;
         return *this;
     }
     [[gnu::always_inline]] friend Rows operator*(double factor, const Rows& rows) {
         Rows result = rows;
-        for (auto& value : result.values)
-            value *= factor;
+        for (std::int64_t v = 0; v < registers; ++v)
+            result.values[v] *= factor;
         return result;
     }
     [[gnu::always_inline]] friend Rows operator*(const Rows& left, const Rows& right) {
@@ -285,8 +285,10 @@ const DenseKernel& chosen_dense_kernel() {
     return chosen;
 }
 
-void add_product(Eigen::Ref<Eigen::MatrixXd> out, const Eigen::MatrixXd& in,
-                 const Eigen::MatrixXd& matrix, Eigen::Index rows) {
+void add_product(Eigen::Ref<Eigen::MatrixXd> out, const Eigen::Ref<const Eigen::MatrixXd>& in,
+                 const Eigen::Ref<const Eigen::MatrixXd>& matrix, Eigen::Index rows) {
+    eigen_assert(rows <= out.rows() && rows <= in.rows() && in.cols() == matrix.rows() &&
+                 matrix.cols() == out.cols());
     chosen_dense_kernel().add_product({out.data(), out.outerStride(), in.data(), in.outerStride(),
                                        matrix.data(), matrix.outerStride(), rows, matrix.rows(),
                                        matrix.cols()});
@@ -294,11 +296,14 @@ void add_product(Eigen::Ref<Eigen::MatrixXd> out, const Eigen::MatrixXd& in,
 
 void add_forms(Eigen::VectorXd& out, const Eigen::MatrixXd& series, const Eigen::MatrixXd& gram,
                Eigen::Index rows) {
+    eigen_assert(rows <= out.size() && rows <= series.rows() && series.cols() == gram.cols() &&
+                 gram.rows() == gram.cols());
     chosen_dense_kernel().add_forms({out.data(), series.data(), series.outerStride(), gram.data(),
                                      gram.outerStride(), rows, gram.cols()});
 }
 
 void add_inner_products(Eigen::VectorXd& out, const Eigen::MatrixXd& in, const Eigen::VectorXd& v) {
+    eigen_assert(v.size() == in.rows() && out.size() == in.cols());
     chosen_dense_kernel().add_inner_products(
         {out.data(), in.data(), in.outerStride(), v.data(), in.rows(), in.cols()});
 }

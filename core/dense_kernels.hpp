@@ -9,7 +9,8 @@ namespace tvbeam {
 
 /// Sums over columns, which a step in the sine basis needs beside its modes, compiled for a vector
 /// unit. Matrices are stored by columns, a stride apart. Where a unit fuses a product and a sum,
-/// the last bits of the results differ; a value depends on its own row alone.
+/// the last bits of the results differ; a value depends on its own row alone, and of what is not
+/// finite on the columns beside it, of which four are summed together.
 struct DenseKernel {
     using Index = std::int64_t;
 
@@ -72,8 +73,8 @@ std::span<const DenseKernel> dense_kernels();
 const DenseKernel& chosen_dense_kernel();
 
 /// out += in · matrix in the first `rows` rows of both.
-void add_product(Eigen::Ref<Eigen::MatrixXd> out, const Eigen::MatrixXd& in,
-                 const Eigen::MatrixXd& matrix, Eigen::Index rows);
+void add_product(Eigen::Ref<Eigen::MatrixXd> out, const Eigen::Ref<const Eigen::MatrixXd>& in,
+                 const Eigen::Ref<const Eigen::MatrixXd>& matrix, Eigen::Index rows);
 
 /// out += vᵀ G v for each of the first rows v of the series; G symmetric.
 void add_forms(Eigen::VectorXd& out, const Eigen::MatrixXd& series, const Eigen::MatrixXd& gram,

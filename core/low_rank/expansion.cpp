@@ -133,6 +133,8 @@ private:
     }
 
     void more_rows() {
+        if (!result_.reason.empty())
+            return;
         if (2 * rows_ > most_of_x) {
             result_.reason =
                 fmt::format("no polynomial of x of degree {} follows it to round-off", rows_ - 1);

@@ -65,9 +65,11 @@ bool is_linear(const Mesh& mesh, const SpaceFunction& phi, const Eigen::ArrayXd&
     return vanishes(within, phi(within));
 }
 
-/// Cuts off the coefficients behind the last that is more than round-off.
-void cut_off(Column& column) {
-    const double bound = column.modes.size() == 0 ? 0.0 : round_off * column.modes.abs().maxCoeff();
+/// Cuts off the coefficients behind the last that is more than round-off, and what is at most
+/// `rest`.
+void cut_off(Column& column, double rest) {
+    const double bound =
+        column.modes.size() == 0 ? 0.0 : std::max(rest, round_off * column.modes.abs().maxCoeff());
     column.extent = column.modes.size();
     while (column.extent > 0 && !(std::abs(column.modes(column.extent - 1)) > bound))
         --column.extent;
@@ -205,8 +207,9 @@ void combine(std::vector<Column>& columns, const Eigen::MatrixXd& factors, Vecto
         columns[j].*member = after.col(static_cast<Eigen::Index>(j));
 }
 
-/// Puts combinations of the columns in their place, each over its size first.
-void combine(std::vector<Column>& columns, ErrorProfiles& errors) {
+/// Puts combinations of the columns in their place, each over its size first. What their modes have
+/// of round-off then.
+double combine(std::vector<Column>& columns, ErrorProfiles& errors) {
     const auto count = static_cast<Eigen::Index>(columns.size());
     Eigen::MatrixXd modes(columns.front().modes.size(), count);
     Eigen::VectorXd sizes(count);
@@ -214,7 +217,7 @@ void combine(std::vector<Column>& columns, ErrorProfiles& errors) {
         const Column& column = columns[static_cast<std::size_t>(j)];
         sizes(j) = column.hat_load.cwiseAbs().maxCoeff() * static_cast<double>(modes.rows());
         if (!(sizes(j) > 0.0) || !std::isfinite(1.0 / sizes(j)))
-            return;
+            return 0.0;
         modes.col(j) = column.modes / sizes(j);
     }
     const Eigen::MatrixXd turn = combinations_of(modes);
@@ -222,12 +225,14 @@ void combine(std::vector<Column>& columns, ErrorProfiles& errors) {
     combine(columns, factors, &Column::hat_load);
     combine(columns, factors, &Column::modes);
     combine(columns, sizes.asDiagonal() * turn, &Column::parts);
+    const double rest = round_off * modes.cwiseAbs().maxCoeff();
     if (errors.interpolation.size() == 0)
-        return;
+        return rest;
     combine(columns, factors, &Column::defect);
     combine(columns, factors, &Column::deviation);
     for (Eigen::MatrixXd* gram : {&errors.interpolation, &errors.projection})
         *gram = (factors.transpose() * *gram * factors).eval();
+    return rest;
 }
 
 ModeArrays table_of(const std::vector<Column>& columns, Eigen::Index modes) {
@@ -303,11 +308,12 @@ SineProfiles::SineProfiles(const Mesh& mesh, const SineBasis& basis,
         for (auto& column : parts.inner)
             column.modes = basis.of_load(column.hat_load);
     }
+    double rest = 0.0;
     if (wanted.modes && !wanted.functions && basis.size() > most_modes_together &&
         static_cast<Eigen::Index>(parts.inner.size()) >= fewest_to_combine)
-        combine(parts.inner, errors);
+        rest = combine(parts.inner, errors);
     for (auto& column : parts.inner)
-        cut_off(column);
+        cut_off(column, rest);
     // Those that reach far come first, so that every group of modes reads a head of them.
     std::stable_sort(
         parts.inner.begin(), parts.inner.end(),

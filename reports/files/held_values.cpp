@@ -22,7 +22,8 @@ using Json = nlohmann::ordered_json;
 constexpr double of_fits = 1e-4;
 constexpr double of_half_widths = 0.05;
 constexpr double of_sentences = 1e-3;
-constexpr double of_round_off = 4.0; // a factor
+constexpr double coarsest_digit = 0.01; // of the number, may be another
+constexpr double of_round_off = 4.0;    // a factor
 constexpr double zero = 1e-14;
 constexpr double printed_zero = 1e-13; // in sentences
 
@@ -54,6 +55,8 @@ std::optional<PrintedNumber> number_at(const std::string& text, std::size_t at) 
     const char* end =
         std::from_chars(begin, text.data() + text.size(), number.value, std::chars_format::general)
             .ptr;
+    if (end > begin && end[-1] == '.')
+        --end; // of the sentence
     number.length = static_cast<std::size_t>(end - begin);
     const std::string_view digits(begin, number.length);
     const std::size_t exponent = std::min(digits.find('e'), digits.size());
@@ -86,10 +89,13 @@ bool same_words(const std::string& before, const std::string& now) {
         const bool has_half_width =
             std::string_view(before).substr(i + first->length).starts_with(plus_minus);
         const double part = is_half_width ? of_half_widths : of_sentences;
-        const double slack = first->is_whole && second->is_whole
-                                 ? 0.0
-                                 : part * std::abs(first->value) +
-                                       (is_half_width || has_half_width ? 1.01 * first->unit : 0.0);
+        // What is held to a part may be rounded to either side.
+        const bool by_a_digit = is_half_width || has_half_width ||
+                                first->unit <= coarsest_digit * std::abs(first->value);
+        const double slack =
+            first->is_whole && second->is_whole
+                ? 0.0
+                : part * std::abs(first->value) + (by_a_digit ? 1.01 * first->unit : 0.0);
         const bool both_zero = !first->is_whole && !second->is_whole &&
                                std::max(first->value, second->value) <= printed_zero;
         if (!both_zero && !(std::abs(second->value - first->value) <= slack))
@@ -126,7 +132,7 @@ private:
                 return 4.0;
         if (has(what, "stress.roundoff") && is_one_of(key, {"moment", "sine", "hermite"}))
             return 4.0 * zero;
-        if (key == "residual")
+        if (what.ends_with("separation.residual"))
             return 1e-13;
         if (has(what, ": changes.") || has(what, ".changes."))
             return 1e-11;

@@ -16,7 +16,9 @@ namespace tvbeam {
 ///   a stress case to 1e-4, and likewise observed orders;
 /// - half widths of intervals to 5 %, ends and middles to 5 % of them: which windows of rows count
 ///   is decided at thresholds, and round-off at one has moved a half width by 2.6 %;
-/// - in sentences to 0.1 %, beside ± to one in their last digit, behind it to 5 %; below 1e-13 all;
+/// - in sentences to 0.1 % and one in their last digit, if that is 1 % of them or beside ±; behind
+/// ±
+///   to 5 %; below 1e-13 all;
 /// - residuals and other figures of round-off to a factor 4, and below their unit all of them;
 /// - everywhere below 1e-14.
 ///

@@ -9,16 +9,17 @@
 #include "studies/stress/stress_tally.hpp"
 #include "studies/text/number_text.hpp"
 
-#include <boost/algorithm/string/replace.hpp>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <cmath>
+#include <cctype>
+#include <charconv>
 #include <filesystem>
 #include <limits>
 #include <map>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <variant>
 
@@ -32,7 +33,14 @@ using Json = nlohmann::ordered_json;
 bool is_left_out(const std::string& key) {
     return key == "schema" || key == "scene" || key == "provenance" || key == "file" ||
            key == "seconds" || key == "time_to_reach" || key == "interrupted" || key == "errors" ||
-           key == "printed"; // a baseline has the errors by themselves
+           key == "printed" ||         // a baseline has the errors by themselves
+           key == "doubles_allocated"; // GiNaC orders terms by address, and so products, too
+}
+
+/// Whether the keys of an object are names that the user gave, which may be like ours.
+bool holds_names(const std::string& key) {
+    return key == "norms" || key == "orders" || key == "verdict" || key == "reason" ||
+           key == "values";
 }
 
 /// Lists that are longer go by their digest.
@@ -40,7 +48,10 @@ constexpr std::size_t longest_list = 24;
 constexpr std::size_t few = 5; ///< numbers that stand in a digest themselves
 
 double rounded(double number) {
-    return std::stod(fmt::format("{:.10g}", number));
+    const std::string text = fmt::format("{:.10g}", number);
+    double result = number;
+    const auto ended = std::from_chars(text.data(), text.data() + text.size(), result);
+    return ended.ec == std::errc() ? result : number; // at either end of the range
 }
 
 Json digest_of(const std::vector<Json>& values) {
@@ -86,13 +97,40 @@ Json digest_of(const Json& list) {
     return digest;
 }
 
-/// folder: of the scene, which is another elsewhere.
-Json kept_of(const Json& json, const std::string& folder) {
+/// Paths without the folder of the scene, which is another elsewhere. x/(x + 1) is no path of x/.
+std::string without_folder(const std::string& text, const std::string& folder) {
+    const auto is_of_path = [](char c) {
+        return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '/' || c == '.' ||
+               c == '_' || c == '-';
+    };
+    std::string result;
+    for (std::size_t at = 0; at < text.size();) {
+        const bool begins = at == 0 || !is_of_path(text[at - 1]);
+        std::size_t end = at;
+        while (begins && end < text.size() && is_of_path(text[end]))
+            ++end;
+        if (end == at) {
+            result += text[at++];
+            continue;
+        }
+        std::string path = text.substr(at, end - at);
+        std::error_code error;
+        if (path.starts_with(folder) && path.size() > folder.size() &&
+            (folder.starts_with('/') || std::filesystem::exists(path, error)))
+            path.erase(0, folder.size());
+        result += path.starts_with("./") ? path.substr(2) : path;
+        at = end;
+    }
+    return result;
+}
+
+/// folder: of the scene. named: the keys are names that the user gave.
+Json kept_of(const Json& json, const std::string& folder, bool named = false) {
     if (json.is_object()) {
         Json kept = Json::object();
         for (const auto& [key, value] : json.items())
-            if (!is_left_out(key))
-                kept[key] = kept_of(value, folder);
+            if (named || !is_left_out(key))
+                kept[key] = kept_of(value, folder, holds_names(key));
         return kept;
     }
     if (json.is_array()) {
@@ -104,12 +142,7 @@ Json kept_of(const Json& json, const std::string& folder) {
     }
     if (json.is_number_float())
         return rounded(json);
-    if (json.is_string()) {
-        const std::string text =
-            boost::algorithm::replace_all_copy(json.get<std::string>(), folder, "");
-        return boost::algorithm::replace_all_copy(text, "./", "");
-    }
-    return json;
+    return json.is_string() ? Json(without_folder(json, folder)) : json;
 }
 
 /// Which case of a stress study comes nearest to the limit of a check is decided by round-off.
@@ -142,7 +175,7 @@ Json examined_by(const std::vector<CheckedExpectation>& checked) {
     for (const auto& one : checked) {
         if (one.analysed)
             examined[one.what] = Json::parse(analysis_json(*one.analysed));
-        else if (!one.examined.empty())
+        else if (!one.examined.empty() && !one.what.ends_with("formulas_within"))
             examined[one.what] = one.examined;
     }
     return examined;

@@ -59,6 +59,9 @@ BOOST_AUTO_TEST_CASE(numbers_of_sentences_are_those_of_printed_figures) {
     BOOST_TEST(words("order 0.12 ± 0.05", "order 0.13 ± 0.06"));
     BOOST_TEST(!words("order 0.12 to 0.13", "order 0.13 to 0.13"));
     BOOST_TEST(words("9.999e-4 ± 1", "1.000e-3 ± 1"));
+    BOOST_TEST(!words("up to s = 1999.", "up to s = 2000."));
+    BOOST_TEST(words("1.99 over it", "2.00 over it"));
+    BOOST_TEST(!words("1.98 over it", "2.00 over it"));
     BOOST_TEST(words("passed by 6.2e-16 at most", "passed by 9.9e-14 at most"));
     BOOST_TEST(!words("passed by 6.2e-16 at most", "passed by 1.1e-13 at most"));
 }
