@@ -19,7 +19,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double of_fits = 1e-4;
+constexpr double of_fits = 1e-3;
+constexpr double of_path_limits = 0.01;
 constexpr double of_half_widths = 0.05;
 constexpr double of_sentences = 1e-3;
 constexpr double coarsest_digit = 0.01; // of the number, may be another
@@ -149,10 +150,14 @@ private:
     [[nodiscard]] double slack_of(const std::string& what, const std::string& key,
                                   double size) const {
         constexpr double of_what_may_be_zero = 1e-9; // orders, cosines, scatters
+        if (key == "rms")                            // of the window of rows that counts
+            return 0.5 * size + of_what_may_be_zero;
+        if (has(what, "path_limit"))
+            return of_path_limits * size;
         if (has(what, "methods.") || has(what, "checks.error") || key == "measured" ||
             is_one_of(key, {"a", "b"}) || has(what, "predicted"))
             return of_fits * size;
-        if (is_one_of(key, {"p", "q", "rho", "p_se", "q_se", "rho_se", "rms"}))
+        if (is_one_of(key, {"p", "q", "rho", "p_se", "q_se", "rho_se"}))
             return of_fits * size + of_what_may_be_zero;
         if (key == "order" || has(what, "orders.") || has(what, "order_defect"))
             if (!beside(what, "low") && !key.ends_with("uncertainty"))

@@ -13,7 +13,8 @@ namespace tvbeam {
 /// to the digit; other numbers are the same
 ///
 /// - to a part `tolerance`; those of fits, which are found by iteration, and of what is measured in
-///   a stress case to 1e-4, and likewise observed orders;
+///   a stress case to 1e-3, and likewise observed orders; scatter to a half, as it is that of few
+///   rows;
 /// - half widths of intervals to 5 %, ends and middles to 5 % of them: which windows of rows count
 ///   is decided at thresholds, and round-off at one has moved a half width by 2.6 %;
 /// - in sentences to 0.1 % and one in their last digit, if that is 1 % of them or beside ±; behind
