@@ -111,6 +111,34 @@ BOOST_AUTO_TEST_CASE(a_baseline_keeps_figures_and_refuses_what_it_would_lose) {
     BOOST_TEST(has(directory.read("base.json"), "figure1")); // as it was
 }
 
+// A record is the same from another folder, whose name stands in formulas, too; and a number below
+// normal doubles is one.
+BOOST_AUTO_TEST_CASE(a_whole_record_knows_folders_and_small_numbers) {
+    const TemporaryDirectory directory;
+    const std::string scene = "solution = './s.toml'\n[beam]\nalpha = 0.5\nzeta = 0.1\n"
+                              "[ladder]\nfinal_time = 1\nelements = [4]\ndt = [0.25]\n"
+                              "norms = ['theta_L2L2']\n[evolution]\nelements = 4\ndt = 0.25\n"
+                              "final_time = 1\nprobes = ['u@1']\n"
+                              "[[expect.equations]]\ntext = \"\"\"\n[unknowns]\n"
+                              "u = 'exp(x/(x + 1))*t'\n[equations]\nf = 'diff(u, t)'\n\"\"\"\n"
+                              "says = ['exp(x/(x + 1))']\n";
+    const std::string solution = "name = 's'\ntheta = 'sin(pi*x)*t'\nu = '1e-309*x^2*(1 + t)'\n";
+    for (const char* folder : {"x", "other"}) {
+        std::filesystem::create_directory(directory.path() / folder);
+        directory.write(std::string(folder) + "/mine.toml", scene);
+        directory.write(std::string(folder) + "/s.toml", solution);
+    }
+    const std::string file = (directory.path() / "base.json").string();
+    const Called recorded = call(directory, "check " + (directory.path() / "x/mine.toml").string() +
+                                                " --whole --record " + file);
+    BOOST_TEST(recorded.exit == 0, recorded.output + recorded.errors);
+    BOOST_TEST(has(directory.read("base.json"), "x/(x"));
+    const Called again =
+        call(directory,
+             "check " + (directory.path() / "other/mine.toml").string() + " --baseline " + file);
+    BOOST_TEST(again.exit == 0, again.output + again.errors);
+}
+
 // Beside its figures a whole record keeps what a result says, and what its expectations look at.
 BOOST_AUTO_TEST_CASE(a_whole_record_holds_words_and_counters) {
     const TemporaryDirectory directory;
@@ -127,6 +155,12 @@ BOOST_AUTO_TEST_CASE(a_whole_record_holds_words_and_counters) {
     BOOST_TEST(!has(said.dump(), "seconds"));
     const Called again = call(directory, checked + "--baseline " + file);
     BOOST_TEST(again.exit == 0, again.output);
+
+    // A record of figures alone would take its place.
+    const Called less = call(directory, checked + "--record " + file);
+    BOOST_TEST(less.exit == 2);
+    BOOST_TEST(has(less.errors, "add --whole"), less.errors);
+    BOOST_TEST(call(directory, checked + "--baseline " + file).exit == 0);
 
     // Other words, with the same numbers.
     std::string changed = directory.read("base.json");
