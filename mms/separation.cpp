@@ -61,11 +61,11 @@ Products multiplied(const Products& a, const Products& b) {
     return result;
 }
 
-/// An expression that is not mixed is one product.
+/// An expression that is not mixed is one product. Normalised at once: GiNaC has x - 1 as 1 - x in
+/// the one run and not in the other, and how many products there are must not depend on that.
 Products unmixed(const ex& expression) {
-    if (has_x(expression))
-        return {{1, expression}};
-    return {{expression, 1}};
+    const auto [coefficient, profile] = normalised_profile(expression);
+    return {{coefficient, profile}};
 }
 
 /// X(x), T(t) with X + T = expression, if there are such.
@@ -194,15 +194,7 @@ Products merged(const Products& products) {
 /// c and s with expression = c s, where s has leading coefficient 1.
 std::pair<ex, ex> normalised_sum(const ex& expression) {
     const GiNaC::exvector terms = ordered_operands(expression);
-    const ex& leading = terms.front();
-    ex coefficient = 1;
-    if (is_a<GiNaC::mul>(leading)) {
-        for (const ex& factor : leading)
-            if (!has_x(factor))
-                coefficient *= factor;
-    } else if (!has_x(leading)) {
-        coefficient = leading;
-    }
+    const ex coefficient = normalised_profile(terms.front()).first;
     ex sum = 0;
     for (const ex& term : terms)
         sum += term / coefficient;

@@ -139,7 +139,7 @@ Canonical negated(const Canonical& node) {
 
 /// A sum with a positive leading term, and whether its sign was changed for that.
 std::pair<Canonical, bool> oriented(const Canonical& node) {
-    if (node->kind != Kind::Sum || !coefficient_of(*node->operands.front()).is_negative())
+    if (node->kind != Kind::Sum || !begins_with_minus(*node))
         return {node, false};
     CanonicalNode sum;
     sum.kind = Kind::Sum;
@@ -243,6 +243,10 @@ Canonical canonical(const ex& expression) {
     node.name = ex_to<GiNaC::function>(expression).get_name();
     node.operands = {canonical(expression.op(0))};
     return finished(std::move(node));
+}
+
+bool begins_with_minus(const CanonicalNode& sum) {
+    return coefficient_of(*sum.operands.front()).is_negative();
 }
 
 Canonical rescaled(const Canonical& node) {

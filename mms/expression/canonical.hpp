@@ -47,6 +47,9 @@ Canonical with_coefficient(const CanonicalNode& node, const GiNaC::numeric& coef
 /// 1: GiNaC writes (1 - x/1000)^103 as (1000 - x)^103 over 1e309, here it is itself again.
 Canonical rescaled(const Canonical& node);
 
+/// Whether a sum's first term, in that order, is negative: a sum or the one with all signs changed.
+bool begins_with_minus(const CanonicalNode& sum);
+
 /// The operands of a sum or product in that order, as GiNaC has them.
 GiNaC::exvector ordered_operands(const GiNaC::ex& sum_or_product);
 

@@ -86,12 +86,8 @@ public:
         if (!is_a<GiNaC::add>(inside))
             return inside;
         // GiNaC has a sum that is a factor with the one or the other sign, as its addresses fall.
-        const ex one = shortest_by_any(inside);
-        const ex other = -shortest_by_any(-inside);
-        return std::pair(length(other), formula_text(other)) <
-                       std::pair(length(one), formula_text(one))
-                   ? other
-                   : one;
+        return begins_with_minus(*canonical(inside)) ? -shortest_of_either_sign(-inside)
+                                                     : shortest_of_either_sign(inside);
     }
 
 private:
@@ -148,6 +144,16 @@ private:
     }
 
     ex shortest_by_any(const ex& sum) { return shorter(shortest(sum), with_pairs_joined(sum)); }
+
+    /// It may come to stand with either sign, so that both count.
+    ex shortest_of_either_sign(const ex& sum) {
+        const auto measure = [this](const ex& part) {
+            return std::pair(length(part) + length(-part), formula_text(part));
+        };
+        const ex one = shortest_by_any(sum);
+        const ex other = -shortest_by_any(-sum);
+        return measure(other) < measure(one) ? other : one;
+    }
 
     std::map<ex, std::size_t, GiNaC::ex_is_less> lengths_; ///< of texts
     std::map<ex, ex, GiNaC::ex_is_less> shortest_;         ///< of sums
