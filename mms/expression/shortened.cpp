@@ -4,6 +4,7 @@
 #include "mms/expression/canonical.hpp"
 #include "mms/expression/printing.hpp"
 
+#include <algorithm>
 #include <map>
 #include <stdexcept>
 #include <string>
@@ -76,6 +77,7 @@ ex with_common_taken_out_of_factors(const ex& product) {
 class Shortening final : public GiNaC::map_function {
 public:
     ex operator()(const ex& part) override {
+        const bool is_whole = !std::exchange(is_within_, true);
         ex inside = is_a<GiNaC::add>(part) || is_a<GiNaC::mul>(part) || is_a<GiNaC::power>(part)
                         ? part.map(*this)
                         : part;
@@ -85,16 +87,23 @@ public:
             return shorter(with_common_taken_out_of_factors(inside), inside);
         if (!is_a<GiNaC::add>(inside))
             return inside;
+        if (is_whole)
+            return better_of_both_signs(inside, [](const ex& one) { return formula_text(one).size(); });
         // GiNaC has a sum that is a factor with the one or the other sign, as its addresses fall.
-        return begins_with_minus(*canonical(inside)) ? -shortest_of_either_sign(-inside)
-                                                     : shortest_of_either_sign(inside);
+        const bool is_turned = begins_with_minus(*canonical(inside));
+        const ex better = better_of_both_signs(is_turned ? -inside : inside, [this](const ex& one) { return length(one); });
+        return is_turned ? -better : better;
     }
 
 private:
+    /// Without a sign in front, which another part may take.
     std::size_t length(const ex& expression) {
         const auto [known, is_new] = lengths_.try_emplace(expression, 0);
-        if (is_new)
-            known->second = formula_text(expression).size();
+        if (is_new) {
+            known->second =
+                std::min(formula_text(expression).size(), formula_text(-expression).size());
+            lengths_[-expression] = known->second;
+        }
         return known->second;
     }
 
@@ -145,16 +154,17 @@ private:
 
     ex shortest_by_any(const ex& sum) { return shorter(shortest(sum), with_pairs_joined(sum)); }
 
-    /// It may come to stand with either sign, so that both count.
-    ex shortest_of_either_sign(const ex& sum) {
-        const auto measure = [this](const ex& part) {
-            return std::pair(length(part) + length(-part), formula_text(part));
-        };
+    template <typename Length>
+    ex better_of_both_signs(const ex& sum, const Length& length_of) {
         const ex one = shortest_by_any(sum);
         const ex other = -shortest_by_any(-sum);
-        return measure(other) < measure(one) ? other : one;
+        return std::pair(length_of(other), formula_text(other)) <
+                       std::pair(length_of(one), formula_text(one))
+                   ? other
+                   : one;
     }
 
+    bool is_within_ = false;
     std::map<ex, std::size_t, GiNaC::ex_is_less> lengths_; ///< of texts
     std::map<ex, ex, GiNaC::ex_is_less> shortest_;         ///< of sums
 };
