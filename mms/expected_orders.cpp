@@ -318,9 +318,14 @@ std::vector<std::string> reasons(const ExpectedOrders& known, const Beam& beam) 
                                            : "u_xx is linear in t, and alpha = 0: no scheme has a "
                                              "time error in u, and no order in dt is visible "
                                              "there.");
-    if (known.is_quadratic)
-        text.emplace_back("theta and u_xx are quadratic in t: BDF2 has no error but that of its "
-                          "first step, which SDIRK2 makes: order 3.");
+    if (known.is_quadratic) {
+        const std::string what = coupled ? "theta and u_xx are of degree 2 at most in t"
+                                 : !known.u_has_time_error     ? "theta is quadratic in t"
+                                 : !known.theta_has_time_error ? "u_xx is quadratic in t"
+                                                               : "theta and u_xx are quadratic in t";
+        text.push_back(what + ": BDF2 has no error but that of its first step, which SDIRK2 makes: "
+                              "order 3.");
+    }
     for (const Switch& change : known.switches)
         if (change.theta_t_jump > 0.0 || change.u_xxt_jump > 0.0)
             text.push_back("at t = " + number_text(change.t) + " " +

@@ -177,7 +177,10 @@ void require_between_stops(const ex& u, const SourceText& source, const Beam& be
     const double tip = deflection(deflection.size() - 1);
     const bool rigid = beam.stops.epsilon == 0.0;
     if (rigid && (tip < beam.stops.lower - tolerance || tip > beam.stops.upper + tolerance))
-        throw InputError(source.begin(), "(6): u0(1) is " + number_text(tip) +
+        throw InputError(source.begin(), "(6): u0(1) is " +
+                                             number_text_beside(tip, tip < beam.stops.lower
+                                                                         ? beam.stops.lower
+                                                                         : beam.stops.upper) +
                                              "; it must be between the stops " +
                                              number_text(beam.stops.lower) + " and " +
                                              number_text(beam.stops.upper));

@@ -179,7 +179,7 @@ std::string ContactRules::repair_of_tip(bool below) const {
     const double extreme = below ? least : greatest;
     const std::string name = below ? "g1" : "g2";
     const std::string text = std::string("it is ") + (below ? "least, " : "greatest, ") +
-                             number_text(extreme) +
+                             number_text_beside(extreme, stop) +
                              ", at t = " + number_text(below ? least_at : greatest_at) +
                              (proven ? ": " : " as far as was seen: ");
     // A solution that presses on a stop would come off it if all of u were made smaller.

@@ -105,9 +105,9 @@ std::string write_c(const Dialect& /*dialect*/, const CodeFile& file) {
     return text + written_in_braces(braces, file) + together_in_braces(braces, file);
 }
 
-std::string write_cpp(const Dialect& /*dialect*/, const CodeFile& file) {
+std::string write_cpp(const Dialect& dialect, const CodeFile& file) {
     std::string text = wrapped_comment(file.comment, "//") + "#include <cmath>\n\nnamespace " +
-                       identifier_of(file.name) + " {\n\n";
+                       dialect.identifier(identifier_of(file.name)) + " {\n\n";
     if (file.uses_pi)
         text += fmt::format("constexpr double pi = {};\n", pi_digits);
     for (const auto& [name, value] : file.constants)
@@ -145,8 +145,21 @@ std::string fortran_body(const CodeFunction& function) {
            values;
 }
 
-std::string write_fortran(const Dialect& /*dialect*/, const CodeFile& file) {
-    std::string text = wrapped_comment(file.comment, "!") + "module " + identifier_of(file.name) +
+/// A module may not have the name of what is in it.
+std::string module_of(const Dialect& dialect, const CodeFile& file) {
+    const std::string name = identifier_of(file.name);
+    const auto is_name = [&](const std::string& other) {
+        return dialect.folded(other) == dialect.folded(name);
+    };
+    const bool is_taken =
+        std::ranges::any_of(file.functions, is_name, &CodeFunction::name) ||
+        std::ranges::any_of(file.constants, is_name, &std::pair<std::string, std::string>::first) ||
+        is_name("sources") || is_name("dp") || is_name("pi");
+    return is_taken ? name + "_module" : name;
+}
+
+std::string write_fortran(const Dialect& dialect, const CodeFile& file) {
+    std::string text = wrapped_comment(file.comment, "!") + "module " + module_of(dialect, file) +
                        "\n  implicit none\n  integer, parameter :: dp = kind(1.0d0)\n";
     if (file.uses_pi)
         text += fmt::format("  real(dp), parameter :: pi = {}_dp\n", pi_digits);
@@ -301,7 +314,8 @@ constexpr const char* words_of_c =
     "auto break case char const continue default do double else enum extern float for goto if "
     "inline int long main register restrict return short signed sizeof static struct switch "
     "typedef typeof union unsigned void volatile while asm abs signgam lgamma_r lgammaf_r "
-    "lgammal_r float_t double_t";
+    "lgammal_r float_t double_t alignas alignof bool constexpr false nullptr static_assert "
+    "thread_local true typeof_unqual values";
 /// Functions of math.h, which also have an f and an l behind their names.
 constexpr const char* functions_of_c =
     "acos acosh asin asinh atan atan2 atanh cbrt ceil copysign cos cosh drem erf erfc exp exp2 "
@@ -322,8 +336,10 @@ constexpr const char* words_of_cpp =
     "float for friend goto if inline int long mutable namespace new noexcept not nullptr operator "
     "or private protected public register requires return short signed sizeof static std struct "
     "switch template this throw true try typedef typeid typename union unsigned using virtual void "
-    "volatile while xor asm auto typeof wchar_t char8_t char16_t char32_t float_t double_t";
-constexpr const char* words_of_fortran = "dp kind real";
+    "volatile while xor asm auto typeof wchar_t char8_t char16_t char32_t float_t double_t and_eq "
+    "or_eq xor_eq not_eq static_cast const_cast dynamic_cast reinterpret_cast static_assert "
+    "thread_local co_await co_return co_yield consteval constinit values";
+constexpr const char* words_of_fortran = "dp kind real values";
 constexpr const char* words_of_python =
     "and as assert async await break class continue def del elif else except finally for from "
     "global if import in is lambda nonlocal not or pass raise return try while with None True "
@@ -341,7 +357,9 @@ constexpr const char* words_of_freefem =
     "try varf vertex volume while int1d int2d int3d on dx dy dz dxx dxy dyx dyy mean jump average "
     "abs arg conj det diag norm real imag trace max min pow rint round floor ceil erf erfc gamma "
     "lgamma tgamma j0 j1 jn y0 y1 yn i verbosity version time clock";
-constexpr const char* words_of_moose = "e abs max min if int pow plog";
+constexpr const char* words_of_moose =
+    "e abs max min if int pow plog acosh arg asinh atan2 atanh cbrt ceil conj cot csc erf erfc "
+    "exp2 floor hypot imag log10 log2 polar real rint round sec trunc";
 
 /// With M_PI and the like, also with the endings of types.
 std::set<std::string> all_macros() {

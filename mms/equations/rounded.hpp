@@ -16,10 +16,12 @@ struct Rounded {
     Rounded(long double exact) : value(exact), bound(std::abs(exact)) {}
     Rounded(long double value_, long double bound_) : value(value_), bound(bound_) {}
 
-    /// Whether it may be 0 for all that can be told.
+    /// Whether it is 0, as far as rounding can tell. Of a value whose bound is not finite, as of
+    /// acos at -1, nothing is known, and it is not said to be 0.
     [[nodiscard]] bool may_be_zero() const {
         constexpr long double round_off = 64.0L * 0x1p-64L;
-        return std::abs(value) <= round_off * bound;
+        return value == 0.0L ||
+               (std::isfinite(bound) && std::abs(value) <= round_off * bound);
     }
 };
 

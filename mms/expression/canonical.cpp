@@ -36,6 +36,11 @@ std::string joined_keys(const CanonicalNode& node, char sign) {
     return text;
 }
 
+/// Of a power of a power, which is which: x^(x^2) is not (x^x)^2.
+std::string key_in_power(const CanonicalNode& node) {
+    return node.kind == Kind::Power ? "<" + node.key + ">" : node.key;
+}
+
 std::string key_of(const CanonicalNode& node) {
     switch (node.kind) {
     case Kind::Number:
@@ -47,7 +52,7 @@ std::string key_of(const CanonicalNode& node) {
     case Kind::Product:
         return "[" + number_text(node.coefficient) + "*" + joined_keys(node, '*') + "]";
     case Kind::Power:
-        return joined_keys(node, '^');
+        return key_in_power(*node.operands[0]) + "^" + key_in_power(*node.operands[1]);
     case Kind::Function:
         return node.name + "{" + joined_keys(node, ' ') + "}";
     }

@@ -85,7 +85,8 @@ private:
     class Level {
     public:
         explicit Level(Grammar& parser) : parser_(parser) {
-            if (++parser_.depth_ > grammar::deepest_nesting)
+            // The innermost operand is one more.
+            if (++parser_.depth_ > grammar::deepest_nesting + 1)
                 parser_.fail(parser_.offset_, "more than " +
                                                   std::to_string(grammar::deepest_nesting) +
                                                   " brackets, signs or powers within each other");

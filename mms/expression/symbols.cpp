@@ -46,7 +46,7 @@ void require_stops_in_use(const SourceText& source, const Beam& beam) {
         if (const auto place = first_use(source, name))
             throw InputError(*place, "'" + name +
                                          "' is used, but the beam has no stop on that side; give "
-                                         "the beam the stop, or use a parameter of your own");
+                                         "the beam the stop, or write a number");
     };
     require(beam.stops.lower, "g1");
     require(beam.stops.upper, "g2");

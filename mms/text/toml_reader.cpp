@@ -3,6 +3,8 @@
 #include "mms/text/file_text.hpp"
 #include "mms/text/nearest_name.hpp"
 
+#include <boost/algorithm/string/replace.hpp>
+#include <boost/algorithm/string/trim.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -162,7 +164,8 @@ toml::table parse(const std::string& text, const std::string& file) {
         return toml::parse(text, file);
     } catch (const toml::parse_error& error) {
         const auto& begin = error.source().begin;
-        const std::string description(error.description());
+        std::string description(error.description()); // may show an end of line
+        boost::algorithm::replace_all(description, "\n", "\\n");
         throw InputError({file, static_cast<int>(begin.line), static_cast<int>(begin.column)},
                          "not TOML: " + description + advice_on(description));
     }
@@ -234,7 +237,8 @@ void override_key(TomlDocument& document, const std::string& assignment) {
     const auto equals = end_of_key(assignment);
     if (equals == std::string::npos || equals == 0)
         throw InputError(place, "an override reads key=value, e.g. --set beam.alpha=1e3");
-    std::vector<std::string> parts = parts_of(assignment.substr(0, equals));
+    std::vector<std::string> parts =
+        parts_of(boost::algorithm::trim_copy(assignment.substr(0, equals)));
     if (parts.size() > static_cast<std::size_t>(deepest))
         throw InputError({"--set"}, "the key has more than " + std::to_string(deepest) + " parts");
     const std::string value = assignment.substr(equals + 1);
@@ -396,7 +400,8 @@ double TableReader::checked_number(std::string_view key, const toml::node& node,
         throw wrong_type(key, node, "a number");
     if (std::isnan(*value) || (std::isinf(*value) && infinity == Infinity::refused))
         throw InputError(place_of(node),
-                         full(key) + " is " + number_text(*value) + "; it must be a finite number");
+                         full(key) + " is " + number_text(*value) + "; it must be a " +
+                             (infinity == Infinity::refused ? "finite number" : "number"));
     return *value;
 }
 

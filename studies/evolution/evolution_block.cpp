@@ -93,7 +93,7 @@ std::int64_t read_every(TableReader& table, const EvolutionBlock& block) {
         throw table.error("every", " is " + std::to_string(every) +
                                        "; it must be >= 1 and divide the " +
                                        std::to_string(block.rung.steps) + " steps");
-    const auto samples = static_cast<double>(block.rung.steps) / static_cast<double>(every);
+    const auto samples = 1.0 + static_cast<double>(block.rung.steps) / static_cast<double>(every);
     const double values = samples * static_cast<double>(block.probes.size());
     if (values > most_values)
         throw InputError(table.place("every"),

@@ -39,7 +39,9 @@ ReadFigure number_of(const std::string& name, const std::string& written) {
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (text.empty() || end != text.data() + text.size() || error == std::errc::invalid_argument)
         return {{}, name + " is '" + trimmed(written) + "', which is not one number"};
-    if (error == std::errc::result_out_of_range || !std::isfinite(value))
+    if (error == std::errc::result_out_of_range)
+        return {{}, name + " is " + trimmed(written) + ", beyond the range of doubles"};
+    if (!std::isfinite(value))
         return {{}, name + " is " + trimmed(written)};
     return {value, {}};
 }
@@ -59,11 +61,14 @@ ReadFigure figure_in_json(const std::filesystem::path& file, const std::string& 
     std::ifstream stream(file);
     std::string text;
     text.assign(std::istreambuf_iterator<char>(stream), {});
+    int times = 0; // that the name stands there
     try {
         const auto json =
-            nlohmann::json::parse(text, [](int depth, nlohmann::json::parse_event_t, auto&) {
+            nlohmann::json::parse(text, [&](int depth, auto event, const nlohmann::json& part) {
                 if (depth > deepest_json)
                     throw std::invalid_argument("it is nested too deep");
+                if (event == nlohmann::json::parse_event_t::key && depth == 1 && part == name)
+                    ++times;
                 return true;
             });
         if (!json.is_object())
@@ -71,6 +76,8 @@ ReadFigure figure_in_json(const std::filesystem::path& file, const std::string& 
         const auto found = json.find(name);
         if (found == json.end())
             return {{}, "it has no " + name};
+        if (times > 1)
+            return {{}, "it has " + name + " more than once; which is meant?"};
         if (!found->is_number())
             return {{}, name + " is " + found->dump().substr(0, 40) + ", which is not one number"};
         return {found->get<double>(), {}};
@@ -118,6 +125,8 @@ ReadFigure figure_in_csv(const std::filesystem::path& file, const std::string& n
     const auto column = std::find(names.begin(), names.end(), name);
     if (column == names.end())
         return {{}, "its header has no " + name};
+    if (std::count(names.begin(), names.end(), name) > 1)
+        return {{}, "its header names " + name + " more than once; which is meant?"};
     if (row.size() != names.size())
         return {{},
                 "its last row has " + std::to_string(row.size()) + " fields and its header " +

@@ -25,8 +25,7 @@ constexpr std::size_t most_variants = 200;
 struct Variant {
     std::string file;
     std::vector<std::string> overrides;
-    Reading reading;                     ///< with the keys that are changed
-    std::optional<std::string> solution; ///< in place of the scene's
+    Reading reading; ///< with the keys that are changed, or another solution
 };
 
 /// What became of it: refused, failed, or an expectation of its own violated; or none of them.
@@ -38,8 +37,6 @@ struct Outcome {
 Outcome outcome_of(const Variant& variant) {
     try {
         Scene scene = read_scene(variant.file, variant.overrides, variant.reading);
-        if (variant.solution)
-            scene.problem = parse_solution(*variant.solution, "solution");
         scene.is_long = false; // whoever runs the scene was not asked about this one
         const PredictedWork predicted = predicted_work(scene);
         require_short_enough(scene, predicted);
@@ -62,13 +59,13 @@ Outcome outcome_of(const Variant& variant) {
 Variant read_variant(TableReader& table, const Scene& scene, Reading reading) {
     reading.variant = table.texts("set").value_or(std::vector<std::string>());
     reading.asked = nullptr;
-    auto solution = table.text("solution");
-    if (reading.variant->empty() && !solution)
+    reading.solution = table.text("solution");
+    if (reading.variant->empty() && !reading.solution)
         throw table.error("", " changes nothing; give it set = [\"KEY=VALUE\"] or the text of a "
                               "solution");
-    if (solution && (scene.solver || !scene.poses_problem()))
+    if (reading.solution && (scene.solver || !scene.poses_problem()))
         throw table.error("solution", " would stand in place of the scene's, and it has none");
-    return {scene.file, scene.overrides, std::move(reading), std::move(solution)};
+    return {scene.file, scene.overrides, std::move(reading)};
 }
 
 /// Words that not every message holds.

@@ -374,6 +374,8 @@ Scene read_scene(const std::string& name_or_file, const std::vector<std::string>
             require_placeholders(*scene.solver, scene.series());
     } else {
         read_problem(scene, root, !brings_its_own, reading.own_problem);
+        if (reading.solution)
+            scene.problem = parse_solution(*reading.solution, "solution");
         read_studies(scene, root);
         read_reference(scene, root);
         check_meshes(scene, root);

@@ -83,6 +83,8 @@ struct Reading {
     /// With these keys, KEY=VALUE each, and without what the scene itself expects and what studies
     /// that: as [[expect.refused]] changes it. Expectations are read where a key is of them.
     std::optional<std::vector<std::string>> variant = std::nullopt;
+    /// The text of a solution in place of the scene's.
+    std::optional<std::string> solution = std::nullopt;
 };
 
 /// Reads a scene: a shipped name or a file, with overrides `key=value` applied in order. Everything

@@ -152,11 +152,11 @@ std::vector<Rung> read_rungs(TableReader& table, double final_time, const Solver
     }
     for (std::size_t i = 1; i < rungs.size(); ++i)
         if (rungs[i].elements < rungs[i - 1].elements || rungs[i].dt > rungs[i - 1].dt)
-            throw InputError(
-                table.place(rungs[i].elements < rungs[i - 1].elements ? "elements" : "dt", i),
-                "level " + std::to_string(i + 1) + " of " +
-                    table.full(elements.empty() ? "dt" : "elements") +
-                    " is coarser than the one before it; a ladder goes from coarse to fine");
+            throw table.error(
+                rungs[i].elements < rungs[i - 1].elements ? "elements" : "dt",
+                ": level " + std::to_string(i + 1) +
+                    " is coarser than the one before it; a ladder goes from coarse to fine",
+                i);
     return rungs;
 }
 

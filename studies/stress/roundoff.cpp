@@ -80,6 +80,8 @@ Floor nodal_floor(const RoundOffBlock& block, const Beam& beam, const Mesh& mesh
 /// The norms of a run in the sine basis against those of the mode.
 std::optional<double> sine_floor(const RoundOffBlock& block, const Beam& beam, const Mesh& mesh,
                                  const std::vector<Mode>& modes) {
+    if (mesh.elements() < 2) // has no such mode
+        return std::nullopt;
     const ProblemData data = mode_problem();
     Scheme scheme = scheme_of(block, Algorithm::direct);
     scheme.basis = Basis::automatic;

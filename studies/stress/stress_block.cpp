@@ -184,6 +184,9 @@ std::vector<double> geometric(TableReader& table, const char* key) {
     auto range = table.table(key);
     if (!range)
         throw table.error(key, " is missing; give { from = …, to = …, count = … }");
+    for (const char* end : {"from", "to"})
+        if (!range->has(end))
+            throw range->error(end, " is missing; give { from = …, to = …, count = … }");
     const double from = single(*range, "from", 0.0, true);
     const double to = single(*range, "to", 0.0, true);
     const auto points = count(*range, "count", 20, 1000);

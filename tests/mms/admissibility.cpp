@@ -300,8 +300,8 @@ const std::vector<Repair> repairs = {
      solution("sin(pi*x)", "x^2*log(1 + t)")},
     // A stop that the beam does not have.
     {solution("0", "x^2*g2"), without_stops,
-     "2:10: 'g2' is used, but the beam has no stop on that side; give the beam the stop, or use a "
-     "parameter of your own",
+     "2:10: 'g2' is used, but the beam has no stop on that side; give the beam the stop, or "
+     "write a number",
      solution("0", "x^2*g2"), between_stops},
 };
 

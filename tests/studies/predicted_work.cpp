@@ -84,7 +84,7 @@ BOOST_AUTO_TEST_CASE(what_takes_too_long_runs_only_if_it_says_so) {
     const std::string years = ladder("[1000000]", "[1e-9]");
     refused(years); // time
     refused(ladder(list(900, "10000000"), list(900, "1.0"))
-                .append("[evolution]\nfinal_time = 1.0\nelements = 4\ndt = 1e-8\n"
+                .append("[evolution]\nfinal_time = 1.0\nelements = 4\ndt = 1.25e-8\n"
                         "probes = [\"u@1\"]\n")); // memory
     const Scene scene = scene_of("long = true\n" + years);
     BOOST_CHECK_NO_THROW(require_short_enough(scene, predicted_work(scene)));

@@ -128,7 +128,7 @@ const std::vector<Wrong> wrong_scenes{
     {"\"u_LinfH2semi\"", "\"theta_L2L2_sq\"", "17:32", "names 'theta_L2L2_sq' twice"},
     {"[1.0, 2.0]", "[1.0]", "21:17", "ladder.printed.theta_L2L2_sq has 1 values for 2 levels"},
     {"elements   = [10, 20]", "elements   = [20, 10]", "15:19",
-     "level 2 of ladder.elements is coarser"},
+     "ladder.elements: level 2 is coarser"},
     {"dt         = [1e-3, 5e-4]", "dt         = [5e-4, 1e-3]", "16:21",
      "is coarser than the one before it"},
     // The problem
