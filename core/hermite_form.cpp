@@ -1,5 +1,6 @@
 #include "core/hermite_form.hpp"
 
+#include "core/finite.hpp"
 #include "core/contact/contact.hpp"
 #include "core/space/cells.hpp"
 #include "core/space/quadrature.hpp"
@@ -239,9 +240,11 @@ std::string HermiteForm::solve(double c, double t,
             change = std::max(change, std::abs(next(i) - deflection_(i)));
         theta_.segment(1, inner) = theta;
         deflection_ = next;
-        if (!std::isfinite(theta.sum()) || !std::isfinite(next.sum()))
-            return "the fixed-point iteration diverges: not finite after " +
-                   std::to_string(iteration) + " iterations";
+        if (!are_finite(theta) || !are_finite(next))
+            return coupled ? fmt::format("the fixed-point iteration diverges: not finite after {} "
+                                         "iteration{}",
+                                         iteration, iteration == 1 ? "" : "s")
+                           : "the temperature or the deflection is not finite";
         if (!coupled || change <= tolerance_)
             return {};
     }

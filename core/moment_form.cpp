@@ -2,6 +2,7 @@
 
 #include "core/contact/contact.hpp"
 #include "core/dense_kernels.hpp"
+#include "core/finite.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -171,10 +172,10 @@ std::string MomentForm::solve(double c, double t,
     if (!data_.heat_source.is_zero() || !data_.moment_load.is_zero())
         ++counters_.load_updates;
 
-    if (heat_ && !std::isfinite(increment_.sum()))
+    if (heat_ && !are_finite(increment_))
         return "the temperature is not finite";
     if (bending_ &&
-        !(w_.weights.allFinite() && std::isfinite(stress_) && std::isfinite(w_.rest.sum())))
+        !(w_.weights.allFinite() && std::isfinite(stress_) && are_finite(w_.rest)))
         return "the curvature is not finite";
     return {};
 }

@@ -15,7 +15,12 @@ constexpr std::size_t longest_name = 28;
 
 std::string read_name(TableReader& table, const Method& method,
                       const std::vector<TimedScheme>& others) {
-    std::string name = table.text("name").value_or(method.name);
+    const auto given = table.text("name");
+    std::string name = given.value_or(method.name);
+    if (!given && name.size() > longest_name)
+        throw table.error("name", " is missing, and what its keys make of it, '" + name +
+                                      "', is longer than " + std::to_string(longest_name) +
+                                      " characters; give it a name");
     if (name.empty() || name.size() > longest_name)
         throw table.error("name", " has " + std::to_string(name.size()) +
                                       " characters; it must have 1 to " +

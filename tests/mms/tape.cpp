@@ -57,6 +57,8 @@ const std::vector<std::string> formulas = {
     "(1-x)^2 + 2*(t-x)^4",
     "(1-x)^3 - (x-t)^3 + (x-1)^2",
     "x^7 + x^-3 + 1/x",
+    "x^(x^2) - (x^x)^2", // two powers, whatever stands in them
+    "(x^t)^x*x^(t^x) + (2^x)^x - 2^(x^2)",
     "1/(1+x)^3/(2+t)^2",
     "t/(1+x)",
     "-x-t-1",
