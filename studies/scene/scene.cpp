@@ -362,6 +362,7 @@ Scene read_scene(const std::string& name_or_file, const std::vector<std::string>
     TableReader root(document, document.table, "", &scene_keys().root());
     scene.title = root.text("title").value_or(scene.name);
     scene.is_long = root.flag("long").value_or(false);
+    scene.is_gate = root.flag("gate").value_or(false);
     const auto kinds = kinds_in(root);
     // A file without any study is told so after its problem, which may be what is wrong with it.
     const bool brings_its_own =

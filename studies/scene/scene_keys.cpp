@@ -24,6 +24,8 @@ Entries of_the_whole() {
         {"title", KeyType::text, "the file's name", "what the result is headed by"},
         {"solution", KeyType::text, "a block [data]",
          "the exact solution: a shipped name, or a file relative to the scene, \"./mine.toml\""},
+        {"gate", KeyType::flag, "false",
+         "that it is there for what the program says and refuses: listed by itself"},
         {"long", KeyType::flag, "false",
          "that it may take more than 6 hours on one core, or 4 GB, as is predicted"},
     };

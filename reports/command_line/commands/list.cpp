@@ -59,10 +59,13 @@ constexpr std::array groups{"Errors against an exact solution",
                             "One run over time",
                             "Stiff and extreme",
                             "Deliberate defects",
-                            "Programs of your own"};
+                            "Programs of your own",
+                            "Gates of what the program itself says and refuses"};
 
 /// The place of a scene's group.
 std::size_t group_of(const Scene& scene) {
+    if (scene.is_gate)
+        return 7;
     if (scene.solver)
         return 6;
     if (scene.get<SensitivityBlock>() != nullptr || scene.defect)
