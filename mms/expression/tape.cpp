@@ -5,6 +5,7 @@
 #include <cmath>
 #include <iterator>
 #include <stdexcept>
+#include <utility>
 
 namespace tvbeam {
 
@@ -142,19 +143,29 @@ Eigen::ArrayXXd Tape::evaluate(const Eigen::ArrayXd& x, const Eigen::ArrayXd& t)
     return values;
 }
 
-// Each point by itself, so that the others stay as they are wherever they stand in the array.
+// By halves down to the points that did, so that the others stay as they are wherever they stand
+// in the array.
 void Tape::repeat_what_left_range(const Eigen::ArrayXd& x, const Eigen::ArrayXd& t,
-                                  Eigen::ArrayXXd& values) const {
-    Eigen::ArrayXXd value(output_count(), 1);
-    for (Eigen::Index k = 0; k < values.cols(); ++k) {
-        const Eigen::ArrayXd at_x = x.segment(x.size() == 1 ? 0 : k, 1);
-        const Eigen::ArrayXd at_t = t.segment(t.size() == 1 ? 0 : k, 1);
-        evaluate_in<double>(at_x, at_t, value);
-        if (left_range()) {
-            evaluate_in<long double>(at_x, at_t, value);
-            left_range();
-            values.col(k) = value;
-        }
+                                  Eigen::Ref<Eigen::ArrayXXd> values) const {
+    const Eigen::Index points = values.cols();
+    const auto part = [](const Eigen::ArrayXd& all, Eigen::Index begin, Eigen::Index size) {
+        return all.size() == 1 ? all : Eigen::ArrayXd(all.segment(begin, size));
+    };
+    if (points == 1) {
+        Eigen::ArrayXXd value(output_count(), 1);
+        evaluate_in<long double>(part(x, 0, 1), part(t, 0, 1), value);
+        left_range();
+        values = value;
+        return;
+    }
+    const Eigen::Index half = points / 2;
+    for (const auto& [begin, size] : {std::pair{Eigen::Index{0}, half}, {half, points - half}}) {
+        const Eigen::ArrayXd at_x = part(x, begin, size);
+        const Eigen::ArrayXd at_t = part(t, begin, size);
+        Eigen::ArrayXXd again(output_count(), size);
+        evaluate_in<double>(at_x, at_t, again);
+        if (left_range())
+            repeat_what_left_range(at_x, at_t, values.middleCols(begin, size));
     }
 }
 

@@ -92,7 +92,7 @@ private:
     void evaluate_in(const Eigen::ArrayXd& x, const Eigen::ArrayXd& t,
                      Eigen::ArrayXXd& values) const;
     void repeat_what_left_range(const Eigen::ArrayXd& x, const Eigen::ArrayXd& t,
-                                Eigen::ArrayXXd& values) const;
+                                Eigen::Ref<Eigen::ArrayXXd> values) const;
     template <typename Real>
     [[nodiscard]] Enclosure enclose_in(Eigen::Index output, double x, double begin,
                                        double end) const;
