@@ -96,8 +96,12 @@ void split(const Lines& lines, std::string_view line, char separator,
             if (end == std::string_view::npos)
                 throw InputError(lines.place(column(begin - 1)), "a quote is not closed");
             fields.push_back({line.substr(begin, end - begin), column(begin), true});
-            at = std::min(line.find_first_not_of(" \r", end + 1), line.size());
-            if (at < line.size() && separator != ' ' && line[at] != separator)
+            at = end + 1;
+            if (separator != ' ')
+                at = std::min(line.find_first_not_of(" \r", at), line.size());
+            const bool is_behind = at < line.size() && (separator == ' ' ? blanks.find(line[at]) == std::string_view::npos
+                                     : line[at] != separator);
+            if (is_behind)
                 throw InputError(lines.place(column(at)), "something stands behind a closed quote");
         } else {
             end = separator == ' ' ? line.find_first_of(blanks, at) : line.find(separator, at);

@@ -248,7 +248,8 @@ LimitEstimate estimate_limit(std::span<const ValueRow> rows, const LimitTuning& 
         least_squares->limit = origin + scale * least_squares->limit;
         least_squares->uncertainty *= scale;
     }
-    if (is_significant(given) && result.gci && result.gci->order < least_order) {
+    if (const auto order = order_of_finest(given);
+        is_significant(given) && order && *order < least_order) {
         result.limit.status = result.order.status = "the order of the finest values is below 0.2";
         return result;
     }

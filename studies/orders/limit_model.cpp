@@ -63,14 +63,14 @@ std::optional<LinearFit> fit_limit_model(std::span<const ValueRow> rows, const W
         return at(*model.order);
     constexpr int net = 24;
     const double step = std::log(greatest_order / least_order) / net;
-    int best = 0;
+    int best = -1;
     double least = infinity;
-    for (int k = 0; k <= net; ++k)
+    for (int k = -1; k <= net; ++k) // from below the least, which may be the best
         if (const double square = at(least_order * std::exp(k * step)).square; square < least) {
             least = square;
             best = k;
         }
-    if (best == 0 || best == net)
+    if (best == -1 || best == net)
         return std::nullopt;
     double low = least_order * std::exp((best - 1) * step);
     double high = least_order * std::exp((best + 1) * step);
@@ -82,6 +82,8 @@ std::optional<LinearFit> fit_limit_model(std::span<const ValueRow> rows, const W
             at(left).square < at(right).square ? right : left;
     }
     auto fit = at((low + high) / 2);
+    if (fit.order < least_order)
+        return std::nullopt;
     // The standard error at the best order knows nothing of the order's own: that of the linearised
     // model does.
     if (const double deviation = deviation_of(fit, weights); deviation > 0) {

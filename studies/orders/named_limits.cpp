@@ -21,7 +21,7 @@ double log_mean_growth(double x) {
 /// The signed order of three grids solves
 ///     (f_3 − f_2) / (f_2 − f_1) = r_21^p (r_32^p − 1) / (r_21^p − 1),
 /// whose right side grows with p throughout.
-std::optional<MethodLimit> gci_of(std::span<const ValueRow> levels) {
+std::optional<double> order_of_finest(std::span<const ValueRow> levels) {
     if (levels.size() < 3)
         return std::nullopt;
     const auto& fine = levels[levels.size() - 1];
@@ -29,8 +29,7 @@ std::optional<MethodLimit> gci_of(std::span<const ValueRow> levels) {
     const auto& coarse = levels[levels.size() - 3];
     const double log_fine = std::log(medium.h / fine.h);
     const double log_coarse = std::log(coarse.h / medium.h);
-    const double step = medium.value - fine.value;
-    const double quotient = (coarse.value - medium.value) / step;
+    const double quotient = (coarse.value - medium.value) / (medium.value - fine.value);
     if (!(quotient > 0) || !std::isfinite(quotient))
         return std::nullopt;
     double low = 0;
@@ -44,19 +43,28 @@ std::optional<MethodLimit> gci_of(std::span<const ValueRow> levels) {
         return std::nullopt;
     for (int k = 0; k < 60; ++k)
         (exceeds((low + high) / 2) ? high : low) = (low + high) / 2;
+    return high;
+}
+
+std::optional<MethodLimit> gci_of(std::span<const ValueRow> levels) {
     constexpr double no_order = 1e-3; // steps that stay the same, but for rounding
-    if (high < no_order)
+    const auto order = order_of_finest(levels);
+    if (!order || *order < no_order)
         return std::nullopt;
-    const double gain = std::expm1(high * log_fine);
+    const auto& fine = levels[levels.size() - 1];
+    const auto& medium = levels[levels.size() - 2];
+    const double log_fine = std::log(medium.h / fine.h);
+    const double step = medium.value - fine.value;
+    const double gain = std::expm1(*order * log_fine);
     // Three grids whose order no common method has are not in the asymptotic range: the factor of
     // two grids, and no order above that (Oberkampf and Roy 2010, 8.6).
     constexpr double greatest_believed = 4;
-    if (high > 1.1 * greatest_believed)
+    if (*order > 1.1 * greatest_believed)
         return MethodLimit{fine.value - step / gain,
-                           3 * std::abs(step) / std::expm1(greatest_believed * log_fine), high,
+                           3 * std::abs(step) / std::expm1(greatest_believed * log_fine), *order,
                            "f0 + C h^p; order above 4: factor 3, order 4 in the uncertainty"};
     constexpr double safety = 1.25; // of an order observed on three grids
-    return MethodLimit{fine.value - step / gain, safety * std::abs(step) / gain, high,
+    return MethodLimit{fine.value - step / gain, safety * std::abs(step) / gain, *order,
                        "f0 + C h^p"};
 }
 

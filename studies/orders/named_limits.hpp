@@ -20,7 +20,10 @@ struct MethodLimit {
 
 // Levels: coarse to fine, of different widths, finite.
 
-/// The three finest levels; none where they oscillate, stand still or run apart.
+/// Of the three finest levels; none where they oscillate, stand still or run apart.
+std::optional<double> order_of_finest(std::span<const ValueRow> levels);
+
+/// The three finest levels; none either where their steps are all but the same.
 std::optional<MethodLimit> gci_of(std::span<const ValueRow> levels);
 /// The same levels, with the order of |ε_32 / ε_21| and its sign (their eq. 3): oscillation too.
 std::optional<MethodLimit> celik_of(std::span<const ValueRow> levels);

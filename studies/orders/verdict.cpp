@@ -27,7 +27,7 @@ bool are_one_level(const Refinement& from, const Refinement& to) {
     if (same(from.h, to.h) && same(from.dt, to.dt))
         return true;
     const auto ratio = refinement_ratio(from, to);
-    return ratio && std::abs(std::log(*ratio)) < std::log(OrderTuning{}.one_level);
+    return ratio && std::abs(std::log(*ratio)) <= std::log(OrderTuning{}.one_level);
 }
 
 /// Their mean, exactly where all are the same.
