@@ -16,7 +16,8 @@ PublishedFigures read_printed(TableReader table, const LadderBlock& ladder,
     printed.figures = read_by_measure(
         table, keys, ladder.norms, [&](const std::string& name, const std::vector<double>& list) {
             if (list.size() != ladder.rungs.size())
-                throw table.error(name, " has " + std::to_string(list.size()) + " values for " +
+                throw table.error(name, " has " + std::to_string(list.size()) +
+                                            (list.size() == 1 ? " value for " : " values for ") +
                                             std::to_string(ladder.rungs.size()) +
                                             " levels; give one a level, or none: --set " +
                                             table.full("") + "={}");
