@@ -82,7 +82,7 @@ BOOST_AUTO_TEST_CASE(what_runs_did_is_expected_level_by_level) {
     // A counter that there is not is not zero.
     BOOST_TEST(violations(checked(counters + "{ heat_solve = [0, 0] }")) == 1U);
     BOOST_TEST(message_of(counters + "{ heat_solves = [2000] }")
-                   .find("heat_solves has 1 values for 2 rungs; give one a rung") !=
+                   .find("heat_solves has 1 value for 2 rungs; give one a rung") !=
                std::string::npos);
 }
 
@@ -228,7 +228,7 @@ BOOST_AUTO_TEST_CASE(wrong_expectations_are_told) {
     says("[expect.ladder.theta_L2L2_sq]\norders = [4.1, 3.9]\n",
          "lowest value is not below its highest");
     says("[expect.ladder.theta_L2L2_sq]\norders = [3.9, inf]\n", "finite");
-    says("[expect.ladder.theta_L2L2_sq]\nerrors = [1e-3]\n", "has 1 values for 2 rungs");
+    says("[expect.ladder.theta_L2L2_sq]\nerrors = [1e-3]\n", "has 1 value for 2 rungs");
     says("[expect.ladder.theta_L2L2_sq]\norder = [3.9, 4.1]\n", "did you mean 'orders'?");
     says("[expect.ladder.u_LinfH2]\norders = [3.9, 4.1]\n",
          "expect.ladder.u_LinfH2 expects something of what the study does not measure");
@@ -243,7 +243,7 @@ BOOST_AUTO_TEST_CASE(wrong_expectations_are_told) {
          ":17:10: expect.ladder.theta_L2L2_sq.within");
     says(ladder + "errors = [1e-3, -1e-5]\n",
          ":16:17: expect.ladder.theta_L2L2_sq.errors holds -1e-05");
-    says(ladder + "verdicts = [\"asymptotic\"]\n", "has 1 values for 2 rungs");
+    says(ladder + "verdicts = [\"asymptotic\"]\n", "has 1 value for 2 rungs");
     says(ladder + "verdicts = [\"asymptotic\", \"asymtotic\"]\n",
          ":16:27: expect.ladder.theta_L2L2_sq.verdicts holds 'asymtotic', which is no verdict; did "
          "you mean 'asymptotic'?");

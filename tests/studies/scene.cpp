@@ -126,7 +126,7 @@ const std::vector<Wrong> wrong_scenes{
     {"\"u_LinfH2semi\"", "\"u_LinfH2sem\"", "17:32",
      "unknown norm 'u_LinfH2sem'; did you mean 'u_LinfH2semi'?"},
     {"\"u_LinfH2semi\"", "\"theta_L2L2_sq\"", "17:32", "names 'theta_L2L2_sq' twice"},
-    {"[1.0, 2.0]", "[1.0]", "21:17", "ladder.printed.theta_L2L2_sq has 1 values for 2 levels"},
+    {"[1.0, 2.0]", "[1.0]", "21:17", "ladder.printed.theta_L2L2_sq has 1 value for 2 levels"},
     {"elements   = [10, 20]", "elements   = [20, 10]", "15:19",
      "ladder.elements: level 2 is coarser"},
     {"dt         = [1e-3, 5e-4]", "dt         = [5e-4, 1e-3]", "16:21",
@@ -296,6 +296,19 @@ BOOST_AUTO_TEST_CASE(a_wrong_override_is_told_with_its_text) {
     says("title.x=1", "'title' is a string, not a table");
     says("beam.zata=1", "unknown key 'beam.zata'; did you mean 'zeta'?");
     says("ladder.dt=0.1/q", "q");
+}
+
+// Which files there are to be written, the caller knows; who does not say takes any.
+BOOST_AUTO_TEST_CASE(a_report_may_name_the_files_that_the_caller_knows_or_any) {
+    const TemporaryDirectory directory;
+    const std::string file = directory.write("my.toml", good + "\n[report]\nfiles = [\"json\"]\n");
+    BOOST_TEST(read_scene(file).report.names("json"));
+    BOOST_TEST(read_scene(file, {}, {.report_files = {"csv", "json"}}).report.names("json"));
+    BOOST_CHECK_EXCEPTION(read_scene(file, {}, {.report_files = {"csv"}}), InputError,
+                          [](const InputError& error) {
+                              return std::string(error.what()).ends_with(
+                                  "report.files names 'json'; known are 'csv'");
+                          });
 }
 
 BOOST_AUTO_TEST_CASE(a_missing_scene_is_told_with_the_nearest_name) {
