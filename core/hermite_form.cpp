@@ -1,7 +1,7 @@
 #include "core/hermite_form.hpp"
 
-#include "core/finite.hpp"
 #include "core/contact/contact.hpp"
+#include "core/finite.hpp"
 #include "core/space/cells.hpp"
 #include "core/space/quadrature.hpp"
 

@@ -174,8 +174,7 @@ std::string MomentForm::solve(double c, double t,
 
     if (heat_ && !are_finite(increment_))
         return "the temperature is not finite";
-    if (bending_ &&
-        !(w_.weights.allFinite() && std::isfinite(stress_) && are_finite(w_.rest)))
+    if (bending_ && !(w_.weights.allFinite() && std::isfinite(stress_) && are_finite(w_.rest)))
         return "the curvature is not finite";
     return {};
 }

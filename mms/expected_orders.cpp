@@ -320,9 +320,10 @@ std::vector<std::string> reasons(const ExpectedOrders& known, const Beam& beam) 
                                              "there.");
     if (known.is_quadratic) {
         const std::string what = coupled ? "theta and u_xx are of degree 2 at most in t"
-                                 : !known.u_has_time_error     ? "theta is quadratic in t"
-                                 : !known.theta_has_time_error ? "u_xx is quadratic in t"
-                                                               : "theta and u_xx are quadratic in t";
+                                 : !known.u_has_time_error ? "theta is quadratic in t"
+                                 : !known.theta_has_time_error
+                                     ? "u_xx is quadratic in t"
+                                     : "theta and u_xx are quadratic in t";
         text.push_back(what + ": BDF2 has no error but that of its first step, which SDIRK2 makes: "
                               "order 3.");
     }

@@ -177,13 +177,12 @@ void require_between_stops(const ex& u, const SourceText& source, const Beam& be
     const double tip = deflection(deflection.size() - 1);
     const bool rigid = beam.stops.epsilon == 0.0;
     if (rigid && (tip < beam.stops.lower - tolerance || tip > beam.stops.upper + tolerance))
-        throw InputError(source.begin(), "(6): u0(1) is " +
-                                             number_text_beside(tip, tip < beam.stops.lower
-                                                                         ? beam.stops.lower
-                                                                         : beam.stops.upper) +
-                                             "; it must be between the stops " +
-                                             number_text(beam.stops.lower) + " and " +
-                                             number_text(beam.stops.upper));
+        throw InputError(source.begin(),
+                         "(6): u0(1) is " +
+                             number_text_beside(tip, tip < beam.stops.lower ? beam.stops.lower
+                                                                            : beam.stops.upper) +
+                             "; it must be between the stops " + number_text(beam.stops.lower) +
+                             " and " + number_text(beam.stops.upper));
 }
 
 /// ∫_y^1 (x − y) q dx for q = x^n, by parts twice: the antiderivative's antiderivative is

@@ -218,15 +218,15 @@ private:
                                   [&] { return numeric_value(substituted(exact, values)); });
         const DomainInterval range = system().domain.at(entry.variable);
         if (at != range.begin && at != range.end)
-            throw InputError(entry.position.begin(),
-                             entry.variable + " = " +
-                                 number_text_beside(at, std::abs(at - range.begin) <
-                                                                std::abs(at - range.end)
-                                                            ? range.begin
-                                                            : range.end) +
-                                 " is not on the boundary of the domain, " + entry.variable +
-                                 " from " + number_text(range.begin) + " to " +
-                                 number_text(range.end) + "; [domain] says where it ends");
+            throw InputError(
+                entry.position.begin(),
+                entry.variable + " = " +
+                    number_text_beside(at, std::abs(at - range.begin) < std::abs(at - range.end)
+                                               ? range.begin
+                                               : range.end) +
+                    " is not on the boundary of the domain, " + entry.variable + " from " +
+                    number_text(range.begin) + " to " + number_text(range.end) +
+                    "; [domain] says where it ends");
         const auto index = static_cast<std::size_t>(
             std::find(coordinate_names().begin(), coordinate_names().end(), entry.variable) -
             coordinate_names().begin());

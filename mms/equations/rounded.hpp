@@ -20,8 +20,7 @@ struct Rounded {
     /// acos at -1, nothing is known, and it is not said to be 0.
     [[nodiscard]] bool may_be_zero() const {
         constexpr long double round_off = 64.0L * 0x1p-64L;
-        return value == 0.0L ||
-               (std::isfinite(bound) && std::abs(value) <= round_off * bound);
+        return value == 0.0L || (std::isfinite(bound) && std::abs(value) <= round_off * bound);
     }
 };
 

@@ -88,10 +88,12 @@ public:
         if (!is_a<GiNaC::add>(inside))
             return inside;
         if (is_whole)
-            return better_of_both_signs(inside, [](const ex& one) { return formula_text(one).size(); });
+            return better_of_both_signs(inside,
+                                        [](const ex& one) { return formula_text(one).size(); });
         // GiNaC has a sum that is a factor with the one or the other sign, as its addresses fall.
         const bool is_turned = begins_with_minus(*canonical(inside));
-        const ex better = better_of_both_signs(is_turned ? -inside : inside, [this](const ex& one) { return length(one); });
+        const ex better = better_of_both_signs(is_turned ? -inside : inside,
+                                               [this](const ex& one) { return length(one); });
         return is_turned ? -better : better;
     }
 

@@ -331,8 +331,8 @@ const toml::node* TableReader::find(std::string_view key, KeyType type) {
         known_.emplace_back(key);
     const toml::node* node = table_->get(key);
     const KeyTable::Node* entry = keys_ != nullptr ? keys_->find(key) : nullptr;
-    const bool differs = keys_ != nullptr && entry != nullptr &&
-                         !may_be_read_as(entry->entry->type, type);
+    const bool differs =
+        keys_ != nullptr && entry != nullptr && !may_be_read_as(entry->entry->type, type);
     if (differs && node != nullptr && type == KeyType::table) // by a name that the user gave
         throw InputError(place(key), full(key) + " is a key of its own, " +
                                          words_of(entry->entry->type) +

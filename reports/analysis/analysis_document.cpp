@@ -126,7 +126,8 @@ Section section_of(const DataAnalysis& analysis, const ColumnAnalysis& column) {
 Document analysis_document(const DataAnalysis& analysis) {
     Document document;
     document.title = "Analysis of " + analysis.name;
-    document.head.push_back(fmt::format("{} row{}; ±: 95 %", analysis.rows(), analysis.rows() == 1 ? "" : "s"));
+    document.head.push_back(
+        fmt::format("{} row{}; ±: 95 %", analysis.rows(), analysis.rows() == 1 ? "" : "s"));
     document.head.insert(document.head.end(), analysis.remarks.begin(), analysis.remarks.end());
     document.provenance = {{"file", analysis.name}};
     for (const auto& column : analysis.columns)

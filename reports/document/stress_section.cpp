@@ -190,12 +190,12 @@ Section contraction_section(const ContractionMap& map, const ContractionBlock& b
     }
     return {"Contraction of the fixed point",
             {Paragraph{legend}, Preformatted{text},
-             Finding{fmt::format("measured/predicted: {}; {} of {} refused",
-                                 std::isnan(map.least_ratio())
-                                     ? "all too small to be measured"
-                                     : fmt::format("{:.6f} to {:.6f}", map.least_ratio(),
-                                                   map.greatest_ratio()),
-                                 map.refused(), map.predicted.size())}}};
+             Finding{fmt::format(
+                 "measured/predicted: {}; {} of {} refused",
+                 std::isnan(map.least_ratio())
+                     ? "all too small to be measured"
+                     : fmt::format("{:.6f} to {:.6f}", map.least_ratio(), map.greatest_ratio()),
+                 map.refused(), map.predicted.size())}}};
 }
 
 Section round_off_section(const RoundOffTable& table) {

@@ -99,8 +99,10 @@ void split(const Lines& lines, std::string_view line, char separator,
             at = end + 1;
             if (separator != ' ')
                 at = std::min(line.find_first_not_of(" \r", at), line.size());
-            const bool is_behind = at < line.size() && (separator == ' ' ? blanks.find(line[at]) == std::string_view::npos
-                                     : line[at] != separator);
+            const bool is_behind =
+                at < line.size() &&
+                (separator == ' ' ? blanks.find(line[at]) == std::string_view::npos
+                                  : line[at] != separator);
             if (is_behind)
                 throw InputError(lines.place(column(at)), "something stands behind a closed quote");
         } else {

@@ -63,7 +63,8 @@ std::vector<std::string> all_verdicts() {
 void require_count(const TableReader& table, const std::string& key, std::size_t values,
                    std::size_t count, const std::string& rows) {
     if (values != count)
-        throw table.error(key, " has " + std::to_string(values) + (values == 1 ? " value for " : " values for ") +
+        throw table.error(key, " has " + std::to_string(values) +
+                                   (values == 1 ? " value for " : " values for ") +
                                    std::to_string(count) + " " + rows + "s; give one a " + rows);
 }
 

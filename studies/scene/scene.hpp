@@ -36,7 +36,7 @@ struct Scene {
     std::vector<Expectation> expectations;   ///< empty unless they were asked for
     std::optional<GivenData> defect;         ///< that every run adds to the problem
     ReportBlock report;                      ///< what --out writes
-    bool is_gate = false;               ///< it is there for what the program says and refuses
+    bool is_gate = false;                    ///< it is there for what the program says and refuses
     bool is_long = false;               ///< it may take as long as it does (predicted_work.hpp)
     std::string text;                   ///< the file as it stands, without overrides
     std::vector<std::string> overrides; ///< KEY=VALUE each, in their order

@@ -66,9 +66,11 @@ BOOST_AUTO_TEST_CASE(sums_of_either_sign_are_one_formula_and_one_problem_in_ever
     const std::string small = "\"\nu = \"1e-9*x^2*";
     const std::vector<std::string> solutions = {
         linear + "x*(x + pi)*(t^2*pi)^3" + small + "(exp(tanh(3)) - (t*x*(x - t))^3)\"\n",
-        linear + "x/(1 + x)*sin(4*x)*(pi - t - x)" + small + "(cos(x) - t*cos(x))*cos((5 - 2*x)/(2 + x))\"\n",
+        linear + "x/(1 + x)*sin(4*x)*(pi - t - x)" + small +
+            "(cos(x) - t*cos(x))*cos((5 - 2*x)/(2 + x))\"\n",
         linear + "(exp(x)/3 - 1)^3*cos(t)" + small + "(exp(x/(1 + x)) - 1)^2*(1 + t)\"\n",
-        linear + "(t/(2 + x) + t)*(x*t*(1 + x) - exp(t*x) - t)" + small + "(t*x^2/(2 + x))^3*cos((t/(2 + x))^2)\"\n"};
+        linear + "(t/(2 + x) + t)*(x*t*(1 + x) - exp(t*x) - t)" + small +
+            "(t*x^2/(2 + x))^3*cos((t/(2 + x))^2)\"\n"};
     for (const std::string& solution : solutions) {
         directory.write("mine.toml", solution);
         directory.write("scene.toml",
@@ -76,13 +78,16 @@ BOOST_AUTO_TEST_CASE(sums_of_either_sign_are_one_formula_and_one_problem_in_ever
                         "final_time = 0.1\nelements = [4]\ndt = [0.025]\n");
         std::set<std::string> said;
         for (int run = 0; run < (short_tests ? 4 : 8); ++run) {
-            const std::string formulas = call(directory, "derive " + (directory.path() / "mine.toml").string()).output;
+            const std::string formulas =
+                call(directory, "derive " + (directory.path() / "mine.toml").string()).output;
             const std::string result =
-                call(directory, "run " + (directory.path() / "scene.toml").string() + " --json -").output;
+                call(directory, "run " + (directory.path() / "scene.toml").string() + " --json -")
+                    .output;
             std::istringstream lines(result);
             std::string kept;
             for (std::string line; std::getline(lines, line);)
-                if (has(line, "doubles_allocated") || has(line, "_L2L2\": ") || has(line, "H2semi\": "))
+                if (has(line, "doubles_allocated") || has(line, "_L2L2\": ") ||
+                    has(line, "H2semi\": "))
                     kept += line;
             BOOST_TEST(has(kept, "doubles_allocated"), result);
             said.insert(formulas + kept);

@@ -47,8 +47,8 @@ BOOST_AUTO_TEST_CASE(what_is_no_file_is_refused_with_what_it_is) {
     BOOST_TEST(refusal_of(folder + "/nothing", 10)
                    .ends_with("check the path and its permissions (No such file or directory)"),
                refusal_of(folder + "/nothing", 10));
-    BOOST_TEST(refusal_of("/dev/zero", 10).ends_with(
-                   "gives more than the 10 bytes that are read at most; name a file"),
+    BOOST_TEST(refusal_of("/dev/zero", 10)
+                   .ends_with("gives more than the 10 bytes that are read at most; name a file"),
                refusal_of("/dev/zero", 10));
 }
 

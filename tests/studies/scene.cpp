@@ -306,8 +306,8 @@ BOOST_AUTO_TEST_CASE(a_report_may_name_the_files_that_the_caller_knows_or_any) {
     BOOST_TEST(read_scene(file, {}, {.report_files = {"csv", "json"}}).report.names("json"));
     BOOST_CHECK_EXCEPTION(read_scene(file, {}, {.report_files = {"csv"}}), InputError,
                           [](const InputError& error) {
-                              return std::string(error.what()).ends_with(
-                                  "report.files names 'json'; known are 'csv'");
+                              return std::string(error.what())
+                                  .ends_with("report.files names 'json'; known are 'csv'");
                           });
 }
 
