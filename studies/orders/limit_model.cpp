@@ -82,7 +82,7 @@ std::optional<LinearFit> fit_limit_model(std::span<const ValueRow> rows, const W
             at(left).square < at(right).square ? right : left;
     }
     auto fit = at((low + high) / 2);
-    if (fit.order < least_order)
+    if (fit.order < least_order * (1 - 1e-6)) // but for rounding
         return std::nullopt;
     // The standard error at the best order knows nothing of the order's own: that of the linearised
     // model does.
