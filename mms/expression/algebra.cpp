@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
+#include <map>
 #include <new>
 #include <string_view>
 #include <utility>
@@ -117,26 +118,33 @@ ex function_value(const std::string& name, const ex& argument) {
 }
 
 /// A product with x^(a + t)/x as x^(a - 1 + t): GiNaC joins powers of one base where both exponents
-/// are numbers.
+/// are numbers. All of them are joined, so that nothing hangs on the order of the factors.
 ex product_by_bases(const ex& product) {
-    const auto power_of = [](const ex& factor) {
-        return is_a<GiNaC::power>(factor) ? std::pair{factor.op(0), factor.op(1)}
-                                          : std::pair{factor, ex(1)};
-    };
     if (!is_a<GiNaC::mul>(product))
         return product;
-    for (const ex& power : product) {
-        const auto [base, exponent] = power_of(power);
-        if (is_a<numeric>(exponent) || is_a<numeric>(base))
+    std::map<ex, ex, GiNaC::ex_is_less> exponents;
+    ex result = 1;
+    bool joined = false;
+    bool varies = false;
+    for (const ex& factor : product) {
+        const bool is_power = is_a<GiNaC::power>(factor);
+        const ex base = is_power ? factor.op(0) : factor;
+        const ex exponent = is_power ? factor.op(1) : ex(1);
+        varies = varies || !is_a<numeric>(exponent);
+        if (is_a<numeric>(base)) {
+            result *= factor;
             continue;
-        // One pair is all: a derivative adds one factor.
-        for (const ex& factor : product) {
-            const auto [same, other] = power_of(factor);
-            if (same.is_equal(base) && !factor.is_equal(power))
-                return product / power / factor * pow(base, exponent + other);
         }
+        const auto [known, is_new] = exponents.try_emplace(base, exponent);
+        if (!is_new)
+            known->second = (known->second + exponent).expand();
+        joined = joined || !is_new;
     }
-    return product;
+    if (!joined || !varies)
+        return product;
+    for (const auto& [base, exponent] : exponents)
+        result *= pow(base, exponent);
+    return result;
 }
 
 /// The derivative. GiNaC's own of b^a is b^a (a' log b + a b'/b), which has no value at b = 0; this

@@ -65,6 +65,8 @@ BOOST_AUTO_TEST_CASE(sums_of_either_sign_are_one_formula_and_one_problem_in_ever
     const std::string linear = "theta = \"theta_A*(1 - x) + x*(1 - x)*";
     const std::string small = "\"\nu = \"1e-9*x^2*";
     const std::vector<std::string> solutions = {
+        "theta = \"0\"\nu = \"1e-7*x^2*exp(x)^t\"\n",
+        "theta = \"0\"\nu = \"1e-3*x^2*((2 + x*t)^t)^3\"\n",
         linear + "x*(x + pi)*(t^2*pi)^3" + small + "(exp(tanh(3)) - (t*x*(x - t))^3)\"\n",
         linear + "x/(1 + x)*sin(4*x)*(pi - t - x)" + small +
             "(cos(x) - t*cos(x))*cos((5 - 2*x)/(2 + x))\"\n",
