@@ -1,5 +1,6 @@
 #include "mms/equations/dialect.hpp"
 
+#include "mms/equations/reserved_words.hpp"
 #include "mms/text/characters.hpp"
 
 #include <fmt/format.h>
@@ -27,6 +28,20 @@ std::string identifier_of(const std::string& title) {
     for (const char c : title)
         name += is_letter(c) || is_digit(c) ? c : '_';
     return is_letter(name.front()) ? name : "tvbeam_" + name;
+}
+
+/// A name made of the file's for what holds its functions: none of those `taken`, which are folded,
+/// and no longer than the language allows.
+std::string module_of(const Dialect& dialect, const CodeFile& file,
+                      const std::set<std::string>& taken) {
+    const std::string wanted = dialect.identifier(identifier_of(file.name));
+    const auto cut = [&](const std::string& ending) {
+        return wanted.substr(0, dialect.longest_name - ending.size()) + ending;
+    };
+    std::string name = cut("");
+    for (std::string ending = "_module"; taken.contains(dialect.folded(name)); ending += '_')
+        name = cut(ending);
+    return name;
 }
 
 /// { in C, C++ and FreeFEM }: declarations, the value, with what a line begins with.
@@ -107,7 +122,7 @@ std::string write_c(const Dialect& /*dialect*/, const CodeFile& file) {
 
 std::string write_cpp(const Dialect& dialect, const CodeFile& file) {
     std::string text = wrapped_comment(file.comment, "//") + "#include <cmath>\n\nnamespace " +
-                       dialect.identifier(identifier_of(file.name)) + " {\n\n";
+                       module_of(dialect, file, global_names(dialect.language)) + " {\n\n";
     if (file.uses_pi)
         text += fmt::format("constexpr double pi = {};\n", pi_digits);
     for (const auto& [name, value] : file.constants)
@@ -145,21 +160,22 @@ std::string fortran_body(const CodeFunction& function) {
            values;
 }
 
-/// A module may not have the name of what is in it.
-std::string module_of(const Dialect& dialect, const CodeFile& file) {
-    const std::string name = identifier_of(file.name);
-    const auto is_name = [&](const std::string& other) {
-        return dialect.folded(other) == dialect.folded(name);
-    };
-    const bool is_taken =
-        std::ranges::any_of(file.functions, is_name, &CodeFunction::name) ||
-        std::ranges::any_of(file.constants, is_name, &std::pair<std::string, std::string>::first) ||
-        is_name("sources") || is_name("dp") || is_name("pi");
-    return is_taken ? name + "_module" : name;
+/// A module may not have the name of what is in it, nor that of an intrinsic function, which it
+/// would hide.
+std::string fortran_module(const Dialect& dialect, const CodeFile& file) {
+    std::set<std::string> taken = global_names(dialect.language);
+    for (const auto& name : file.arguments)
+        taken.insert(dialect.folded(name));
+    for (const auto& function : file.functions)
+        taken.insert(dialect.folded(function.name));
+    for (const auto& [name, value] : file.constants)
+        taken.insert(dialect.folded(name));
+    return module_of(dialect, file, taken);
 }
 
 std::string write_fortran(const Dialect& dialect, const CodeFile& file) {
-    std::string text = wrapped_comment(file.comment, "!") + "module " + module_of(dialect, file) +
+    std::string text = wrapped_comment(file.comment, "!") + "module " +
+                       fortran_module(dialect, file) +
                        "\n  implicit none\n  integer, parameter :: dp = kind(1.0d0)\n";
     if (file.uses_pi)
         text += fmt::format("  real(dp), parameter :: pi = {}_dp\n", pi_digits);
@@ -295,122 +311,33 @@ std::string write_moose(const Dialect& /*dialect*/, const CodeFile& file) {
     return text + "[]\n";
 }
 
-std::set<std::string> words(const char* text) {
-    std::set<std::string> result;
-    std::string word;
-    for (const char* c = text;; ++c) {
-        if (*c != ' ' && *c != '\0') {
-            word += *c;
-            continue;
-        }
-        result.insert(word);
-        word.clear();
-        if (*c == '\0')
-            return result;
-    }
-}
-
-constexpr const char* words_of_c =
-    "auto break case char const continue default do double else enum extern float for goto if "
-    "inline int long main register restrict return short signed sizeof static struct switch "
-    "typedef typeof union unsigned void volatile while asm abs signgam lgamma_r lgammaf_r "
-    "lgammal_r float_t double_t alignas alignof bool constexpr false nullptr static_assert "
-    "thread_local true typeof_unqual values";
-/// Functions of math.h, which also have an f and an l behind their names.
-constexpr const char* functions_of_c =
-    "acos acosh asin asinh atan atan2 atanh cbrt ceil copysign cos cosh drem erf erfc exp exp2 "
-    "expm1 fabs fdim finite floor fma fmax fmin fmod frexp gamma hypot ilogb isinf isnan j0 j1 jn "
-    "ldexp lgamma llrint llround log log10 log1p log2 logb lrint lround modf nan nearbyint "
-    "nextafter nexttoward pow remainder remquo rint round scalb scalbln scalbn significand sin "
-    "sinh sqrt tan tanh tgamma trunc y0 y1 yn";
-/// Macros of math.h, of what C++ includes with it, and of the compilers.
-constexpr const char* macros_of_c =
-    "NAN INFINITY NULL HUGE_VAL HUGE_VALF HUGE_VALL FP_NAN FP_INFINITE FP_ZERO FP_SUBNORMAL "
-    "FP_NORMAL FP_ILOGB0 FP_ILOGBNAN MATH_ERRNO MATH_ERREXCEPT math_errhandling MAXFLOAT SNAN "
-    "SNANF SNANL RAND_MAX EXIT_SUCCESS EXIT_FAILURE BYTE_ORDER BIG_ENDIAN LITTLE_ENDIAN "
-    "PDP_ENDIAN isless islessgreater islessequal isnormal issubnormal fpclassify isgreater "
-    "isgreaterequal isfinite signbit isunordered alloca linux unix i386";
-constexpr const char* words_of_cpp =
-    "alignas alignof and bitand bitor bool break case catch char class compl concept const "
-    "constexpr continue decltype default delete do double else enum explicit export extern false "
-    "float for friend goto if inline int long mutable namespace new noexcept not nullptr operator "
-    "or private protected public register requires return short signed sizeof static std struct "
-    "switch template this throw true try typedef typeid typename union unsigned using virtual void "
-    "volatile while xor asm auto typeof wchar_t char8_t char16_t char32_t float_t double_t and_eq "
-    "or_eq xor_eq not_eq static_cast const_cast dynamic_cast reinterpret_cast static_assert "
-    "thread_local co_await co_return co_yield consteval constinit values";
-constexpr const char* words_of_fortran = "dp kind real values";
-constexpr const char* words_of_python =
-    "and as assert async await break class continue def del elif else except finally for from "
-    "global if import in is lambda nonlocal not or pass raise return try while with None True "
-    "False";
-constexpr const char* words_of_julia =
-    "baremodule begin break catch const continue do else elseif end export false finally for "
-    "function global if import let local macro module quote return struct true try using while "
-    "in isa where im ℯ";
-constexpr const char* words_of_freefem =
-    "N P R R2 R3 area bool border break catch cin complex continue cout element else end endl "
-    "false "
-    "fespace "
-    "for func hTriangle if ifstream include int intalledges lenEdge label load macro matrix mesh "
-    "mesh3 nTonEdge nuEdge nuTriangle ofstream plot problem real region return solve string true "
-    "try varf vertex volume while int1d int2d int3d on dx dy dz dxx dxy dyx dyy mean jump average "
-    "abs arg conj det diag norm real imag trace max min pow rint round floor ceil erf erfc gamma "
-    "lgamma tgamma j0 j1 jn y0 y1 yn i verbosity version time clock";
-constexpr const char* words_of_moose =
-    "e abs max min if int pow plog acosh arg asinh atan2 atanh cbrt ceil conj cot csc erf erfc "
-    "exp2 floor hypot imag log10 log2 polar real rint round sec trunc";
-
-/// With M_PI and the like, also with the endings of types.
-std::set<std::string> all_macros() {
-    std::set<std::string> all = words(macros_of_c);
-    for (const auto& number :
-         words("E LOG2E LOG10E LN2 LN10 PI PI_2 PI_4 1_PI 2_PI 2_SQRTPI SQRT2 SQRT1_2"))
-        for (const char* end : {"", "f", "l", "f32", "f64", "f128", "f32x", "f64x"})
-            all.insert("M_" + number + end);
-    return all;
-}
-
-std::set<std::string> all_words_of_c() {
-    std::set<std::string> all = words(words_of_c);
-    all.merge(all_macros());
-    for (const auto& function : words(functions_of_c))
-        for (const char* end : {"", "f", "l"})
-            all.insert(function + end);
-    return all;
-}
-
-std::set<std::string> all_words_of_cpp() {
-    std::set<std::string> all = words(words_of_cpp);
-    all.merge(all_macros());
-    return all;
-}
-
 const std::array<Dialect, 8>& dialects() {
     using enum CodeLanguage;
     static const std::array<Dialect, 8> all = {
-        Dialect{c, "c", {}, all_words_of_c(), false, write_c},
-        Dialect{cpp, "c++", {.function_prefix = "std::"}, all_words_of_cpp(), false, write_cpp},
+        Dialect{c, "c", {}, reserved_words(c), false, write_c},
+        Dialect{cpp, "c++", {.function_prefix = "std::"}, reserved_words(cpp), false, write_cpp},
         Dialect{fortran,
                 "fortran",
                 {.number_ending = "_dp", .power = "**"},
-                words(words_of_fortran),
+                reserved_words(fortran),
                 true,
-                write_fortran},
-        Dialect{python, "python", {.power = "**"}, words(words_of_python), false, write_python},
-        Dialect{julia, "julia", {.power = "^"}, words(words_of_julia), false, write_julia},
+                write_fortran,
+                true,
+                63},
+        Dialect{python, "python", {.power = "**"}, reserved_words(python), false, write_python},
+        Dialect{julia, "julia", {.power = "^"}, reserved_words(julia), false, write_julia},
         Dialect{freefem,
                 "freefem",
                 {.power = "^"},
-                words(words_of_freefem),
+                reserved_words(freefem),
                 false,
                 write_freefem,
                 false},
-        Dialect{ufl, "ufl", {.power = "**"}, words(words_of_python), false, write_ufl},
+        Dialect{ufl, "ufl", {.power = "**"}, reserved_words(ufl), false, write_ufl},
         Dialect{moose,
                 "moose",
                 {.decimal_point = false, .power = "^"},
-                words(words_of_moose),
+                reserved_words(moose),
                 false,
                 write_moose},
     };

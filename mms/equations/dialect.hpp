@@ -19,6 +19,7 @@ struct Dialect {
     bool ignores_case = false;
     std::string (*write)(const Dialect& dialect, const CodeFile& file);
     bool underscores = true; ///< in names
+    std::size_t longest_name = std::string::npos;
 
     /// The name, without what names may not have, and with a _ (or 0) at its end where it is
     /// reserved.

@@ -389,6 +389,32 @@ BOOST_AUTO_TEST_CASE(names_that_headers_take_are_changed_so_that_the_code_compil
     }
 }
 
+// A module or a namespace is called as the file: as a function of the language, as what is in it,
+// or by more letters than the language takes.
+BOOST_AUTO_TEST_CASE(files_of_any_name_become_code_that_compiles) {
+    if (short_tests)
+        return;
+    const Folder folder;
+    const auto compiles = [&](CodeLanguage language, const std::string& name,
+                              const std::string& ending, const std::string& command) {
+        if (!has_program(tools().at(language)))
+            return;
+        const auto derived = derive_system(
+            parse_equation_system("[parameters]\nkappa = 2\n[unknowns]\nu = \"sin(x)*t\"\n"
+                                  "[equations]\nf = \"kappa*u\"\nf_module = \"diff(u, x)\"\n",
+                                  name + ".toml"));
+        folder.write("code" + ending, system_code(derived, language));
+        const std::string line = "cd '" + folder.path().string() + "' && " + command;
+        BOOST_TEST(std::system(line.c_str()) == 0, name << " in " << ending);
+    };
+    for (const std::string name :
+         {"sin", "Kind", "f", "F_module", "kappa", "x", "t", "dp", "values", "div", "exit",
+          "gammaf", "class", "2d-heat", std::string(80, 'm').c_str()}) {
+        compiles(CodeLanguage::fortran, name, ".f90", "gfortran -std=f2008 -fsyntax-only code.f90");
+        compiles(CodeLanguage::cpp, name, ".cpp", "c++ -std=c++11 -Werror -fsyntax-only code.cpp");
+    }
+}
+
 BOOST_AUTO_TEST_CASE(what_is_used_once_is_not_named_and_what_is_zero_is_not_added) {
     const auto derived =
         derive_system(parse_equation_system("[unknowns]\nu = \"sin(x)*t\"\n[equations]\nf = "

@@ -1,0 +1,142 @@
+#include "mms/equations/reserved_words.hpp"
+
+namespace tvbeam {
+
+namespace {
+
+/// The words of a text.
+std::set<std::string> words(const char* text) {
+    std::set<std::string> result;
+    std::string word;
+    for (const char* c = text;; ++c) {
+        if (*c != ' ' && *c != '\0') {
+            word += *c;
+            continue;
+        }
+        result.insert(word);
+        word.clear();
+        if (*c == '\0')
+            return result;
+    }
+}
+
+constexpr const char* words_of_c =
+    "auto break case char const continue default do double else enum extern float for goto if "
+    "inline int long main register restrict return short signed sizeof static struct switch "
+    "typedef typeof union unsigned void volatile while asm abs signgam lgamma_r lgammaf_r "
+    "lgammal_r float_t double_t alignas alignof bool constexpr false nullptr static_assert "
+    "thread_local true typeof_unqual values";
+/// Functions of math.h, which also have an f and an l behind their names.
+constexpr const char* functions_of_c =
+    "acos acosh asin asinh atan atan2 atanh cbrt ceil copysign cos cosh drem erf erfc exp exp2 "
+    "expm1 fabs fdim finite floor fma fmax fmin fmod frexp gamma hypot ilogb isinf isnan j0 j1 jn "
+    "ldexp lgamma llrint llround log log10 log1p log2 logb lrint lround modf nan nearbyint "
+    "nextafter nexttoward pow remainder remquo rint round scalb scalbln scalbn significand sin "
+    "sinh sqrt tan tanh tgamma trunc y0 y1 yn";
+/// Macros of math.h, of what C++ includes with it, and of the compilers.
+constexpr const char* macros_of_c =
+    "NAN INFINITY NULL HUGE_VAL HUGE_VALF HUGE_VALL FP_NAN FP_INFINITE FP_ZERO FP_SUBNORMAL "
+    "FP_NORMAL FP_ILOGB0 FP_ILOGBNAN MATH_ERRNO MATH_ERREXCEPT math_errhandling MAXFLOAT SNAN "
+    "SNANF SNANL RAND_MAX EXIT_SUCCESS EXIT_FAILURE BYTE_ORDER BIG_ENDIAN LITTLE_ENDIAN "
+    "PDP_ENDIAN isless islessgreater islessequal isnormal issubnormal fpclassify isgreater "
+    "isgreaterequal isfinite signbit isunordered alloca linux unix i386";
+/// Other functions at global scope where C++ includes <cmath>.
+constexpr const char* other_functions_of_c =
+    "abort abs atexit atof atoi atol bsearch calloc div exit free getenv labs ldiv llabs lldiv "
+    "malloc qsort rand random realloc srand srandom std strtod strtol system";
+constexpr const char* words_of_cpp =
+    "alignas alignof and bitand bitor bool break case catch char class compl concept const "
+    "constexpr continue decltype default delete do double else enum explicit export extern false "
+    "float for friend goto if inline int long mutable namespace new noexcept not nullptr operator "
+    "or private protected public register requires return short signed sizeof static std struct "
+    "switch template this throw true try typedef typeid typename union unsigned using virtual void "
+    "volatile while xor asm auto typeof wchar_t char8_t char16_t char32_t float_t double_t and_eq "
+    "or_eq xor_eq not_eq static_cast const_cast dynamic_cast reinterpret_cast static_assert "
+    "thread_local co_await co_return co_yield consteval constinit values";
+constexpr const char* words_of_fortran = "dp kind real values";
+constexpr const char* intrinsics_of_fortran =
+    "abs acos asin atan cos cosh dp exp kind log pi real sin sinh sources sqrt tan tanh values";
+constexpr const char* words_of_python =
+    "and as assert async await break class continue def del elif else except finally for from "
+    "global if import in is lambda nonlocal not or pass raise return try while with None True "
+    "False";
+constexpr const char* words_of_julia =
+    "baremodule begin break catch const continue do else elseif end export false finally for "
+    "function global if import let local macro module quote return struct true try using while "
+    "in isa where im ℯ";
+constexpr const char* words_of_freefem =
+    "N P R R2 R3 area bool border break catch cin complex continue cout element else end endl "
+    "false "
+    "fespace "
+    "for func hTriangle if ifstream include int intalledges lenEdge label load macro matrix mesh "
+    "mesh3 nTonEdge nuEdge nuTriangle ofstream plot problem real region return solve string true "
+    "try varf vertex volume while int1d int2d int3d on dx dy dz dxx dxy dyx dyy mean jump average "
+    "abs arg conj det diag norm real imag trace max min pow rint round floor ceil erf erfc gamma "
+    "lgamma tgamma j0 j1 jn y0 y1 yn i verbosity version time clock";
+constexpr const char* words_of_moose =
+    "e abs max min if int pow plog acosh arg asinh atan2 atanh cbrt ceil conj cot csc erf erfc "
+    "exp2 floor hypot imag log10 log2 polar real rint round sec trunc";
+
+/// With M_PI and the like, also with the endings of types.
+std::set<std::string> all_macros() {
+    std::set<std::string> all = words(macros_of_c);
+    for (const auto& number :
+         words("E LOG2E LOG10E LN2 LN10 PI PI_2 PI_4 1_PI 2_PI 2_SQRTPI SQRT2 SQRT1_2"))
+        for (const char* end : {"", "f", "l", "f32", "f64", "f128", "f32x", "f64x"})
+            all.insert("M_" + number + end);
+    return all;
+}
+
+std::set<std::string> all_functions_of_c() {
+    std::set<std::string> all;
+    for (const auto& function : words(functions_of_c))
+        for (const char* end : {"", "f", "l"})
+            all.insert(function + end);
+    return all;
+}
+
+std::set<std::string> all_words_of_c() {
+    std::set<std::string> all = words(words_of_c);
+    all.merge(all_macros());
+    all.merge(all_functions_of_c());
+    return all;
+}
+
+std::set<std::string> all_words_of_cpp() {
+    std::set<std::string> all = words(words_of_cpp);
+    all.merge(all_macros());
+    return all;
+}
+
+} // namespace
+
+std::set<std::string> reserved_words(CodeLanguage language) {
+    switch (language) {
+    case CodeLanguage::c:
+        return all_words_of_c();
+    case CodeLanguage::cpp:
+        return all_words_of_cpp();
+    case CodeLanguage::fortran:
+        return words(words_of_fortran);
+    case CodeLanguage::python:
+    case CodeLanguage::ufl:
+        return words(words_of_python);
+    case CodeLanguage::julia:
+        return words(words_of_julia);
+    case CodeLanguage::freefem:
+        return words(words_of_freefem);
+    case CodeLanguage::moose:
+        break;
+    }
+    return words(words_of_moose);
+}
+
+std::set<std::string> global_names(CodeLanguage language) {
+    if (language == CodeLanguage::fortran)
+        return words(intrinsics_of_fortran);
+    std::set<std::string> all = all_functions_of_c();
+    all.merge(words(other_functions_of_c));
+    return all;
+}
+
+} // namespace tvbeam

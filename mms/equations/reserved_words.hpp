@@ -1,0 +1,16 @@
+#pragma once
+
+#include "mms/equations/code.hpp"
+
+#include <set>
+#include <string>
+
+namespace tvbeam {
+
+/// Names that functions, their arguments and what they share may not have in a language.
+std::set<std::string> reserved_words(CodeLanguage language);
+
+/// Names that a module of Fortran, or a namespace of C++, may not have.
+std::set<std::string> global_names(CodeLanguage language);
+
+} // namespace tvbeam
