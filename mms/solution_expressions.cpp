@@ -28,9 +28,9 @@ double constant_value(const ex& expression, const SourceText& source, const std:
 void require_later(double end, const PhaseExpressions& phase, const SourceText& until) {
     if (!(end > phase.begin_value))
         throw InputError(until.begin(),
-                         "until is " + number_text(end, 17) + "; it must be greater than " +
+                         "until is " + exact_text(end) + "; it must be greater than " +
                              (phase.begin_value > 0.0 ? "the end of the phase before, " : "") +
-                             number_text(phase.begin_value, 17));
+                             exact_text(phase.begin_value));
 }
 
 ex on_beam(const ex& expression, const GiNaC::exmap& values, const SourceText& source,

@@ -231,7 +231,7 @@ private:
             std::find(coordinate_names().begin(), coordinate_names().end(), entry.variable) -
             coordinate_names().begin());
         add_values(Role::boundary, entry.value, "", {{coordinate(index), exact}},
-                   entry.variable + " = " + number_text(at, 17));
+                   entry.variable + " = " + exact_text(at));
     }
 
     void add_initial(const NamedEntries& named) {
@@ -242,7 +242,7 @@ private:
         const double begin = system().domain.at("t").begin;
         add_values(Role::initial, named, "_initial",
                    {{coordinate(coordinate_count - 1), exact_rational(begin)}},
-                   "t = " + number_text(begin, 17));
+                   "t = " + exact_text(begin));
     }
 
     /// What is called alike in code, as the components of f and an equation f1.

@@ -43,6 +43,7 @@ struct Critical {
     Rule rule;
     int operand;
     bool pole; ///< where it is not met, infinite; otherwise a kink
+    bool has_varying_exponent = false;
 };
 
 std::vector<Critical> criticals_of(const Program& program) {
@@ -55,8 +56,10 @@ std::vector<Critical> criticals_of(const Program& program) {
         const std::string& name = step.text;
         if (step.operation == Operation::divide && !is_constant(step.right))
             result.push_back({Rule::not_zero, step.right, true});
-        else if (step.operation == Operation::power || step.operation == Operation::square_root)
+        else if (step.operation == Operation::square_root)
             result.push_back({Rule::positive, step.left, false});
+        else if (step.operation == Operation::power)
+            result.push_back({Rule::positive, step.left, false, !is_constant(step.right)});
         else if (step.operation == Operation::function && name == "log")
             result.push_back({Rule::positive, step.left, true});
         else if (step.operation == Operation::function && name == "tan")
@@ -285,6 +288,8 @@ private:
         case Critical::Rule::not_zero:
             return "the divisor " + operand + " is 0 ";
         case Critical::Rule::positive:
+            if (critical.has_varying_exponent)
+                return "the base " + operand + " of a power is 0 ";
             return "the argument " + operand +
                    (critical.pole ? " of log is 0 " : " of a root is 0 ");
         case Critical::Rule::cosine:

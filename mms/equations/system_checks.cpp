@@ -85,10 +85,7 @@ private:
         for (const auto& found : singularities_of(program, derived_)) {
             using Kind = Singularity::Kind;
             if (found.kind == Kind::pole || found.kind == Kind::no_value)
-                throw InputError(
-                    exact.source,
-                    exact.of + (found.kind == Kind::pole ? " has a pole: " : " has no value: ") +
-                        found.text + advice);
+                throw InputError(exact.source, exact.of + " has no value: " + found.text + advice);
             if (found.kind == Kind::overflow)
                 throw InputError(exact.source, exact.of + ": " + found.text + advice);
             say(exact.source,
@@ -150,7 +147,7 @@ private:
             using Kind = Singularity::Kind;
             if (known && found.kind >= *known)
                 continue;
-            const std::string what = found.kind == Kind::pole       ? " has a pole: "
+            const std::string what = found.kind == Kind::pole       ? " has no value: "
                                      : found.kind == Kind::no_value ? " has no value in places: "
                                      : found.kind == Kind::kink     ? " is not smooth: "
                                                                     : ": ";

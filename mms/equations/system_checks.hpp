@@ -19,13 +19,12 @@ struct Remark {
 /// - a term that the solution does not exercise: a derivative in an equation is zero everywhere
 /// - a parameter without effect
 /// - poles and kinks: where a divisor is zero, or the argument of log, sqrt, tan, asin, acos or of
-/// a
-///   power leaves what it is smooth on. Looked for at a grid of points with the ends of the domain,
-///   and excluded by interval arithmetic on parts of it; what is neither found nor excluded is
-///   said.
+///   a power leaves what it is smooth on. Looked for at a grid of points with the ends of the
+///   domain, and excluded by interval arithmetic on parts of it; what is neither found nor excluded
+///   is said.
 ///
 /// "Everywhere" is decided by the algebra, or at 64 quasi-random points within the bounds of
-/// rounding. Throws InputError where an exact value itself has a pole in the domain, or no value.
+/// rounding. Throws InputError where an exact value itself has no value in the domain.
 std::vector<Remark> checked_system(DerivedSystem& derived);
 
 /// The last of it alone: what is refused, without what is only said.

@@ -34,8 +34,7 @@ std::optional<std::string> with_solution(const DerivedSystem& derived,
 std::string parameters_text(const DerivedSystem& derived) {
     std::string text;
     for (const auto& parameter : derived.parameters)
-        text +=
-            (text.empty() ? "" : ", ") + parameter.name + " = " + number_text(parameter.value, 17);
+        text += (text.empty() ? "" : ", ") + parameter.name + " = " + exact_text(parameter.value);
     return text;
 }
 

@@ -11,8 +11,8 @@ namespace {
 
 using Advice = std::pair<std::string_view, std::string_view>;
 
-constexpr std::string_view phases =
-    "solutions are smooth; one that is not is given in phases, each [[phase]] with `until`";
+constexpr std::string_view phases = "solutions are smooth; one of the beam that is not is given in "
+                                    "phases, each [[phase]] with `until`";
 
 constexpr Advice functions[] = {
     {"ln", "the natural logarithm is log(…)"},

@@ -10,6 +10,10 @@ std::string number_text(double value, int digits) {
     return std::isnan(value) ? "nan" : fmt::format("{:.{}g}", value, digits);
 }
 
+std::string exact_text(double value) {
+    return std::isnan(value) ? "nan" : fmt::format("{}", value);
+}
+
 std::string number_text_beside(double value, double limit) {
     constexpr int fewest = 6;
     constexpr int all = 17; // which no two doubles share

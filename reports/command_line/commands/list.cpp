@@ -81,9 +81,9 @@ std::size_t group_of(const Scene& scene) {
 
 /// What it costs on one core, to two digits.
 std::string cost_of(const Scene& scene) {
-    const double seconds = predicted_work(scene).seconds;
     if (scene.solver)
         return "?";
+    const double seconds = predicted_work(scene).seconds;
     return seconds < 0.1 ? "< 0.1 s" : duration_text(seconds);
 }
 
@@ -122,8 +122,8 @@ int list_command() {
         const Scene scene = read_scene(file.path.string(), {}, {.unrun = true});
         grouped.at(group_of(scene)).push_back({file.name, cost_of(scene), scene.title});
     }
-    std::string text = "Scenes, and about how long they take on one core; tvbeam run NAME "
-                       "runs one,\ntvbeam list NAME prints it.\n";
+    std::string text = "Scenes, and about how long they take on one core (?: with a program "
+                       "of its own);\ntvbeam run NAME runs one, tvbeam list NAME prints it.\n";
     for (std::size_t i = 0; i < groups.size(); ++i)
         text += std::string("\n") + groups.at(i) + "\n" + aligned(grouped.at(i));
     std::vector<Line> solutions;
