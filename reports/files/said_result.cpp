@@ -3,6 +3,7 @@
 #include "reports/analysis/analysis_reports.hpp"
 #include "reports/document/result_document.hpp"
 #include "reports/files/json_values.hpp"
+#include "reports/files/said_report.hpp"
 #include "reports/formats/json_report.hpp"
 #include "reports/studies/study_report.hpp"
 #include "studies/predicted_work.hpp"
@@ -184,13 +185,20 @@ Json examined_by(const std::vector<CheckedExpectation>& checked) {
 
 Json said_by(const StudyResult& result, const std::vector<CheckedExpectation>& checked) {
     Json json = result_json(result);
+    bool timed = false;
     for (const auto& [kind, record] : result.records.entries())
-        if (kind->timed())
+        if (kind->timed()) {
             json[kind->name()].erase("remarks"); // on seconds
+            timed = true;
+        }
     json["basis"] = result.scene.scheme.basis == Basis::nodal ? "nodal" : "automatic";
     json["predicted"] = predicted_work(result.scene).text();
     json["sentences"] = sentences_of(result);
     json["examined"] = examined_by(checked);
+    if (!timed) {
+        json["tables"] = tables_said_by(result);
+        json["files"] = files_said_by(result);
+    }
     const std::filesystem::path folder = std::filesystem::path(result.scene.file).parent_path();
     return kept_of(json, ((folder.empty() ? "." : folder) / "").string());
 }

@@ -15,7 +15,7 @@ struct HtmlFormat final : ReportFormat {
             .document = result.document,
             .failed = result.failed,
             .interrupted = result.interrupted,
-            .formulas = result.formulas,
+            .formulas = result.formulas ? result.formulas() : std::vector<Formula>(),
             .figures = {},
             .no_figures = drawn.failure.empty() ? "" : drawn.failure + ": pictures are left out",
             .scene_text = result.source_text};

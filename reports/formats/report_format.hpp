@@ -29,7 +29,7 @@ struct Reported {
     std::function<std::vector<Plot>()> plots = {};
     bool failed = false;                ///< a run did
     bool interrupted = false;           ///< runs are missing
-    std::vector<Formula> formulas = {}; ///< of the problem
+    std::function<std::vector<Formula>()> formulas = {}; ///< of the problem
     std::string source_text = {};       ///< of the scene
 };
 

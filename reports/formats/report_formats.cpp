@@ -45,7 +45,7 @@ Reported reported(const StudyResult& result) {
                  .source_text = result.scene.text};
     // A stress study has problems of its own.
     if (result.scene.poses_problem() && !result.scene.solver)
-        all.formulas = problem_formulas(result.scene);
+        all.formulas = [&result] { return problem_formulas(result.scene); };
     return all;
 }
 

@@ -1,0 +1,132 @@
+#include "reports/files/said_report.hpp"
+
+#include "reports/document/result_document.hpp"
+#include "reports/formats/report_format.hpp"
+
+#include <boost/crc.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cctype>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+namespace tvbeam {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Rows of a longer table: about as many, the first and the last among them.
+constexpr std::size_t most_rows = 12;
+
+/// Its columns but those of seconds.
+std::vector<std::pair<std::string, const Table::Column*>> columns_of(const Table& table) {
+    std::vector<std::pair<std::string, const Table::Column*>> columns;
+    const auto add = [&](const Table::Group& group) {
+        for (const auto& column : group.columns)
+            if (column.heading != "sec")
+                columns.emplace_back(
+                    (group.heading.empty() ? "" : group.heading + ": ") + column.heading, &column);
+    };
+    add(table.key);
+    for (const auto& group : table.groups)
+        add(group);
+    return columns;
+}
+
+Json table_of(const Table& table) {
+    const auto columns = columns_of(table);
+    Json headings = Json::array();
+    for (const auto& [heading, column] : columns)
+        headings.push_back(heading);
+    Json rows = Json::array();
+    const std::size_t count = table.rows();
+    const std::size_t step = count <= most_rows ? 1 : (count - 1 + most_rows - 2) / (most_rows - 1);
+    for (std::size_t i = 0; i < count; i = i + 1 == count ? count : std::min(i + step, count - 1)) {
+        std::string row;
+        for (const auto& [heading, column] : columns)
+            row += (column == columns.front().second ? "" : " | ") + column->cells.at(i);
+        rows.push_back(row);
+    }
+    return {{"caption", table.caption}, {"headings", headings}, {"count", count}, {"rows", rows}};
+}
+
+/// One # for numbers side by side, one blank for blanks, one of the dashes and dots of a line.
+std::string shape_of(const std::string& line) {
+    const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
+    std::string shape;
+    for (std::size_t i = 0; i < line.size();) {
+        const char c = line[i];
+        const bool is_signed =
+            (c == '-' || c == '+') && i + 1 < line.size() && is_digit(line[i + 1]);
+        if (is_digit(c) || is_signed) {
+            ++i;
+            while (i < line.size() &&
+                   (is_digit(line[i]) || line[i] == '.' ||
+                    (line[i] == 'e' && i + 1 < line.size() &&
+                     (is_digit(line[i + 1]) || line[i + 1] == '-' || line[i + 1] == '+')) ||
+                    ((line[i] == '-' || line[i] == '+') && line[i - 1] == 'e')))
+                ++i;
+            if (!shape.ends_with('#') && !shape.ends_with("# ") && !shape.ends_with("#,"))
+                shape += '#';
+            continue;
+        }
+        ++i;
+        const char kept = std::isspace(static_cast<unsigned char>(c)) != 0 ? ' ' : c;
+        if ((kept == ' ' || kept == '-' || kept == '.') && shape.ends_with(kept))
+            continue;
+        shape += kept;
+    }
+    return shape;
+}
+
+Json file_of(const std::string& text) {
+    boost::crc_32_type sum;
+    std::size_t lines = 0;
+    std::string before;
+    for (std::size_t at = 0; at < text.size();) {
+        const std::size_t end = std::min(text.find('\n', at), text.size());
+        const std::string shape = shape_of(text.substr(at, end - at));
+        at = end + 1;
+        // Points of a line are as many as it took.
+        if (shape == before)
+            continue;
+        sum.process_bytes(shape.data(), shape.size());
+        before = shape;
+        ++lines;
+    }
+    return fmt::format("{} lines, {:08x}", lines, sum.checksum());
+}
+
+} // namespace
+
+Json tables_said_by(const StudyResult& result) {
+    Json tables = Json::array();
+    for (const auto& section : result_document(result).sections)
+        for (const auto& block : section.blocks)
+            if (const auto* table = std::get_if<Table>(&block))
+                tables.push_back(table_of(*table));
+    return tables;
+}
+
+Json files_said_by(const StudyResult& result) {
+    Reported all = reported(result);
+    all.document.provenance.clear();
+    all.source_text.clear();
+    all.formulas = {}; // said by themselves
+    const std::vector<Plot> plots = all.plots();
+    DrawnPlots drawn; // by no program
+    drawn.plots.resize(plots.size());
+    Json files = Json::object();
+    for (const auto& format : report_formats())
+        if (format->name() != "json" && format->name() != "pdf")
+            for (const auto& [name, text] : format->write({all, plots, drawn}))
+                files[name] = file_of(text.whole());
+    return files;
+}
+
+} // namespace tvbeam
