@@ -92,7 +92,11 @@ BaselineEntry baseline_entry(const DataAnalysis& analysis) {
             std::string what = column.name + ":";
             for (const auto& width : analysis.widths)
                 what += fmt::format(" {} = {}", width.name, width.numbers[row]);
-            figures[what] = column.numbers[row];
+            // Measurements that are repeated, in their order.
+            std::string name = what;
+            for (int count = 2; figures.contains(name); ++count)
+                name = fmt::format("{} ({})", what, count);
+            figures[name] = column.numbers[row];
         }
     // However the path of the table is spelled.
     return {std::filesystem::path(analysis.name).lexically_normal().string(),
@@ -192,6 +196,10 @@ std::vector<CheckedExpectation> Baseline::check(const BaselineEntry& entry,
             one.expected = fmt::format("{} within {}", before, tolerance);
             one.holds = std::abs(error - before) <= tolerance * std::abs(before) ||
                         are_zero(what, error, before);
+        } else if (found != recorded.end() && !std::isfinite(error)) {
+            // A field that is missing, and was.
+            one.expected = one.found = "none";
+            one.holds = true;
         }
         checked.push_back(one);
     }

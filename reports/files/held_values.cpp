@@ -204,7 +204,7 @@ std::vector<ResultDifference> held_values(const Json& recorded, const Json& foun
     const bool same_basis = recorded.contains("basis") && found.contains("basis") &&
                             recorded["basis"] == found["basis"];
     const auto leaves_out = [&](const std::string& key) {
-        return !same_basis && (key == "basis" || key == "counters");
+        return !same_basis && (key == "basis" || key == "counters" || key == "files");
     };
     const JsonValues before = json_values(recorded, leaves_out);
     const JsonValues now = json_values(found, leaves_out);

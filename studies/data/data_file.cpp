@@ -137,7 +137,7 @@ std::optional<double> number_of(std::string_view text, char separator) {
             i > 0 && std::string_view("0123456789.").find(text[i - 1]) != std::string_view::npos;
         if (c == ',' && separator == ';')
             plain += '.';
-        else if (std::string_view("dDqQ").find(c) != std::string_view::npos)
+        else if (std::string_view("dDqQE").find(c) != std::string_view::npos)
             plain += 'e';
         else if ((c == '+' || c == '-') && after_digit)
             plain += std::string("e") + c; // 1.5-103

@@ -189,8 +189,12 @@ ScaledRows scaled(const Rows& levels) {
 }
 
 /// The order of the differences between consecutive levels, as the engine of orders sees that of
-/// errors: f_k − f_{k+1} = C h_k^p (1 − r_k^{−p}) + … with the ratios r_k of the widths, which are
-/// divided out with the order found before; from_models: the first.
+/// errors. Of f_0 + C h^p + D h^{p+1} they are, over (h_k^p − h_{k+1}^p) / H_k^p with the widths
+///
+///     H_k = (h_k^{p+1} − h_{k+1}^{p+1}) / (h_k^p − h_{k+1}^p),
+///
+/// C H_k^p + D H_k^{p+1}, whatever the ratios of the widths. p is the order found before;
+/// from_models: the first.
 OrderInterval order_of_differences(const Rows& levels, double from_models) {
     OrderInterval order;
     double p = from_models;
@@ -206,8 +210,11 @@ OrderInterval order_of_differences(const Rows& levels, double from_models) {
         std::vector<ErrorRow> differences;
         for (std::size_t k = 0; k + 1 < levels.size(); ++k) {
             const double step = std::abs(levels[k].value - levels[k + 1].value);
-            differences.push_back({{levels[k].h},
-                                   step / -std::expm1(-p * std::log(levels[k].h / levels[k + 1].h)),
+            const double log_ratio = std::log(levels[k].h / levels[k + 1].h);
+            const double leading = -std::expm1(-p * log_ratio);
+            const double stretch = -std::expm1(-(p + 1) * log_ratio) / leading;
+            differences.push_back({{levels[k].h * stretch},
+                                   step * std::pow(stretch, p) / leading,
                                    std::hypot(levels[k].sigma, levels[k + 1].sigma) / step});
         }
         order = estimate_orders(differences).front();

@@ -362,21 +362,34 @@ double OrderEnsemble::greatest_share(Index width) const {
     return share;
 }
 
-/// The order in windows that leave out ever more of the coarse levels, over all members without
-/// next terms.
-std::vector<double> OrderEnsemble::order_by_window(Index width) const {
-    std::map<int, std::pair<double, int>> sums;
+/// The order in windows that leave out ever more of the coarse levels, and its standard error: the
+/// means over all members without next terms.
+std::vector<FittedNumber> OrderEnsemble::order_by_window(Index width) const {
+    std::map<int, std::pair<FittedNumber, int>> sums;
     for (const auto& member : members_)
         if (member.family == 0) {
             auto& [sum, count] = sums[member.place[static_cast<std::size_t>(width)]];
-            sum += member.fit.order(width).value;
+            const FittedNumber order = member.fit.order(width);
+            sum.value += order.value;
+            sum.error += order.error;
             ++count;
         }
-    std::vector<double> means;
+    std::vector<FittedNumber> means;
     means.reserve(sums.size());
     for (const auto& [place, sum] : sums)
-        means.push_back(sum.first / sum.second);
+        means.push_back({sum.first.value / sum.second, sum.first.error / sum.second});
     return means;
+}
+
+/// Whether the order's last step is more than known scatter makes of an order that stands still.
+/// One window is part of the other, so that the variance of the step is the difference of theirs.
+bool OrderEnsemble::is_significant_step(const std::vector<FittedNumber>& windows) const {
+    constexpr double deviations = 2;
+    const auto& last = windows.back();
+    const auto& before = windows[windows.size() - 2];
+    const double variance = std::max(0.0, last.error * last.error - before.error * before.error);
+    return !(rows_.scatter > 0) ||
+           std::abs(last.value - before.value) > deviations * std::sqrt(variance);
 }
 
 /// Of a sequence: whether one model's order stands still over its windows, all but one, while that
@@ -407,15 +420,16 @@ bool OrderEnsemble::runs_away(Index width) const {
     constexpr double hardly_less = 0.75;
     constexpr double least_of_many = 0.25; // of `narrowest`, where many steps go one way
     const auto means = order_by_window(width);
-    if (rows_.widths() != 1 || means.size() < 3)
+    if (rows_.widths() != 1 || means.size() < 3 || !is_significant_step(means))
         return false;
     std::vector<double> ratios; // of consecutive steps
     for (std::size_t i = 2; i < means.size(); ++i)
-        ratios.push_back((means[i] - means[i - 1]) / (means[i - 1] - means[i - 2]));
+        ratios.push_back((means[i].value - means[i - 1].value) /
+                         (means[i - 1].value - means[i - 2].value));
     const double least = *std::min_element(ratios.begin(), ratios.end());
     if (!(least > 0))
         return false;
-    const double last = std::abs(means.back() - means[means.size() - 2]);
+    const double last = std::abs(means.back().value - means[means.size() - 2].value);
     if (is_explained())
         return false;
     const bool slows_down = ratios.size() < 2 ||
@@ -426,14 +440,14 @@ bool OrderEnsemble::runs_away(Index width) const {
 
 std::string OrderEnsemble::motion(Index width) const {
     const auto means = order_by_window(width);
-    if (means.size() < 2)
+    if (means.size() < 2 || !is_significant_step(means))
         return {};
-    const double last = means.back();
-    const double step = last - means[means.size() - 2];
+    const double last = means.back().value;
+    const double step = last - means[means.size() - 2].value;
     if (std::abs(step) < tuning_.narrowest || std::abs(last) > 20)
         return {};
     for (std::size_t i = 1; i < means.size(); ++i)
-        if ((means[i] - means[i - 1]) * step <= 0)
+        if ((means[i].value - means[i - 1].value) * step <= 0)
             return {};
     return step > 0 ? fmt::format("rising past {:.2f}", last)
                     : fmt::format("falling below {:.2f}", last);

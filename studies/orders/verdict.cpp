@@ -76,6 +76,8 @@ public:
         find_window();
         if (!run_)
             judge_without_window();
+        else if (drifts(*run_) && !options_.expected_order)
+            leave_out_what_drifts();
     }
     const std::vector<RowVerdict>& verdicts() const { return verdicts_; }
     const std::optional<Run>& run() const { return run_; }
@@ -91,6 +93,27 @@ private:
     bool is_sound(std::size_t i) const {
         return orders_[i] && *orders_[i] > tuning.standstill &&
                (!options_.expected_order || agree(*orders_[i], *options_.expected_order));
+    }
+
+    bool drifts(const Run& run) const {
+        const double step = *orders_[run.last] - *orders_[run.first + 1];
+        return std::abs(step) > tuning.slow_drift * options_.tolerance * run.order;
+    }
+
+    /// That which the levels go to, where the engine of orders determines it.
+    std::optional<double> determined_order() const {
+        std::vector<ErrorRow> rows;
+        double width = 1.0;
+        for (std::size_t i = 0; i < size(); ++i) {
+            const auto ratio =
+                i == 0 ? std::optional(1.0) : refinement_ratio(levels_[i - 1], levels_[i]);
+            if (!ratio)
+                return std::nullopt;
+            width /= *ratio;
+            rows.push_back({{width}, levels_[i].error});
+        }
+        const OrderInterval order = estimate_orders(rows).front();
+        return order.determined ? std::optional(order.value) : std::nullopt;
     }
 
     double mean_order(std::size_t first, std::size_t last) const {
@@ -152,8 +175,7 @@ private:
         for (std::size_t i = 0; i < size(); ++i) {
             least = std::min(least, levels_[i].error);
             if (i >= run.first && i <= run.last)
-                verdicts_[i] = {Verdict::asymptotic,
-                                fmt::format("order {:.2f} over the rows that agree", run.order)};
+                verdicts_[i] = {Verdict::asymptotic, reason_within(run)};
             else if (is_dip(i, run))
                 verdicts_[i] = {Verdict::cancellation,
                                 fmt::format("the error dips, order {:.2f} and then {:.2f}",
@@ -213,6 +235,34 @@ private:
                 return true;
         }
         return false;
+    }
+
+    /// Rows of the window whose order is not yet the one that all levels determine.
+    void leave_out_what_drifts() {
+        const auto determined = determined_order();
+        if (!determined)
+            return;
+        const Run before = *run_;
+        std::size_t first = before.first;
+        while (first < before.last && !agree(*orders_[first + 1], *determined))
+            ++first;
+        if (first == before.first)
+            return;
+        if (first < before.last)
+            run_ = Run{first, before.last, mean_order(first, before.last)};
+        else
+            run_.reset();
+        for (std::size_t i = before.first; i <= before.last; ++i)
+            if (run_ && i >= first)
+                verdicts_[i].reason = reason_within(*run_);
+            else
+                verdicts_[i] = {Verdict::pre_asymptotic,
+                                fmt::format("order {:.2f}; it goes to {:.2f}",
+                                            *orders_[std::max(i, before.first + 1)], *determined)};
+    }
+
+    static std::string reason_within(const Run& run) {
+        return fmt::format("order {:.2f} over the rows that agree", run.order);
     }
 
     RowVerdict alone(double order, bool only_order) const {

@@ -4,7 +4,8 @@
 /// of their mean error: an order read between them is noise. Without a model the judgement rests on
 /// the orders between levels alone: a level far off the line of its neighbours is an outlier, and
 /// passed over; the asymptotic window is the finest run of rows whose orders are positive and agree
-/// with each other, and are not refuted by finer rows: past the window there is nothing, a floor, a
+/// with each other and, where they drift, with the order that they determine (order_engine.hpp),
+/// and are not refuted by finer rows: past the window there is nothing, a floor, a
 /// dip or a divergence, or one last row whose other order nothing confirms and towards which the
 /// window does not drift. One order is never enough for that, so a ladder of two rows is not
 /// asymptotic, unless the expected order is given and met. With a two-term model of the same norm,
@@ -62,6 +63,8 @@ struct VerdictTuning {
     /// The orders of the window already run towards that of the finest row, by this part of the
     /// step that is left: a drift, and no kink that one row shows.
     double drift_part = 0.1;
+    /// Orders of a window that move by less than this part of the tolerance go nowhere else.
+    double slow_drift = 0.25;
 };
 
 struct VerdictOptions {

@@ -305,4 +305,33 @@ BOOST_AUTO_TEST_CASE(without_a_positive_error_the_status_says_so) {
             .status == "no row has a positive error");
 }
 
+// Of order 2 with a scatter of 3 or 10 % that is stated. Without it, one in five was said to rise
+// or to fall; the interval holds 2 as often as 95 % can be told from 60 tables.
+BOOST_AUTO_TEST_CASE(what_stated_scatter_makes_of_an_order_is_no_motion) {
+    std::mt19937 random(7);
+    std::normal_distribution<double> off(0.0, 1.0);
+    int moves = 0;
+    int missed = 0;
+    int determined = 0;
+    for (int table = 0; table < 60; ++table) {
+        const double sigma = table % 2 == 0 ? 0.03 : 0.1;
+        std::vector<ErrorRow> rows;
+        for (int k = 0; k < 4 + table % 3; ++k)
+            rows.push_back(
+                {{std::exp2(-k)}, std::exp2(-2 * k) * std::exp(sigma * off(random)), sigma});
+        const auto order = estimate_orders(rows).front();
+        moves += order.status.starts_with("rising") || order.status.starts_with("falling") ? 1 : 0;
+        determined += order.determined ? 1 : 0;
+        missed += order.determined && std::abs(order.value - 2) > order.half_width() ? 1 : 0;
+    }
+    BOOST_TEST(moves <= 4);
+    BOOST_TEST(determined >= 40);
+    BOOST_TEST(missed <= 6);
+    // A motion that is more than the scatter is told.
+    std::vector<ErrorRow> bent;
+    for (int k = 0; k < 5; ++k)
+        bent.push_back({{std::exp2(-k)}, std::exp2(-2 * k - 0.3 * k * k), 0.02});
+    BOOST_TEST(estimate_orders(bent).front().status.starts_with("rising past"));
+}
+
 BOOST_AUTO_TEST_SUITE_END()

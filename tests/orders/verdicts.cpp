@@ -118,6 +118,20 @@ BOOST_AUTO_TEST_CASE(an_error_diverges_where_it_grows_and_not_where_it_stays_lar
     BOOST_TEST(word(with_orders({2, 2, 2, -3, 0.3})) == "AAAAdf");
 }
 
+// h + h^1.5: orders from 1.23 down to 1.11 agree with each other, and go to 1.
+BOOST_AUTO_TEST_CASE(orders_that_agree_on_their_way_to_another_one_are_not_asymptotic) {
+    std::vector<Refinement> ladder;
+    for (int k = 0; k < 5; ++k)
+        ladder.push_back({.h = std::exp2(-k), .error = std::exp2(-k) + std::exp2(-1.5 * k)});
+    // Its last order is within a tenth of 1, and that alone.
+    auto verdict = judge(ladder);
+    BOOST_TEST(word(verdict) == "pppAA");
+    BOOST_TEST(verdict.window->first == 3u);
+    BOOST_TEST(verdict.rows[2].reason == "order 1.19; it goes to 1.00");
+    // Who expects an order has it taken for that of the end.
+    BOOST_TEST(word(ladder, {.expected_order = 1.15}) != word(verdict));
+}
+
 BOOST_AUTO_TEST_CASE(equal_errors_stand_on_a_floor) {
     BOOST_TEST(word(halving({0.1, 0.1, 0.1, 0.1})) == "ffff");
     // Nearly equal is no slow convergence either: orders of a thousandth agree with each other.
