@@ -289,7 +289,9 @@ ErrorConstants error_constants(const Solution& solution, const Beam& beam, doubl
     } catch (const AlgebraError& error) {
         return {error.what(), {}};
     }
-    return {"the driven problem is not resolved: layers in space or in time", {}};
+    return {"the driven problem is not resolved: layers in space or in time, or places where the "
+            "solution is not smooth, which lower the orders",
+            {}};
 }
 
 } // namespace tvbeam

@@ -1,5 +1,6 @@
 #include "reports/command_line/solution_report.hpp"
 
+#include "core/norms/norms.hpp"
 #include "core/time/time_scheme.hpp"
 #include "mms/admissible/consistency.hpp"
 #include "mms/coverage.hpp"
@@ -128,7 +129,8 @@ std::string sizes_table(const SolutionSetting& setting) {
         columns.push_back({heading, {}});
         norm.cells.clear();
         for (const NormConstants& row : sizes.norms) {
-            norm.cells.push_back(row.norm);
+            const auto known = Norm::named(row.norm);
+            norm.cells.push_back(row.norm + (known && known->squared ? "^(1/2)" : ""));
             columns.back().cells.push_back(row.*term ? scientific((row.*term)->constant, 3) : "-");
         }
         return std::string();
@@ -156,8 +158,10 @@ std::string solution_report(const SolutionSetting& setting) {
                 wrapped("The exact solution in the discrete equations: the residual in space, and "
                         "in time with space exact.") +
                 "\n" + space_table(setting) + "\n" + time_table(setting);
-        text += "\nOrders to expect (-: no error of that kind):\n\n" +
-                orders_table(expected_orders(solution, beam, final_time));
+        text += "\n" +
+                wrapped("Orders to expect on uniform meshes, where the solution is smooth in x and "
+                        "t but at the ends of its phases (-: no error of that kind):") +
+                "\n" + orders_table(expected_orders(solution, beam, final_time));
         text += "\nSizes a of h^p and b of dt^q to expect on uniform meshes, by modified "
                 "equations:\n\n" +
                 sizes_table(setting);

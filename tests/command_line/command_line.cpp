@@ -325,6 +325,16 @@ BOOST_AUTO_TEST_CASE(analyse_writes_and_gates_as_a_scene_does) {
                                    "b.json")
                    .exit == 1);
     BOOST_TEST(call(directory, analyse + "--expect 'L1.order = [1, 2]'").exit == 2);
+
+    // A field that is missing holds against its record, and every one of what is repeated counts.
+    const std::string rows = "h,error\n0.4,0.16\n0.2,0.041\n0.2,0.039\n0.1,NA\n0.05,0.0025\n";
+    const std::string repeated = "analyse " + directory.write("repeated.csv", rows);
+    BOOST_TEST(call(directory, repeated + " --record " + in + "r.json").exit == 0);
+    BOOST_TEST(call(directory, repeated + " --baseline " + in + "r.json").exit == 0);
+    directory.write("repeated.csv", std::string(rows).replace(rows.find("0.041"), 5, "0.042"));
+    const Called changed = call(directory, repeated + " --baseline " + in + "r.json");
+    BOOST_TEST(changed.exit == 1);
+    BOOST_TEST(has(changed.output, "error: h = 0.2: expected 0.041"), changed.output);
     BOOST_TEST(call(directory, "analyse - --size ndofs --error L2 < " + table).exit == 0);
 }
 
