@@ -23,12 +23,16 @@ using Json = nlohmann::ordered_json;
 /// Rows of a longer table: about as many, the first and the last among them.
 constexpr std::size_t most_rows = 12;
 
+bool is_of_seconds(const Table::Column& column) {
+    return column.heading == "sec";
+}
+
 /// Its columns but those of seconds.
 std::vector<std::pair<std::string, const Table::Column*>> columns_of(const Table& table) {
     std::vector<std::pair<std::string, const Table::Column*>> columns;
     const auto add = [&](const Table::Group& group) {
         for (const auto& column : group.columns)
-            if (column.heading != "sec")
+            if (!is_of_seconds(column))
                 columns.emplace_back(
                     (group.heading.empty() ? "" : group.heading + ": ") + column.heading, &column);
     };
@@ -55,8 +59,38 @@ Json table_of(const Table& table) {
     return {{"caption", table.caption}, {"headings", headings}, {"count", count}, {"rows", rows}};
 }
 
-/// One # for numbers side by side, one blank for blanks, one of the dashes and dots of a line.
-std::string shape_of(const std::string& line) {
+/// Without what stands between `begin` and `end`, and these.
+std::string without(std::string text, std::string_view begin, std::string_view end) {
+    for (auto at = text.find(begin); at != std::string::npos; at = text.find(begin, at)) {
+        const auto last = text.find(end, at + begin.size());
+        if (last == std::string::npos)
+            break;
+        text.erase(at, last + end.size() - at);
+    }
+    return text;
+}
+
+/// What formulas of LaTeX that have digits in them are, and numbers: #.
+std::string with_signs_for_formulas(const std::string& line) {
+    std::string text;
+    for (std::size_t at = 0; at < line.size();) {
+        const std::size_t begin = std::min(line.find('$', at), line.size());
+        text += line.substr(at, begin - at);
+        const std::size_t end = line.find('$', begin + 1);
+        if (begin == line.size() || end == std::string::npos)
+            return text + line.substr(begin);
+        const std::string formula = line.substr(begin, end + 1 - begin);
+        text += formula.find_first_of("0123456789") == std::string::npos ? formula : "0";
+        at = end + 1;
+    }
+    return text;
+}
+
+/// One # for numbers side by side, also in a row of a table: how many digits and powers of ten they
+/// have, and which cells are empty, is the numbers' own. One blank for blanks, one of the dashes
+/// and dots of a line.
+std::string shape_of(const std::string& given) {
+    const std::string line = with_signs_for_formulas(without(given, " × 10<sup>", "</sup>"));
     const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
     std::string shape;
     for (std::size_t i = 0; i < line.size();) {
@@ -71,8 +105,10 @@ std::string shape_of(const std::string& line) {
                      (is_digit(line[i + 1]) || line[i + 1] == '-' || line[i + 1] == '+')) ||
                     ((line[i] == '-' || line[i] == '+') && line[i - 1] == 'e')))
                 ++i;
-            if (!shape.ends_with('#') && !shape.ends_with("# ") && !shape.ends_with("#,"))
-                shape += '#';
+            const auto before = shape.find_last_not_of(" ,;&|");
+            if (before != std::string::npos && shape[before] == '#')
+                shape.erase(before);
+            shape += '#';
             continue;
         }
         ++i;
@@ -116,6 +152,14 @@ Json tables_said_by(const StudyResult& result) {
 Json files_said_by(const StudyResult& result) {
     Reported all = reported(result);
     all.document.provenance.clear();
+    for (auto& section : all.document.sections)
+        for (auto& block : section.blocks)
+            if (auto* table = std::get_if<Table>(&block)) {
+                for (auto& group : table->groups)
+                    std::erase_if(group.columns, is_of_seconds);
+                std::erase_if(table->groups,
+                              [](const auto& group) { return group.columns.empty(); });
+            }
     all.source_text.clear();
     all.formulas = {}; // said by themselves
     const std::vector<Plot> plots = all.plots();

@@ -126,7 +126,7 @@ TwoTermFit fit_two_term(std::span<const Refinement> records,
     if (usable.size() < fewest_records || !fit.ensemble->failure().empty() ||
         steadiest == nullptr) {
         fit.failure = "the two-term model needs seven finite, positive errors in three h and "
-                      "three dt";
+                      "three dt, each an eighth or more apart";
         return fit;
     }
     const auto orders = fit.ensemble->orders();

@@ -129,11 +129,12 @@ void read_problem(Scene& scene, TableReader& root, bool wanted, bool own_problem
         throw InputError(root.place(data ? "data" : "solution"),
                          "the program that reads the scene brings its problem with it; remove the "
                          "scene's");
-    if (wanted && !own_problem && root.has("solution") == data.has_value())
-        throw InputError(
-            root.place(data ? "data" : "solution"),
-            data ? "the scene has both a solution and a [data] block; remove one"
-                 : "the scene has neither a solution nor a [data] block; give one of them");
+    if (!own_problem && data && root.has("solution"))
+        throw InputError(root.place("data"),
+                         "the scene has both a solution and a [data] block; remove one");
+    if (wanted && !own_problem && !data && !root.has("solution"))
+        throw InputError(root.place("solution"),
+                         "the scene has neither a solution nor a [data] block; give one of them");
     if (data)
         scene.problem = read_data(*std::move(data));
     else if (root.has("solution"))
