@@ -27,10 +27,10 @@ struct Reported {
     std::function<std::string()> json = {};
     std::function<std::vector<NamedText>()> csvs = {};
     std::function<std::vector<Plot>()> plots = {};
-    bool failed = false;                ///< a run did
-    bool interrupted = false;           ///< runs are missing
+    bool failed = false;                                 ///< a run did
+    bool interrupted = false;                            ///< runs are missing
     std::function<std::vector<Formula>()> formulas = {}; ///< of the problem
-    std::string source_text = {};       ///< of the scene
+    std::string source_text = {};                        ///< of the scene
 };
 
 /// The result of a scene.
