@@ -4,31 +4,99 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <numeric>
+#include <optional>
+#include <string>
 
 namespace tvbeam {
 
 using Eigen::ArrayXd;
+using Eigen::ArrayXXd;
 using Eigen::Index;
+
+namespace {
+
+/// Where |g| grows towards a point between two, however near it is looked at, as at a pole; without
+/// value where it does not.
+///
+/// @param largest |g| at a point between them
+std::optional<double> unbounded_between(const std::function<ArrayXd(const ArrayXd&)>& g,
+                                        double begin, double end, double largest) {
+    constexpr Index points = 9;
+    constexpr double level = 1.4;        // |s - a|^(-1/4) grows as much in a fourth of the width
+    constexpr double least_growth = 1e3; // what jumps is not level, and stays bounded
+    constexpr double narrowest = 1e-13;  // narrower, the rounding of s - a is seen
+    const double width = narrowest * std::max({std::abs(begin), std::abs(end), end - begin});
+    const double first = largest;
+    while (end - begin > width) {
+        const ArrayXd s = ArrayXd::LinSpaced(points, begin, end);
+        const ArrayXd sizes = g(s).abs();
+        for (Index k = 0; k < points; ++k)
+            if (!std::isfinite(sizes(k)))
+                return s(k);
+        Index at = 0;
+        const double greatest = sizes.maxCoeff(&at);
+        if (greatest <= level * largest && greatest <= level * sizes.minCoeff())
+            return std::nullopt;
+        largest = std::max(largest, greatest);
+        begin = s(std::max<Index>(at - 1, 0));
+        end = s(std::min<Index>(at + 1, points - 1));
+    }
+    return largest > least_growth * first ? std::optional(std::midpoint(begin, end)) : std::nullopt;
+}
+
+/// The same next to a local maximum of |g| on a grid.
+std::optional<double> unbounded_on(const ArrayXd& grid, const ArrayXd& values,
+                                   const std::function<ArrayXd(const ArrayXd&)>& g) {
+    const ArrayXd sizes = values.abs();
+    for (Index k = 0; k < grid.size(); ++k) {
+        const Index before = std::max<Index>(k - 1, 0);
+        const Index behind = std::min(k + 1, grid.size() - 1);
+        const bool rises = k == 0 || sizes(before) < sizes(k);
+        if (!rises || sizes(behind) > sizes(k))
+            continue;
+        if (const auto a = unbounded_between(g, grid(before), grid(behind), sizes(k)))
+            return a;
+    }
+    return std::nullopt;
+}
+
+} // namespace
 
 double largest_on_grid(const SpaceTimeFunction& g, const ArrayXd& times, double final_time,
                        const Place& place, const std::string& what) {
+    const auto refuse = [&](double x, double t, double value) {
+        const std::string how =
+            std::isfinite(value) ? " grows without bound towards" : " is not finite at";
+        throw InputError(place, what + how + " x = " + number_text(x) + ", t = " + number_text(t) +
+                                    " (it is " + number_text(value) +
+                                    "); write it so that it and its derivatives exist "
+                                    "everywhere on [0, 1] x [0, " +
+                                    number_text(final_time) + "]" +
+                                    (t > 0.0 ? ", or end the run before that time" : ""));
+    };
     const ArrayXd x = sample_points(0.0, 1.0);
-    double result = 0.0;
-    for (const double t : times) {
-        const ArrayXd values = g(x, t);
-        for (Index k = 0; k < x.size(); ++k) {
-            if (!std::isfinite(values(k)))
-                throw InputError(place, what + " is not finite at x = " + number_text(x(k)) +
-                                            ", t = " + number_text(t) + " (it is " +
-                                            number_text(values(k)) +
-                                            "); write it so that it and its derivatives exist "
-                                            "everywhere on [0, 1] x [0, " +
-                                            number_text(final_time) + "]" +
-                                            (t > 0.0 ? ", or end the run before that time" : ""));
-            result = std::max(result, std::abs(values(k)));
-        }
+    ArrayXXd values(x.size(), times.size());
+    for (Index j = 0; j < times.size(); ++j) {
+        values.col(j) = g(x, times(j));
+        for (Index k = 0; k < x.size(); ++k)
+            if (!std::isfinite(values(k, j)))
+                refuse(x(k), times(j), values(k, j));
     }
-    return result;
+    Index row = 0;
+    Index column = 0;
+    const double largest = values.abs().maxCoeff(&row, &column);
+    const auto at = [&](double here, double t) { return g(ArrayXd::Constant(1, here), t)(0); };
+    const auto in_x = [&](const ArrayXd& s) -> ArrayXd { return g(s, times(column)); };
+    if (const auto a = unbounded_on(x, values.col(column), in_x))
+        refuse(*a, times(column), at(*a, times(column)));
+    const auto in_t = [&](const ArrayXd& s) -> ArrayXd {
+        return s.unaryExpr([&](double t) { return at(x(row), t); });
+    };
+    if (const auto a = unbounded_on(times, values.row(row), in_t))
+        refuse(x(row), *a, at(x(row), *a));
+    return largest;
 }
 
 void require_value(const ArrayXd& differences, const ArrayXd& times, double value, double tolerance,

@@ -27,6 +27,8 @@ constexpr double coarsest_digit = 0.01; // of the number, may be another
 constexpr double of_round_off = 4.0;    // a factor
 constexpr double zero = 1e-14;
 constexpr double printed_zero = 1e-13; // in sentences
+constexpr double of_cells = 0.7;       // of tables: of the greater; the numbers stand elsewhere
+constexpr double zero_of_cells = 1e-12;
 
 bool is_one_of(std::string_view word, std::initializer_list<std::string_view> words) {
     return std::ranges::find(words, word) != words.end();
@@ -74,8 +76,35 @@ std::optional<PrintedNumber> number_at(const std::string& text, std::size_t at) 
     return number;
 }
 
-bool same_words(const std::string& before, const std::string& now) {
+/// How far from the first the second of two numbers may be at a place in a sentence.
+double slack_in_words(const PrintedNumber& first, const PrintedNumber& second,
+                      std::string_view before, std::string_view behind) {
+    if (first.is_whole && second.is_whole)
+        return 0.0;
     constexpr std::string_view plus_minus = " ± ";
+    const bool is_half_width = before.ends_with(plus_minus);
+    const double part = is_half_width ? of_half_widths : of_sentences;
+    // What is held to a part may be rounded to either side.
+    const bool by_a_digit = is_half_width || behind.starts_with(plus_minus) ||
+                            first.unit <= coarsest_digit * std::abs(first.value);
+    const bool both_zero =
+        !first.is_whole && !second.is_whole && std::max(first.value, second.value) <= printed_zero;
+    return both_zero ? printed_zero
+                     : part * std::abs(first.value) + (by_a_digit ? 1.01 * first.unit : 0.0);
+}
+
+/// The same in the row of a table, where numbers that are rounding errors stand, and what is
+/// computed from them.
+double slack_in_cells(const PrintedNumber& first, const PrintedNumber& second) {
+    if (first.is_whole && second.is_whole)
+        return 0.0;
+    const auto digit = [](const PrintedNumber& one) { return one.is_whole ? 0.0 : one.unit; };
+    return std::max(of_cells * std::max(first.value, second.value) +
+                        1.01 * std::max(digit(first), digit(second)),
+                    zero_of_cells);
+}
+
+bool same_words(const std::string& before, const std::string& now, bool is_row) {
     std::size_t i = 0;
     std::size_t j = 0;
     while (i < before.size() && j < now.size()) {
@@ -86,20 +115,11 @@ bool same_words(const std::string& before, const std::string& now) {
                 return false;
             continue;
         }
-        const bool is_half_width = std::string_view(before).substr(0, i).ends_with(plus_minus);
-        const bool has_half_width =
-            std::string_view(before).substr(i + first->length).starts_with(plus_minus);
-        const double part = is_half_width ? of_half_widths : of_sentences;
-        // What is held to a part may be rounded to either side.
-        const bool by_a_digit = is_half_width || has_half_width ||
-                                first->unit <= coarsest_digit * std::abs(first->value);
-        const double slack =
-            first->is_whole && second->is_whole
-                ? 0.0
-                : part * std::abs(first->value) + (by_a_digit ? 1.01 * first->unit : 0.0);
-        const bool both_zero = !first->is_whole && !second->is_whole &&
-                               std::max(first->value, second->value) <= printed_zero;
-        if (!both_zero && !(std::abs(second->value - first->value) <= slack))
+        const std::string_view text = before;
+        const double slack = is_row ? slack_in_cells(*first, *second)
+                                    : slack_in_words(*first, *second, text.substr(0, i),
+                                                     text.substr(i + first->length));
+        if (!(std::abs(second->value - first->value) <= slack))
             return false;
         i += first->length;
         j += second->length;
@@ -190,8 +210,9 @@ bool is_same(const std::string& what, const Json& before, const Json& now, const
     if (before.is_string() && now.is_string()) {
         const std::string first = before;
         const std::string second = now;
-        return same_words(first, second) ||
-               (!same_basis && same_words(without_basis(first), without_basis(second)));
+        const bool is_row = has(what, "tables ") && has(what, "rows ");
+        return same_words(first, second, is_row) ||
+               (!same_basis && same_words(without_basis(first), without_basis(second), is_row));
     }
     return before.is_number() && now.is_number() &&
            (before.is_number_float() || now.is_number_float()) && slack.holds(what, before, now);

@@ -17,9 +17,9 @@ namespace tvbeam {
 ///   rows;
 /// - half widths of intervals to 5 %, ends and middles to 5 % of them: which windows of rows count
 ///   is decided at thresholds, and round-off at one has moved a half width by 2.6 %;
-/// - in sentences to 0.1 % and one in their last digit, if that is 1 % of them or beside ±; behind
-/// ±
-///   to 5 %; below 1e-13 all;
+/// - in sentences to 0.1 % and one in their last digit, if that is 1 % of them or beside ±; those
+///   behind ± to 5 %; below 1e-13 all;
+/// - in rows of tables, whose numbers stand elsewhere too, to a factor 3; below 1e-12 all;
 /// - residuals and other figures of round-off to a factor 4, and below their unit all of them;
 /// - everywhere below 1e-14.
 ///

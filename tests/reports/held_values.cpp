@@ -66,6 +66,24 @@ BOOST_AUTO_TEST_CASE(numbers_of_sentences_are_those_of_printed_figures) {
     BOOST_TEST(!words("passed by 6.2e-16 at most", "passed by 1.1e-13 at most"));
 }
 
+// Among their numbers are rounding errors, and orders of those.
+BOOST_AUTO_TEST_CASE(rows_of_tables_are_held_to_a_factor) {
+    const auto rows = [](const std::string& before, const std::string& now) {
+        const auto table = [](const std::string& row) {
+            return Json{{"tables", {{{"count", 1}, {"rows", {row}}}}}};
+        };
+        return same(table(before), table(now));
+    };
+    BOOST_TEST(rows("8 | 0.0625 | 1.00e-3", "8 | 0.0625 | 3.30e-3"));
+    BOOST_TEST(!rows("8 | 0.0625 | 1.00e-3", "8 | 0.0625 | 3.50e-3"));
+    BOOST_TEST(!rows("8 | 0.0625 | 1.00e-3", "16 | 0.0625 | 1.00e-3"));
+    BOOST_TEST(!rows("8 | 0.0625 | 1.00e-3", "8 | 0.0625 | "));
+    BOOST_TEST(rows("8 | 0 | 0.02", "8 | 9e-13 | 0.01"));
+    BOOST_TEST(!rows("8 | 0 | 0.02", "8 | 2e-12 | 0.02"));
+    BOOST_TEST(rows("8 | 0.00", "8 | 0.01"));
+    BOOST_TEST(!rows("8 | 0.00", "8 | 0.05"));
+}
+
 BOOST_AUTO_TEST_CASE(an_interval_is_held_to_its_half_width) {
     // Half width 0.1.
     const Json interval{{"limit", {{"value", 3.0}, {"low", 2.9}, {"high", 3.1}}}};
