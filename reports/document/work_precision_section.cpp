@@ -175,11 +175,29 @@ std::size_t fastest_of(const ReachedError& error) {
     return static_cast<std::size_t>(least - error.times.begin());
 }
 
+/// Why a scheme has no time to reach an error: it falls short of it, or is beyond in every row.
+std::string out_of_range(const SchemeRuns& scheme, std::size_t norm, double error) {
+    std::optional<double> soonest;
+    for (std::size_t i = 0; i < scheme.runs.size(); ++i) {
+        const RungResult& run = scheme.runs[i];
+        if (run.errors.empty() || !scheme.timings[i])
+            continue;
+        if (!(run.errors.at(norm) < error))
+            return " does not, as far as measured";
+        soonest = std::min(soonest.value_or(scheme.timings[i]->median), scheme.timings[i]->median);
+    }
+    return soonest ? fmt::format(" has less in every row, after {} s in the quickest",
+                                 scientific(*soonest, 2))
+                   : " does not, as far as measured";
+}
+
 /// Which scheme reaches an error sooner: of few, every two; of many, the fastest beside each.
-std::vector<Block> comparisons(const ReachedError& error, const NormCosts& costs,
-                               const WorkPrecisionBlock& block) {
-    std::vector<Block> findings{
-        Finding{fmt::format("To reach {} = {}:", costs.norm.name, shortest(error.error))}};
+///
+/// @param norm its place among the norms
+std::vector<Block> comparisons(const ReachedError& error, const WorkPrecisionResult& result,
+                               std::size_t norm, const WorkPrecisionBlock& block) {
+    std::vector<Block> findings{Finding{
+        fmt::format("To reach {} = {}:", result.norms[norm].norm.name, shortest(error.error))}};
     constexpr std::size_t most_pairs = 15;
     const bool all = error.comparisons.size() <= most_pairs;
     const std::size_t fastest = fastest_of(error);
@@ -191,19 +209,21 @@ std::vector<Block> comparisons(const ReachedError& error, const NormCosts& costs
     for (std::size_t k = 0; k < block.schemes.size(); ++k)
         if (error.times[k] && error.comparisons.empty())
             findings.emplace_back(Finding{block.schemes[k].name + " alone does", 4});
-    std::vector<std::string> short_of_it;
+    std::vector<std::string> without;
     for (std::size_t k = 0; k < block.schemes.size(); ++k)
         if (!error.times[k])
-            short_of_it.push_back(block.schemes[k].name);
+            without.push_back(block.schemes[k].name +
+                              out_of_range(result.schemes[k], norm, error.error));
     constexpr std::size_t most = 4;
-    if (short_of_it.size() > most)
+    if (without.size() > most)
         findings.emplace_back(Finding{
-            fmt::format("{} of {} schemes do not, as far as measured; the table shows which",
-                        short_of_it.size(), block.schemes.size()),
+            fmt::format("{} of {} schemes have rows on one side of it alone, or none; the tables "
+                        "show which",
+                        without.size(), block.schemes.size()),
             4});
     else
-        for (const auto& name : short_of_it)
-            findings.emplace_back(Finding{name + " does not, as far as measured", 4});
+        for (const auto& sentence : without)
+            findings.emplace_back(Finding{sentence, 4});
     return findings;
 }
 
@@ -254,10 +274,10 @@ Section work_precision_section(const WorkPrecisionResult& result, const WorkPrec
         introduced = true;
         add({table});
     }
-    for (const auto& costs : result.norms) {
-        for (const auto* error : compared_errors(costs))
-            add(comparisons(*error, costs, block));
-        for (const auto& remark : costs.remarks)
+    for (std::size_t norm = 0; norm < result.norms.size(); ++norm) {
+        for (const auto* error : compared_errors(result.norms[norm]))
+            add(comparisons(*error, result, norm, block));
+        for (const auto& remark : result.norms[norm].remarks)
             add({Finding{remark}});
     }
     if (!result.busy_remark.empty())

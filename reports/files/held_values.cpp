@@ -98,10 +98,11 @@ double slack_in_words(const PrintedNumber& first, const PrintedNumber& second,
 double slack_in_cells(const PrintedNumber& first, const PrintedNumber& second) {
     if (first.is_whole && second.is_whole)
         return 0.0;
-    const auto digit = [](const PrintedNumber& one) { return one.is_whole ? 0.0 : one.unit; };
-    return std::max(of_cells * std::max(first.value, second.value) +
-                        1.01 * std::max(digit(first), digit(second)),
-                    zero_of_cells);
+    // 0.00 is what is less than a half of its last digit.
+    const auto least = [](const PrintedNumber& one) {
+        return one.value == 0.0 && !one.is_whole ? 1.01 * one.unit : zero_of_cells;
+    };
+    return std::max({of_cells * std::max(first.value, second.value), least(first), least(second)});
 }
 
 bool same_words(const std::string& before, const std::string& now, bool is_row) {

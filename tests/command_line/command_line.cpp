@@ -364,6 +364,35 @@ BOOST_AUTO_TEST_CASE(the_examples_of_the_readme_run_as_they_stand) {
     }
 }
 
+// Its error is h^-400, which is infinite at s = 10.
+BOOST_AUTO_TEST_CASE(a_timed_run_that_fails_has_every_field_of_the_csv) {
+    const TemporaryDirectory directory;
+    const std::string scene = directory.write("failing.toml", R"(
+[solver]
+command = ["awk", "-v", "h={h}", "-f", "failing.awk"]
+files   = ["failing.awk"]
+[solver.errors]
+e = '^e = (\S+)'
+[work_precision]
+norms = ["e"]
+runs  = 2
+[[work_precision.scheme]]
+name     = "failing"
+elements = [2, 10]
+dt       = "1/s"
+)");
+    directory.write("failing.awk", "BEGIN { printf \"e = %.17g\\n\", h^-400 }\n");
+    std::istringstream csv(call(directory, "run " + scene + " --csv -").output);
+    std::vector<std::ptrdiff_t> commas;
+    std::vector<std::string> lines;
+    for (std::string line; std::getline(csv, line); lines.push_back(line))
+        commas.push_back(std::ranges::count(line.substr(0, line.find('"')), ','));
+    BOOST_REQUIRE(lines.size() == 3U);
+    BOOST_TEST(has(lines[2], ",failed,"));
+    BOOST_TEST(commas[1] == commas[0], lines[1]);
+    BOOST_TEST(commas[2] == commas[0], lines[2]);
+}
+
 BOOST_AUTO_TEST_CASE(a_work_precision_study_has_json_csv_and_a_baseline_of_its_errors) {
     const TemporaryDirectory directory;
     const std::string scene =

@@ -270,6 +270,14 @@ BOOST_AUTO_TEST_CASE(findings_begin_with_the_words_of_their_norm) {
     BOOST_TEST(findings[1].text == "theta_L2L2_sq: other");
 }
 
+BOOST_AUTO_TEST_CASE(details_are_a_list_within_that_of_the_findings) {
+    HtmlContents page;
+    page.document.sections.push_back(
+        {"S", {Finding{"whole"}, Finding{"part 1", 4}, Finding{"part 2", 4}}});
+    BOOST_TEST(has(html_report(page), "<li>whole\n<ul>\n<li>part 1</li>\n<li>part 2</li>\n</ul>\n"
+                                      "</li>\n</ul>\n"));
+}
+
 BOOST_AUTO_TEST_CASE(a_page_that_shows_nothing_in_words_has_no_empty_box) {
     HtmlContents page;
     page.document.title = "A sweep";

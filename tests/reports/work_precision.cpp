@@ -130,6 +130,33 @@ BOOST_AUTO_TEST_CASE(what_is_not_reached_is_blank_and_said) {
     BOOST_TEST(!has(text, "1e-5"), text); // reached by none, and no target
 }
 
+BOOST_AUTO_TEST_CASE(what_is_more_accurate_in_every_row_is_not_said_to_fall_short) {
+    Study two = study({"theta_L2L2"});
+    two.add("one", {{1e-1, 1.0}, {1e-2, 2.0}});
+    two.add("better", {{1e-3, 0.7}, {1e-4, 8.0}});
+    two.add("failing", {{std::nullopt, 1.0}});
+    two.block.targets["theta_L2L2"] = {1e-2};
+    const std::string text = two.text();
+    BOOST_TEST(has(text, "better has less in every row, after 7.00e-1 s in the quickest\n"), text);
+    BOOST_TEST(has(text, "failing does not, as far as measured\n"), text);
+}
+
+// Seven have 21 pairs, of which six are of the fastest; the first of all reaches nothing.
+BOOST_AUTO_TEST_CASE(of_many_the_fastest_is_compared_with_each) {
+    Study many = study({"theta_L2L2"});
+    many.add("coarse", {{1.0, 1.0}, {1e-1, 2.0}});
+    for (const double seconds : {3.0, 2.0, 5.0, 1.0, 7.0, 4.0, 6.0})
+        many.add("of " + fixed(seconds, 0), {{1e-1, 0.1 * seconds}, {1e-3, seconds}});
+    many.block.targets["theta_L2L2"] = {1e-3};
+    const std::string text = many.text();
+    for (const char slower : {'2', '3', '4', '5', '6', '7'})
+        BOOST_TEST(has(text, "of 1 is " + std::string(1, slower) + ".0 times faster than of " +
+                                 std::string(1, slower)),
+                   text);
+    BOOST_TEST(!has(text, "of 2 is "), text);
+    BOOST_TEST(has(text, "the table has the others' times"), text);
+}
+
 BOOST_AUTO_TEST_CASE(one_run_is_marked_and_has_no_quartiles) {
     Study one = study({"theta_L2L2"});
     one.add("slow", {{1e-2, 1.0}, {1e-4, 3.0, 1}});
