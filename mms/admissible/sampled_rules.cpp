@@ -24,11 +24,13 @@ namespace {
 std::optional<double> unbounded_between(const std::function<ArrayXd(const ArrayXd&)>& g,
                                         double begin, double end, double largest) {
     constexpr Index points = 9;
-    constexpr double level = 1.4;        // |s - a|^(-1/4) grows as much in a fourth of the width
-    constexpr double least_growth = 1e3; // what jumps is not level, and stays bounded
-    constexpr double narrowest = 1e-13;  // narrower, the rounding of s - a is seen
+    constexpr double level = 1.4;    // |s - a|^(-1/4) grows as much in a fourth of the width
+    constexpr int least_growths = 6; // of some 22; noise has set its records before
+    constexpr double least_growth = 1e3;
+    constexpr double narrowest = 1e-13; // narrower, the rounding of s - a is seen
     const double width = narrowest * std::max({std::abs(begin), std::abs(end), end - begin});
     const double first = largest;
+    int growths = 0;
     while (end - begin > width) {
         const ArrayXd s = ArrayXd::LinSpaced(points, begin, end);
         const ArrayXd sizes = g(s).abs();
@@ -37,13 +39,16 @@ std::optional<double> unbounded_between(const std::function<ArrayXd(const ArrayX
                 return s(k);
         Index at = 0;
         const double greatest = sizes.maxCoeff(&at);
-        if (greatest <= level * largest && greatest <= level * sizes.minCoeff())
+        const bool grows = greatest > level * largest;
+        if (!grows && greatest <= level * sizes.minCoeff())
             return std::nullopt;
+        growths += grows ? 1 : 0;
         largest = std::max(largest, greatest);
         begin = s(std::max<Index>(at - 1, 0));
         end = s(std::min<Index>(at + 1, points - 1));
     }
-    return largest > least_growth * first ? std::optional(std::midpoint(begin, end)) : std::nullopt;
+    const bool is_bounded = growths < least_growths || largest < least_growth * first;
+    return is_bounded ? std::nullopt : std::optional(std::midpoint(begin, end));
 }
 
 /// The same next to a local maximum of |g| on a grid.
