@@ -139,6 +139,8 @@ LadderResult analyse_ladder(const LadderBlock& block, const Method& method,
         if (auto remark = solver.remark ? solver.remark(series, result.rungs, k) : "";
             !remark.empty())
             shown.remarks.push_back(std::move(remark));
+        if (auto exact = solver.exact ? solver.exact(series, result.rungs, k) : ""; !exact.empty())
+            shown.remarks = {std::move(exact)};
     }
     result.quadrature_remark = quadrature_remark(result.rungs, series.measures);
     if (!series.measures.empty() && solver.reference)

@@ -1,13 +1,16 @@
 #include "studies/runs/round_off_remark.hpp"
 
+#include "core/norms/norms.hpp"
 #include "core/round_off.hpp"
 #include "core/space/linear_elements.hpp"
+#include "core/worse.hpp"
 #include "studies/runs/beam_runs.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace tvbeam {
 
@@ -16,17 +19,34 @@ namespace {
 /// The factor within which the prediction is taken to hold.
 constexpr double within = 10.0;
 
-/// The greatest ‖u_xx‖ over some times.
-double curvature_size(const ProblemData& data, double final_time) {
+/// Of the norm of the solution: no discretisation error is told from rounding below it.
+constexpr double round_off = 16.0 * std::numeric_limits<double>::epsilon();
+
+/// The norm of the exact solution, that of its contact stress apart, from its greatest values over
+/// some times.
+double size_of_exact(const ProblemData& data, const Norm& norm, double final_time) {
     const Mesh mesh = Mesh::uniform(16);
     constexpr int times = 16;
-    double greatest = 0.0;
-    for (int n = 0; n <= times; ++n) {
-        const Eigen::VectorXd nodal =
-            values(data, data.exact->u_xx, mesh.nodes, final_time * n / times).matrix();
-        greatest = std::max(greatest, std::sqrt(squared_norm(mesh, nodal)));
+    const auto fields = data.exact->fields();
+    double sum = 0.0;
+    for (const TimeNorm& part : norm.parts) {
+        double greatest = 0.0;
+        for (int n = 0; n <= times; ++n) {
+            double squares = 0.0;
+            for (std::size_t k = 0; k < fields.size(); ++k)
+                if (part.quantities[k])
+                    squares += squared_norm(
+                        mesh,
+                        values(data, *fields[k], mesh.nodes, final_time * n / times).matrix());
+            greatest = std::max(greatest, squares);
+        }
+        sum += part.kind == TimeNorm::Kind::L2 ? final_time * greatest : greatest;
     }
-    return greatest;
+    return std::sqrt(sum);
+}
+
+double root_of(double error, const Measure& measure) {
+    return measure.squared ? std::sqrt(error) : error;
 }
 
 } // namespace
@@ -37,11 +57,11 @@ std::string round_off_remark(const Beam& beam, const ProblemData& data, const Se
     if (scheme_of(series.method).algorithm != Algorithm::fixed_point || !data.exact ||
         measure.root() != "u_LinfH2semi")
         return {};
-    const double size = curvature_size(data, series.final_time);
+    const double size = size_of_exact(data, *Norm::named(measure.root()), series.final_time);
     for (const auto& rung : rungs) {
         if (rung.errors.empty())
             continue;
-        const double error = measure.squared ? std::sqrt(rung.errors[k]) : rung.errors[k];
+        const double error = root_of(rung.errors[k], measure);
         const double floor =
             size * hermite_floor(rung.rung.elements, beam.zeta, rung.rung.dt, rung.rung.steps);
         if (within * floor <= error / 2.0)
@@ -53,6 +73,24 @@ std::string round_off_remark(const Beam& beam, const ProblemData& data, const Se
             measure.name, rung.rung.elements, floor, within, error);
     }
     return {};
+}
+
+std::string exact_remark(const ProblemData& data, const Series& series,
+                         const std::vector<RungResult>& rungs, std::size_t k) {
+    const Measure& measure = series.measures[k];
+    const auto norm = Norm::named(measure.root());
+    if (!data.exact || !norm)
+        return {};
+    const double size = size_of_exact(data, *norm, series.final_time);
+    double greatest = 0.0;
+    for (const auto& rung : rungs)
+        if (!rung.errors.empty())
+            greatest = worse(greatest, root_of(rung.errors[k], measure));
+    if (!(greatest > 0.0 && greatest <= round_off * size))
+        return {};
+    return fmt::format("{}: every error is rounding, {:.2g} at most of {:.2g}: the scheme is exact "
+                       "for the solution, which tests nothing of its order",
+                       measure.name, greatest, size);
 }
 
 } // namespace tvbeam

@@ -17,10 +17,11 @@ struct StudiedSolver {
     /// A finer run that errors are measured against; none: the exact solution.
     std::optional<ReferenceBlock> reference = std::nullopt;
 
-    /// A sentence on what limits measure k along a ladder, from its finished runs; empty: nothing
-    /// does. An empty function: nothing ever does.
-    std::function<std::string(const Series&, const std::vector<RungResult>&, std::size_t k)>
-        remark = {};
+    /// A sentence on measure k along a ladder, from its finished runs; empty: there is none.
+    using Remark =
+        std::function<std::string(const Series&, const std::vector<RungResult>&, std::size_t k)>;
+    Remark remark = {}; ///< on what limits it; an empty function: nothing ever does
+    Remark exact = {};  ///< that its errors are rounding: said in place of what their orders mean
 
     /// Its runs are made with a deliberate defect.
     bool has_defect = false;
