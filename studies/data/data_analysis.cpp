@@ -86,8 +86,8 @@ void analyse_records(const DataAnalysis& data, const std::vector<std::size_t>& u
     }
     column.orders = std::move(found.orders);
     column.verdicts = std::move(found.verdict->rows);
-    column.by_width[used.front()] = found.order;
-    if (found.in_turns)
+    column.by_width[used.front()] = found.along.order;
+    if (found.along.in_turns)
         for (const auto i : used)
             column.by_width[i].status = data.widths[used.front()].name + " and " +
                                         data.widths[used.back()].name +
@@ -96,7 +96,7 @@ void analyse_records(const DataAnalysis& data, const std::vector<std::size_t>& u
     else if (used.size() > 1)
         column.by_width[used.back()].status =
             "it is refined with " + data.widths[used.front()].name;
-    if (found.has_logarithm)
+    if (found.along.has_logarithm)
         column.findings.push_back(fmt::format("{}: a factor ln {} stands beside the power",
                                               column.name, data.widths[used.front()].name));
 }

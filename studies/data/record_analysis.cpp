@@ -1,7 +1,5 @@
 #include "studies/data/record_analysis.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -55,40 +53,6 @@ std::vector<std::size_t> coarse_to_fine(const std::vector<Refinement>& records) 
     return order;
 }
 
-/// Whether h stays, so that Δt is what is refined.
-bool stays_in_h(const std::vector<Refinement>& sorted) {
-    return std::isnan(sorted.front().h) || sorted.front().h == sorted.back().h;
-}
-
-/// Whether each h goes with one Δt, which does not grow as h falls.
-bool is_one_path(const std::vector<Refinement>& sorted) {
-    for (std::size_t i = 1; i < sorted.size(); ++i)
-        if (sorted[i].dt > sorted[i - 1].dt ||
-            (sorted[i].h == sorted[i - 1].h && sorted[i].dt < sorted[i - 1].dt))
-            return false;
-    return true;
-}
-
-/// The words of rows claim no more than the interval of the order does.
-void temper(LadderVerdict& verdict, const OrderInterval& order) {
-    constexpr double slack = 0.1; // of the order: that within which verdicts take orders for one
-    if (!verdict.window)
-        return;
-    const double window = verdict.window->order;
-    const double off = slack * order.value;
-    if (order.determined && window >= order.low - off && window <= order.high + off)
-        return;
-    const std::string reason =
-        order.determined
-            ? fmt::format("order {:.2f} here; in the end {:.2f} ± {:.2f}", window, order.value,
-                          order.half_width())
-            : fmt::format("order {:.2f} here, and that of the end is not determined: {}", window,
-                          order.status);
-    for (auto& row : verdict.rows)
-        if (row.verdict == Verdict::asymptotic)
-            row = {Verdict::pre_asymptotic, reason};
-}
-
 } // namespace
 
 RecordAnalysis analyse(std::vector<Refinement> records, const std::vector<double>& sigma) {
@@ -98,40 +62,15 @@ RecordAnalysis analyse(std::vector<Refinement> records, const std::vector<double
         analysis.records = std::move(records);
         return analysis;
     }
-    const auto order = coarse_to_fine(records);
-    std::vector<ErrorRow> rows;
-    for (const std::size_t i : order)
+    std::vector<double> sorted;
+    for (const std::size_t i : coarse_to_fine(records)) {
         analysis.records.push_back(records[i]);
-    analysis.verdict = judge(analysis.records);
-    analysis.orders = analysis.verdict->orders;
-    if (records.empty())
-        return analysis;
-    analysis.is_in_dt = stays_in_h(analysis.records) && !std::isnan(analysis.records.front().dt);
-    if (!analysis.is_in_dt && !is_one_path(analysis.records)) {
-        analysis.in_turns = true;
-        analysis.order.status = "h and dt are refined in turns; three of each in all pairs would "
-                                "show both orders";
-        return analysis;
-    }
-    // Orders do not know the scale of the errors; squares of theirs must be in range.
-    double greatest = 0;
-    for (const auto& record : analysis.records)
-        if (record.is_resolved())
-            greatest = std::max(greatest, record.error);
-    const int exponent = is_positive(greatest) ? std::ilogb(greatest) : 0;
-    for (const std::size_t i : order) {
-        const auto& record = records[i];
-        if (!record.is_resolved())
-            continue;
-        rows.push_back(
-            {{analysis.is_in_dt ? record.dt : record.h}, std::ldexp(record.error, -exponent)});
         if (!sigma.empty())
-            rows.back().sigma = sigma[i] / record.error;
+            sorted.push_back(sigma[i]);
     }
-    const OrderEnsemble ensemble(rows);
-    analysis.order = ensemble.orders().front();
-    temper(*analysis.verdict, analysis.order);
-    analysis.has_logarithm = analysis.order.determined && ensemble.has_logarithm();
+    analysis.along = order_along(analysis.records, sorted);
+    analysis.verdict = judge(analysis.records, {.order = &analysis.along.order});
+    analysis.orders = analysis.verdict->orders;
     return analysis;
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "studies/orders/ladder_order.hpp"
 #include "studies/orders/observed_order.hpp"
-#include "studies/orders/order_engine.hpp"
 #include "studies/orders/two_term_fit.hpp"
 #include "studies/orders/verdict.hpp"
 
@@ -20,10 +20,7 @@ struct RecordAnalysis {
     std::vector<Refinement> records;
     std::vector<std::optional<double>> orders; ///< of a ladder (LadderVerdict); empty for a grid
     std::optional<LadderVerdict> verdict;      ///< of a ladder
-    OrderInterval order;                       ///< of a ladder, in h, or in Δt where h stays
-    bool in_turns = false;                     ///< of no ladder: h and Δt are refined in turns
-    bool is_in_dt = false;                     ///< of a ladder: its order is one in Δt
-    bool has_logarithm = false;                ///< of a ladder: its order stands with a factor ln
+    LadderOrder along;                         ///< of a ladder
     std::optional<TwoTermFit> two_term;        ///< of a grid
 };
 

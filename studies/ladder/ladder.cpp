@@ -1,6 +1,7 @@
 #include "studies/ladder/ladder.hpp"
 
 #include "studies/ladder/order_remarks.hpp"
+#include "studies/orders/ladder_order.hpp"
 
 #include <fmt/format.h>
 
@@ -32,9 +33,10 @@ LadderNorm analysed(const Measure& norm, const std::vector<RungResult>& rungs, s
     result.orders = observed_orders(records_of(rungs, k));
     // Verdicts rest on the norm itself, in which the two terms of the error add up.
     const auto roots = root_records_of(rungs, k, norm);
+    const LadderOrder along = model == nullptr ? order_along(roots) : LadderOrder{};
     result.verdicts =
         judge(model != nullptr && reference ? made_whole(roots, *reference, *model) : roots,
-              {.model = model})
+              {.model = model, .order = along.order.determined ? &along.order : nullptr})
             .rows;
     const auto figure = [&norm](double root) { return norm.squared ? root * root : root; };
     if (fit != nullptr)

@@ -316,12 +316,10 @@ std::optional<OrderEnsemble::Mixture> OrderEnsemble::mix(const Functional& numbe
     double weights = 0;
     double mean = 0;
     for (const auto& [where, one] : numbers) {
-        auto change = change_of(numbers, where.first, where.second);
+        // All of it, also where known scatter may have made it: it may hide as much drift.
+        const auto change = change_of(numbers, where.first, where.second);
         if (!change || !std::isfinite(std::hypot(one.error, *change)))
             continue;
-        // What known scatter makes of two windows is no drift between them.
-        if (rows_.scatter > 0)
-            change = std::sqrt(std::max(0.0, *change * *change - 2 * one.error * one.error));
         const double unit = std::hypot(one.error, *change) + tuning_.agreement;
         all.push_back({one.value, one.error, *change, 1 / (unit * unit)});
         weights += all.back().weight;

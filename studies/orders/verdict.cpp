@@ -1,7 +1,5 @@
 #include "studies/orders/verdict.hpp"
 
-#include "studies/orders/order_engine.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -76,8 +74,8 @@ public:
         find_window();
         if (!run_)
             judge_without_window();
-        else if (drifts(*run_) && !options_.expected_order)
-            leave_out_what_drifts();
+        else if (options_.order != nullptr && !options_.expected_order)
+            leave_out_other_orders(*run_);
     }
     const std::vector<RowVerdict>& verdicts() const { return verdicts_; }
     const std::optional<Run>& run() const { return run_; }
@@ -95,25 +93,11 @@ private:
                (!options_.expected_order || agree(*orders_[i], *options_.expected_order));
     }
 
-    bool drifts(const Run& run) const {
-        const double step = *orders_[run.last] - *orders_[run.first + 1];
-        return std::abs(step) > tuning.slow_drift * options_.tolerance * run.order;
-    }
-
-    /// That which the levels go to, where the engine of orders determines it.
-    std::optional<double> determined_order() const {
-        std::vector<ErrorRow> rows;
-        double width = 1.0;
-        for (std::size_t i = 0; i < size(); ++i) {
-            const auto ratio =
-                i == 0 ? std::optional(1.0) : refinement_ratio(levels_[i - 1], levels_[i]);
-            if (!ratio)
-                return std::nullopt;
-            width /= *ratio;
-            rows.push_back({{width}, levels_[i].error});
-        }
-        const OrderInterval order = estimate_orders(rows).front();
-        return order.determined ? std::optional(order.value) : std::nullopt;
+    /// Whether an order may be that which all levels determine.
+    bool may_be_last(double order) const {
+        const auto& last = *options_.order;
+        return std::abs(order - last.value) <=
+               std::max(options_.tolerance * last.value, last.half_width() / 2);
     }
 
     double mean_order(std::size_t first, std::size_t last) const {
@@ -237,32 +221,50 @@ private:
         return false;
     }
 
-    /// Rows of the window whose order is not yet the one that all levels determine.
-    void leave_out_what_drifts() {
-        const auto determined = determined_order();
-        if (!determined)
-            return;
-        const Run before = *run_;
-        std::size_t first = before.first;
-        while (first < before.last && !agree(*orders_[first + 1], *determined))
-            ++first;
-        if (first == before.first)
-            return;
-        if (first < before.last)
-            run_ = Run{first, before.last, mean_order(first, before.last)};
-        else
+    /// Cuts off rows of the window, coarse ones first, whose order is not that which all levels
+    /// determine.
+    void leave_out_other_orders(const Run before) {
+        Run run = before;
+        const auto is_other = [&] {
+            return !options_.order->determined || !may_be_last(*orders_[run.first + 1]) ||
+                   !may_be_last(run.order);
+        };
+        constexpr std::size_t fewest = 2;
+        while (run.orders() >= fewest && is_other())
+            run = {run.first + 1, run.last, mean_order(run.first + 1, run.last)};
+        if (run.orders() >= fewest) {
+            run_ = run;
+            judge_with(run);
+        } else {
             run_.reset();
-        for (std::size_t i = before.first; i <= before.last; ++i)
-            if (run_ && i >= first)
-                verdicts_[i].reason = reason_within(*run_);
-            else
-                verdicts_[i] = {Verdict::pre_asymptotic,
-                                fmt::format("order {:.2f}; it goes to {:.2f}",
-                                            *orders_[std::max(i, before.first + 1)], *determined)};
+        }
+        for (std::size_t i = 0; i < size(); ++i) {
+            const bool was_cut_off = !run_ || (i >= before.first && i < run.first);
+            if (was_cut_off && (verdicts_[i].verdict == Verdict::asymptotic ||
+                                verdicts_[i].verdict == Verdict::pre_asymptotic))
+                verdicts_[i] = {Verdict::pre_asymptotic, reason_before(i)};
+        }
     }
 
-    static std::string reason_within(const Run& run) {
-        return fmt::format("order {:.2f} over the rows that agree", run.order);
+    /// Of a row that is coarser than the window, or would be.
+    std::string reason_before(std::size_t i) const {
+        const auto& own = orders_[std::max<std::size_t>(i, 1)];
+        const std::string order = own ? fmt::format("order {:.2f}", *own) : std::string("no order");
+        return options_.order->determined
+                   ? fmt::format("{}; that of the end is {:.2f} ± {:.2f}", order,
+                                 options_.order->value, options_.order->half_width())
+                   : fmt::format("{} here, and that of the end is not determined: {}", order,
+                                 options_.order->status);
+    }
+
+    std::string reason_within(const Run& run) const {
+        const auto* last = options_.order;
+        if (last == nullptr || !last->determined ||
+            (run.order >= last->low && run.order <= last->high))
+            return fmt::format("order {:.2f} over the rows that agree", run.order);
+        return fmt::format("order {:.2f} over the rows that agree, near the {:.2f} ± {:.2f} that "
+                           "all levels determine",
+                           run.order, last->value, last->half_width());
     }
 
     RowVerdict alone(double order, bool only_order) const {

@@ -4,16 +4,18 @@
 /// of their mean error: an order read between them is noise. Without a model the judgement rests on
 /// the orders between levels alone: a level far off the line of its neighbours is an outlier, and
 /// passed over; the asymptotic window is the finest run of rows whose orders are positive and agree
-/// with each other and, where they drift, with the order that they determine (order_engine.hpp),
-/// and are not refuted by finer rows: past the window there is nothing, a floor, a
+/// with each other and are not refuted by finer rows: past the window there is nothing, a floor, a
 /// dip or a divergence, or one last row whose other order nothing confirms and towards which the
 /// window does not drift. One order is never enough for that, so a ladder of two rows is not
-/// asymptotic, unless the expected order is given and met. With a two-term model of the same norm,
-/// rows that the model describes are judged by it: it knows the order that the ladder will show in
-/// the end, and a cancellation from an order.
+/// asymptotic, unless the expected order is given and met. Where the order that all levels
+/// determine is given, the window has only rows that show it; where it is given as not determined,
+/// there is none. With a two-term model of the same norm, rows that the model describes are judged
+/// by it: it knows the order that the ladder will show in the end, and a cancellation from an
+/// order.
 #pragma once
 
 #include "studies/orders/observed_order.hpp"
+#include "studies/orders/order_engine.hpp"
 #include "studies/orders/two_term_model.hpp"
 
 #include <cstddef>
@@ -63,8 +65,6 @@ struct VerdictTuning {
     /// The orders of the window already run towards that of the finest row, by this part of the
     /// step that is left: a drift, and no kink that one row shows.
     double drift_part = 0.1;
-    /// Orders of a window that move by less than this part of the tolerance go nowhere else.
-    double slow_drift = 0.25;
 };
 
 struct VerdictOptions {
@@ -74,6 +74,9 @@ struct VerdictOptions {
     double tolerance = 0.1;
     /// Model of this norm (not its square), from a fit to these or other records.
     const TwoTermModel* model = nullptr;
+    /// That along the ladder (ladder_order.hpp), which rows that are asymptotic have, to the
+    /// tolerance or half the half width of its interval. None: not known.
+    const OrderInterval* order = nullptr;
 };
 
 struct LadderVerdict {

@@ -1,3 +1,4 @@
+#include "studies/orders/ladder_order.hpp"
 #include "studies/orders/verdict.hpp"
 
 #include <boost/test/unit_test.hpp>
@@ -123,13 +124,26 @@ BOOST_AUTO_TEST_CASE(orders_that_agree_on_their_way_to_another_one_are_not_asymp
     std::vector<Refinement> ladder;
     for (int k = 0; k < 5; ++k)
         ladder.push_back({.h = std::exp2(-k), .error = std::exp2(-k) + std::exp2(-1.5 * k)});
-    // Its last order is within a tenth of 1, and that alone.
-    auto verdict = judge(ladder);
-    BOOST_TEST(word(verdict) == "pppAA");
-    BOOST_TEST(verdict.window->first == 3u);
-    BOOST_TEST(verdict.rows[2].reason == "order 1.19; it goes to 1.00");
+    const OrderInterval order = order_along(ladder).order;
+    BOOST_REQUIRE(order.determined);
+    const auto verdict = judge(ladder, {.order = &order});
+    // The last order is near 1, and that alone.
+    BOOST_TEST(word(verdict) == "ppppp");
+    BOOST_TEST(verdict.rows[4].reason.starts_with("order 1.11; that of the end is 1.00 ± "));
+    BOOST_TEST(!verdict.window.has_value());
+    // Where two are, the others are told what they go to.
+    ladder.push_back({.h = std::exp2(-5), .error = std::exp2(-5) + std::exp2(-7.5)});
+    const OrderInterval longer = order_along(ladder).order;
+    const auto cut = judge(ladder, {.order = &longer});
+    BOOST_TEST(cut.window.has_value() == (std::abs(longer.value - 1.115) <= 0.1));
+    // Of what is not determined nothing is asymptotic.
+    const OrderInterval open{.value = 1.1, .status = "rising past 1.1"};
+    const auto none = judge(ladder, {.order = &open});
+    BOOST_TEST(word(none) == "pppppp");
+    BOOST_TEST(none.rows[1].reason ==
+               "order 1.23 here, and that of the end is not determined: rising past 1.1");
     // Who expects an order has it taken for that of the end.
-    BOOST_TEST(word(ladder, {.expected_order = 1.15}) != word(verdict));
+    BOOST_TEST(word(judge(ladder, {.expected_order = 1.15, .order = &open})) != "pppppp");
 }
 
 BOOST_AUTO_TEST_CASE(equal_errors_stand_on_a_floor) {

@@ -63,8 +63,8 @@ BOOST_AUTO_TEST_CASE(orders_of_a_ladder_are_those_of_the_methods) {
     for (const auto& [name, order] : {std::pair("Runge-Kutta", 4.0), std::pair("midpoint", 2.0)}) {
         const RecordAnalysis& one = analysis.errors.at(name);
         BOOST_TEST(!one.two_term);
-        BOOST_TEST(one.order.determined);
-        BOOST_TEST(std::abs(one.order.value - order) <= one.order.half_width());
+        BOOST_TEST(one.along.order.determined);
+        BOOST_TEST(std::abs(one.along.order.value - order) <= one.along.order.half_width());
         BOOST_REQUIRE(one.orders.back());
         BOOST_TEST(std::abs(*one.orders.back() - order) <= 0.05);
         BOOST_TEST((one.verdict->rows.back().verdict == Verdict::asymptotic));
