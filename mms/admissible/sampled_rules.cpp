@@ -71,15 +71,16 @@ std::optional<double> unbounded_on(const ArrayXd& grid, const ArrayXd& values,
 
 double largest_on_grid(const SpaceTimeFunction& g, const ArrayXd& times, double final_time,
                        const Place& place, const std::string& what) {
-    const auto refuse = [&](double x, double t, double value) {
+    const auto refuse = [&](double x, double t, double value, bool ends_there = true) {
         const std::string how =
             std::isfinite(value) ? " grows without bound towards" : " is not finite at";
-        throw InputError(place, what + how + " x = " + number_text(x) + ", t = " + number_text(t) +
-                                    " (it is " + number_text(value) +
-                                    "); write it so that it and its derivatives exist "
-                                    "everywhere on [0, 1] x [0, " +
-                                    number_text(final_time) + "]" +
-                                    (t > 0.0 ? ", or end the run before that time" : ""));
+        throw InputError(place,
+                         what + how + " x = " + number_text(x) + ", t = " + number_text(t) +
+                             " (it is " + number_text(value) +
+                             "); write it so that it and its derivatives exist "
+                             "everywhere on [0, 1] x [0, " +
+                             number_text(final_time) + "]" +
+                             (ends_there && t > 0.0 ? ", or end the run before that time" : ""));
     };
     const ArrayXd x = sample_points(0.0, 1.0);
     ArrayXXd values(x.size(), times.size());
@@ -95,7 +96,7 @@ double largest_on_grid(const SpaceTimeFunction& g, const ArrayXd& times, double 
     const auto at = [&](double here, double t) { return g(ArrayXd::Constant(1, here), t)(0); };
     const auto in_x = [&](const ArrayXd& s) -> ArrayXd { return g(s, times(column)); };
     if (const auto a = unbounded_on(x, values.col(column), in_x))
-        refuse(*a, times(column), at(*a, times(column)));
+        refuse(*a, times(column), at(*a, times(column)), false);
     const auto in_t = [&](const ArrayXd& s) -> ArrayXd {
         return s.unaryExpr([&](double t) { return at(x(row), t); });
     };

@@ -25,14 +25,21 @@ constexpr const char* words_of_c =
     "inline int long main register restrict return short signed sizeof static struct switch "
     "typedef typeof union unsigned void volatile while asm abs signgam lgamma_r lgammaf_r "
     "lgammal_r float_t double_t alignas alignof bool constexpr false nullptr static_assert "
-    "thread_local true typeof_unqual values";
+    "thread_local true typeof_unqual values exit index rindex";
 /// Functions of math.h, which also have an f and an l behind their names.
 constexpr const char* functions_of_c =
     "acos acosh asin asinh atan atan2 atanh cbrt ceil copysign cos cosh drem erf erfc exp exp2 "
     "expm1 fabs fdim finite floor fma fmax fmin fmod frexp gamma hypot ilogb isinf isnan j0 j1 jn "
     "ldexp lgamma llrint llround log log10 log1p log2 logb lrint lround modf nan nearbyint "
     "nextafter nexttoward pow remainder remquo rint round scalb scalbln scalbn significand sin "
-    "sinh sqrt tan tanh tgamma trunc y0 y1 yn";
+    "sinh sqrt tan tanh tgamma trunc y0 y1 yn "
+    // of C23, POSIX and GNU
+    "canonicalize daddl ddivl dmull dsqrtl dsubl exp10 exp10m1 exp2m1 compoundn fadd fdiv ffma "
+    "fmaximum fmaximum_mag fmaximum_mag_num fmaximum_num fmaxmag fminimum fminimum_mag "
+    "fminimum_mag_num fminimum_num fminmag fmul fromfp fromfpx fsqrt fsub getpayload iscanonical "
+    "iseqsig issignaling iszero issubnormal llogb log10p1 log2p1 logp1 nextdown nextup pown powr "
+    "rootn roundeven rsqrt setpayload setpayloadsig sincos sinpi cospi tanpi asinpi acospi atanpi "
+    "atan2pi totalorder totalordermag ufromfp ufromfpx";
 /// Macros of math.h, of what C++ includes with it, and of the compilers.
 constexpr const char* macros_of_c =
     "NAN INFINITY NULL HUGE_VAL HUGE_VALF HUGE_VALL FP_NAN FP_INFINITE FP_ZERO FP_SUBNORMAL "
@@ -42,8 +49,19 @@ constexpr const char* macros_of_c =
     "isgreaterequal isfinite signbit isunordered alloca linux unix i386";
 /// Other functions at global scope where C++ includes <cmath>.
 constexpr const char* other_functions_of_c =
-    "abort abs atexit atof atoi atol bsearch calloc div exit free getenv labs ldiv llabs lldiv "
-    "malloc qsort rand random realloc srand srandom std strtod strtol system";
+    "a64l abort abs aligned_alloc alloca arc4random at_quick_exit atexit atof atoi atol atoll "
+    "bsearch calloc clearenv clone div drand48 ecvt epsilon erand48 exit fcvt free gcvt "
+    "getloadavg getpt getsubopt getenv grantpt initstate jrand48 l64a labs lcong48 ldiv llabs "
+    "lldiv lrand48 malloc mblen mbstowcs mbtowc mkdtemp mkostemp mkstemp mktemp mrand48 nrand48 "
+    "on_exit pselect ptsname putenv qecvt qfcvt qgcvt qsort quick_exit rand random realloc "
+    "reallocarray realpath rpmatch secure_getenv seed48 select setenv setstate srand srand48 "
+    "srandom std strtod strtof strtol strtold strtoll strtoul strtoull strfromd strfromf strtoq "
+    "strtouq system uint ulong unlockpt unsetenv ushort valloc wcstombs wctomb zeta "
+    // types
+    "blkcnt_t blksize_t caddr_t clock_t clockid_t daddr_t dev_t div_t fd_mask fd_set gid_t id_t "
+    "ino_t int16_t int32_t int64_t int8_t key_t ldiv_t lldiv_t locale_t mode_t nlink_t off_t pid_t "
+    "pthread_t quad_t register_t sigset_t size_t ssize_t suseconds_t time_t timer_t timespec "
+    "timeval u_char u_int u_long u_short uid_t useconds_t max_align_t ptrdiff_t";
 constexpr const char* words_of_cpp =
     "alignas alignof and bitand bitor bool break case catch char class compl concept const "
     "constexpr continue decltype default delete do double else enum explicit export extern false "
@@ -58,8 +76,8 @@ constexpr const char* intrinsics_of_fortran =
     "abs acos asin atan cos cosh dp exp kind log pi real sin sinh sources sqrt tan tanh values";
 constexpr const char* words_of_python =
     "and as assert async await break class continue def del elif else except finally for from "
-    "global if import in is lambda nonlocal not or pass raise return try while with None True "
-    "False";
+    "global if import in is lambda nonlocal not or pass raise return try while with yield None "
+    "True False";
 constexpr const char* words_of_julia =
     "baremodule begin break catch const continue do else elseif end export false finally for "
     "function global if import let local macro module quote return struct true try using while "
@@ -90,7 +108,8 @@ std::set<std::string> all_macros() {
 std::set<std::string> all_functions_of_c() {
     std::set<std::string> all;
     for (const auto& function : words(functions_of_c))
-        for (const char* end : {"", "f", "l"})
+        for (const char* end :
+             {"", "f", "l", "_r", "f_r", "l_r", "f32", "f64", "f128", "f32x", "f64x"})
             all.insert(function + end);
     return all;
 }

@@ -175,20 +175,27 @@ std::size_t fastest_of(const ReachedError& error) {
     return static_cast<std::size_t>(least - error.times.begin());
 }
 
-/// Why a scheme has no time to reach an error: it falls short of it, or is beyond in every row.
-std::string out_of_range(const SchemeRuns& scheme, std::size_t norm, double error) {
-    std::optional<double> soonest;
+/// Why a scheme has no time to reach an error, behind its name.
+std::string without_time(const SchemeRuns& scheme, std::size_t norm, double error) {
+    double soonest = std::numeric_limits<double>::infinity();
+    bool is_above = false;
+    bool has_failed = false;
     for (std::size_t i = 0; i < scheme.runs.size(); ++i) {
         const RungResult& run = scheme.runs[i];
         if (run.errors.empty() || !scheme.timings[i])
-            continue;
-        if (!(run.errors.at(norm) < error))
-            return " does not, as far as measured";
-        soonest = std::min(soonest.value_or(scheme.timings[i]->median), scheme.timings[i]->median);
+            has_failed = true;
+        else if (run.errors.at(norm) < error)
+            soonest = std::min(soonest, scheme.timings[i]->median);
+        else
+            is_above = true;
     }
-    return soonest ? fmt::format(" has less in every row, after {} s in the quickest",
-                                 scientific(*soonest, 2))
-                   : " does not, as far as measured";
+    if (!std::isfinite(soonest))
+        return " does not, as far as measured";
+    if (is_above)
+        return " does, but not from one row to the next: one between failed, or a finer one is "
+               "above it again";
+    return fmt::format(" has less in every row{}, after {} s in the quickest",
+                       has_failed ? " that did not fail" : "", scientific(soonest, 2));
 }
 
 /// Which scheme reaches an error sooner: of few, every two; of many, the fastest beside each.
@@ -208,17 +215,17 @@ std::vector<Block> comparisons(const ReachedError& error, const WorkPrecisionRes
         findings.emplace_back(Finding{"the table has the others' times", 4});
     for (std::size_t k = 0; k < block.schemes.size(); ++k)
         if (error.times[k] && error.comparisons.empty())
-            findings.emplace_back(Finding{block.schemes[k].name + " alone does", 4});
+            findings.emplace_back(
+                Finding{block.schemes[k].name + " alone has rows on both sides of it", 4});
     std::vector<std::string> without;
     for (std::size_t k = 0; k < block.schemes.size(); ++k)
         if (!error.times[k])
             without.push_back(block.schemes[k].name +
-                              out_of_range(result.schemes[k], norm, error.error));
+                              without_time(result.schemes[k], norm, error.error));
     constexpr std::size_t most = 4;
     if (without.size() > most)
         findings.emplace_back(Finding{
-            fmt::format("{} of {} schemes have rows on one side of it alone, or none; the tables "
-                        "show which",
+            fmt::format("{} of {} schemes have no time to compare; the tables show their rows",
                         without.size(), block.schemes.size()),
             4});
     else

@@ -48,6 +48,13 @@ bool are_zero(const std::string& what, double one, double other) {
            std::max(std::abs(one), std::abs(other)) < round_off;
 }
 
+/// A number; null: there is none; "inf" or "-inf".
+Json figure_json(double figure) {
+    if (std::isfinite(figure))
+        return figure;
+    return std::isnan(figure) ? Json() : Json(figure > 0.0 ? "inf" : "-inf");
+}
+
 } // namespace
 
 void require_recordable(const Scene& scene) {
@@ -124,7 +131,7 @@ std::string baseline_of(const std::vector<BaselineEntry>& entries, const std::st
                                         "; a baseline goes by their names: rename one");
         Json errors = Json::object();
         for (const auto& [what, error] : figures)
-            errors[what] = std::isfinite(error) ? Json(error) : Json();
+            errors[what] = figure_json(error);
         if (!said.empty())
             errors[said_key] = Json::parse(said);
         else if (scenes.contains(name) && scenes[name].contains(said_key))
@@ -197,9 +204,14 @@ std::vector<CheckedExpectation> Baseline::check(const BaselineEntry& entry,
             one.holds = std::abs(error - before) <= tolerance * std::abs(before) ||
                         are_zero(what, error, before);
         } else if (found != recorded.end() && !std::isfinite(error)) {
-            // A field that is missing, and was.
-            one.expected = one.found = "none";
-            one.holds = true;
+            // A field that is missing, or infinite, and was.
+            const auto text = [](const std::string& json) {
+                return json == "null" ? "none" : json;
+            };
+            const std::string now = figure_json(error).dump();
+            one.expected = text(found->second.text);
+            one.found = text(now);
+            one.holds = now == found->second.text;
         }
         checked.push_back(one);
     }

@@ -26,8 +26,9 @@ constexpr double of_sentences = 1e-3;
 constexpr double coarsest_digit = 0.01; // of the number, may be another
 constexpr double of_round_off = 4.0;    // a factor
 constexpr double zero = 1e-14;
-constexpr double printed_zero = 1e-13; // in sentences
-constexpr double of_cells = 0.7;       // of tables: of the greater; the numbers stand elsewhere
+constexpr double printed_zero = 1e-13;     // in sentences
+constexpr double of_cells = 0.25;          // of tables: of the greater; the numbers stand elsewhere
+constexpr double of_round_off_cells = 0.7; // … in rows that have one below:
 constexpr double zero_of_cells = 1e-12;
 
 bool is_one_of(std::string_view word, std::initializer_list<std::string_view> words) {
@@ -46,12 +47,15 @@ struct PrintedNumber {
     bool is_whole = true;
 };
 
-/// That which begins at a place; none behind a letter, as in a name.
+/// That which begins at a place, with its sign behind a blank; none behind a letter, as in a name.
 std::optional<PrintedNumber> number_at(const std::string& text, std::size_t at) {
     const auto is = [&](std::size_t i, auto test) {
         return i < text.size() && test(static_cast<unsigned char>(text[i])) != 0;
     };
-    if (!is(at, isdigit) || (at > 0 && (is(at - 1, isalnum) || text[at - 1] == '_')))
+    const bool is_signed = is(at, [](int c) { return c == '-' ? 1 : 0; }) && is(at + 1, isdigit) &&
+                           (at == 0 || text[at - 1] == ' ');
+    if (!is_signed &&
+        (!is(at, isdigit) || (at > 0 && (is(at - 1, isalnum) || text[at - 1] == '_'))))
         return std::nullopt;
     PrintedNumber number;
     const char* begin = text.data() + at;
@@ -87,25 +91,38 @@ double slack_in_words(const PrintedNumber& first, const PrintedNumber& second,
     // What is held to a part may be rounded to either side.
     const bool by_a_digit = is_half_width || behind.starts_with(plus_minus) ||
                             first.unit <= coarsest_digit * std::abs(first.value);
-    const bool both_zero =
-        !first.is_whole && !second.is_whole && std::max(first.value, second.value) <= printed_zero;
+    const bool both_zero = !first.is_whole && !second.is_whole &&
+                           std::max(std::abs(first.value), std::abs(second.value)) <= printed_zero;
     return both_zero ? printed_zero
                      : part * std::abs(first.value) + (by_a_digit ? 1.01 * first.unit : 0.0);
 }
 
-/// The same in the row of a table, where numbers that are rounding errors stand, and what is
-/// computed from them.
-double slack_in_cells(const PrintedNumber& first, const PrintedNumber& second) {
+/// Whether a row of a table has a rounding error, and may have what is computed from such.
+bool has_round_off(const std::string& row) {
+    for (std::size_t i = 0; i < row.size(); ++i)
+        if (const auto number = number_at(row, i)) {
+            if (number->value != 0.0 && std::abs(number->value) < zero_of_cells)
+                return true;
+            i += number->length - 1;
+        }
+    return false;
+}
+
+/// How far from the first the second of two numbers of a table may be.
+double slack_in_cells(const PrintedNumber& first, const PrintedNumber& second, double part) {
     if (first.is_whole && second.is_whole)
         return 0.0;
     // 0.00 is what is less than a half of its last digit.
     const auto least = [](const PrintedNumber& one) {
         return one.value == 0.0 && !one.is_whole ? 1.01 * one.unit : zero_of_cells;
     };
-    return std::max({of_cells * std::max(first.value, second.value), least(first), least(second)});
+    return std::max({part * std::max(std::abs(first.value), std::abs(second.value)), least(first),
+                     least(second)});
 }
 
 bool same_words(const std::string& before, const std::string& now, bool is_row) {
+    const double part =
+        is_row && (has_round_off(before) || has_round_off(now)) ? of_round_off_cells : of_cells;
     std::size_t i = 0;
     std::size_t j = 0;
     while (i < before.size() && j < now.size()) {
@@ -117,7 +134,7 @@ bool same_words(const std::string& before, const std::string& now, bool is_row) 
             continue;
         }
         const std::string_view text = before;
-        const double slack = is_row ? slack_in_cells(*first, *second)
+        const double slack = is_row ? slack_in_cells(*first, *second, part)
                                     : slack_in_words(*first, *second, text.substr(0, i),
                                                      text.substr(i + first->length));
         if (!(std::abs(second->value - first->value) <= slack))

@@ -19,7 +19,9 @@ namespace tvbeam {
 ///   is decided at thresholds, and round-off at one has moved a half width by 2.6 %;
 /// - in sentences to 0.1 % and one in their last digit, if that is 1 % of them or beside ±; those
 ///   behind ± to 5 %; below 1e-13 all;
-/// - in rows of tables, whose numbers stand elsewhere too, to a factor 3; below 1e-12 all;
+/// - in rows of tables, whose numbers stand elsewhere too, to a quarter of the greater, and where
+/// one
+///   is a rounding error, below 1e-12, to a factor 3;
 /// - residuals and other figures of round-off to a factor 4, and below their unit all of them;
 /// - everywhere below 1e-14.
 ///

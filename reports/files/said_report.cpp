@@ -70,8 +70,8 @@ std::string without(std::string text, std::string_view begin, std::string_view e
     return text;
 }
 
-/// What formulas of LaTeX that have digits in them are, and numbers: #.
-std::string with_signs_for_formulas(const std::string& line) {
+/// With a number for each formula of LaTeX that has digits in it.
+std::string with_numbers_for_formulas(const std::string& line) {
     std::string text;
     for (std::size_t at = 0; at < line.size();) {
         const std::size_t begin = std::min(line.find('$', at), line.size());
@@ -90,7 +90,7 @@ std::string with_signs_for_formulas(const std::string& line) {
 /// have, and which cells are empty, is the numbers' own. One blank for blanks, one of the dashes
 /// and dots of a line.
 std::string shape_of(const std::string& given) {
-    const std::string line = with_signs_for_formulas(without(given, " × 10<sup>", "</sup>"));
+    const std::string line = with_numbers_for_formulas(without(given, " × 10<sup>", "</sup>"));
     const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
     std::string shape;
     for (std::size_t i = 0; i < line.size();) {
@@ -120,7 +120,7 @@ std::string shape_of(const std::string& given) {
     return shape;
 }
 
-Json file_of(const std::string& text) {
+std::string file_of(const std::string& text) {
     boost::crc_32_type sum;
     std::size_t lines = 0;
     std::string before;
@@ -132,6 +132,7 @@ Json file_of(const std::string& text) {
         if (shape == before)
             continue;
         sum.process_bytes(shape.data(), shape.size());
+        sum.process_byte('\n');
         before = shape;
         ++lines;
     }

@@ -10,9 +10,10 @@ namespace tvbeam {
 /// headings, and rows as texts, some of them where there are many.
 nlohmann::ordered_json tables_said_by(const StudyResult& result);
 
-/// By name, the files that a result is reported in, each by the number of its lines and a checksum
-/// of them: without numbers, which the tables have, and without what the next run, another folder
-/// or another build changes.
+/// By name, the files that a result is reported in, each by the number of its lines, of those alike
+/// side by side one, and a checksum of them: without numbers, which the tables have, and without
+/// what the next run, another folder or another build changes. Which line is another, a comparison
+/// of the files says (`--out`), not this.
 nlohmann::ordered_json files_said_by(const StudyResult& result);
 
 } // namespace tvbeam

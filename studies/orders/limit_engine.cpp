@@ -188,6 +188,19 @@ ScaledRows scaled(const Rows& levels) {
     return result;
 }
 
+/// The levels from the last at which the values turn back, where three differences or more follow:
+/// next to a turn differences are small, as of a steeper order.
+Rows past_the_turn(const Rows& levels) {
+    constexpr std::size_t fewest = 4; // levels
+    std::size_t first = 0;
+    for (std::size_t k = 1; k + 1 < levels.size(); ++k)
+        if ((levels[k].value - levels[k - 1].value) * (levels[k + 1].value - levels[k].value) < 0)
+            first = k;
+    return levels.size() - first < fewest
+               ? levels
+               : Rows(levels.begin() + static_cast<std::ptrdiff_t>(first), levels.end());
+}
+
 /// The order of the differences between consecutive levels, as the engine of orders sees that of
 /// errors. Of f_0 + C h^p + D h^{p+1} they are, over (h_k^p − h_{k+1}^p) / H_k^p with the widths
 ///
@@ -195,8 +208,9 @@ ScaledRows scaled(const Rows& levels) {
 ///
 /// C H_k^p + D H_k^{p+1}, whatever the ratios of the widths. p is the order found before;
 /// from_models: the first.
-OrderInterval order_of_differences(const Rows& levels, double from_models) {
+OrderInterval order_of_differences(const Rows& given, double from_models) {
     OrderInterval order;
+    const Rows levels = past_the_turn(given);
     double p = from_models;
     double least = infinity, greatest = 0;
     for (std::size_t k = 0; k + 1 < levels.size(); ++k) {

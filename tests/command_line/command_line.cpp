@@ -335,7 +335,26 @@ BOOST_AUTO_TEST_CASE(analyse_writes_and_gates_as_a_scene_does) {
     const Called changed = call(directory, repeated + " --baseline " + in + "r.json");
     BOOST_TEST(changed.exit == 1);
     BOOST_TEST(has(changed.output, "error: h = 0.2: expected 0.041"), changed.output);
+    directory.write("repeated.csv", std::string(rows).replace(rows.find("NA"), 2, "inf"));
+    const Called infinite = call(directory, repeated + " --baseline " + in + "r.json");
+    BOOST_TEST(infinite.exit == 1);
+    BOOST_TEST(has(infinite.output, "expected none, found \"inf\""), infinite.output);
     BOOST_TEST(call(directory, "analyse - --size ndofs --error L2 < " + table).exit == 0);
+}
+
+// What a link points to is replaced, not the link.
+BOOST_AUTO_TEST_CASE(a_file_behind_a_link_is_written_and_the_link_stays) {
+    const TemporaryDirectory directory;
+    const std::filesystem::path file = directory.write("result.json", "before");
+    const std::filesystem::path link = directory.path() / "link.json";
+    std::filesystem::create_symlink(file, link);
+    BOOST_TEST(
+        call(directory, "run table1 --set 'ladder.elements=[10]' --set 'ladder.dt=[0.1]' --set "
+                        "ladder.printed={} --json " +
+                            link.string())
+            .exit == 0);
+    BOOST_TEST(std::filesystem::is_symlink(link));
+    BOOST_TEST(has(directory.read("result.json"), "\"ladder\""));
 }
 
 BOOST_AUTO_TEST_CASE(the_examples_of_the_readme_run_as_they_stand) {

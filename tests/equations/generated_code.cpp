@@ -408,8 +408,10 @@ BOOST_AUTO_TEST_CASE(files_of_any_name_become_code_that_compiles) {
         BOOST_TEST(std::system(line.c_str()) == 0, name << " in " << ending);
     };
     for (const std::string name :
-         {"sin", "Kind", "f", "F_module", "kappa", "x", "t", "dp", "values", "div", "exit",
-          "gammaf", "class", "2d-heat", std::string(80, 'm').c_str()}) {
+         {"sin",       "Kind",   "f",         "F_module", "kappa",
+          "x",         "t",      "dp",        "values",   "div",
+          "exit",      "gammaf", "class",     "2d-heat",  "select",
+          "sincosf32", "exp10",  "initstate", "size_t",   std::string(80, 'm').c_str()}) {
         compiles(CodeLanguage::fortran, name, ".f90", "gfortran -std=f2008 -fsyntax-only code.f90");
         compiles(CodeLanguage::cpp, name, ".cpp", "c++ -std=c++11 -Werror -fsyntax-only code.cpp");
     }

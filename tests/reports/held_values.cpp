@@ -74,12 +74,17 @@ BOOST_AUTO_TEST_CASE(rows_of_tables_are_held_to_a_factor) {
         };
         return same(table(before), table(now));
     };
-    BOOST_TEST(rows("8 | 0.0625 | 1.00e-3", "8 | 0.0625 | 3.30e-3"));
-    BOOST_TEST(!rows("8 | 0.0625 | 1.00e-3", "8 | 0.0625 | 3.50e-3"));
+    BOOST_TEST(rows("8 | 0.0625 | 1.00e-3", "8 | 0.0625 | 1.33e-3"));
+    BOOST_TEST(!rows("8 | 0.0625 | 1.00e-3", "8 | 0.0625 | 1.35e-3"));
+    BOOST_TEST(rows("8 | 3e-16 | 1.00e-3", "8 | 3e-16 | 3.30e-3"));
+    BOOST_TEST(!rows("8 | 3e-16 | 1.00e-3", "8 | 3e-16 | 3.50e-3"));
+    BOOST_TEST(rows("8 | -1e-17 | 0.92", "8 | 0 | 0.80"));
+    BOOST_TEST(!rows("8 | -1.00", "8 | 1.00"));
     BOOST_TEST(!rows("8 | 0.0625 | 1.00e-3", "16 | 0.0625 | 1.00e-3"));
     BOOST_TEST(!rows("8 | 0.0625 | 1.00e-3", "8 | 0.0625 | "));
     BOOST_TEST(rows("8 | 0 | 0.02", "8 | 9e-13 | 0.01"));
     BOOST_TEST(!rows("8 | 0 | 0.02", "8 | 2e-12 | 0.02"));
+    BOOST_TEST(!rows("8 | 0 | 0.02", "8 | 0 | 0.01"));
     BOOST_TEST(rows("8 | 0.00", "8 | 0.01"));
     BOOST_TEST(!rows("8 | 0.00", "8 | 0.05"));
 }

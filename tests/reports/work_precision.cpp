@@ -124,7 +124,7 @@ BOOST_AUTO_TEST_CASE(what_is_not_reached_is_blank_and_said) {
     two.add("fine", {{1e-2, 1.0}, {1e-4, 8.0}});
     two.block.targets["theta_L2L2"] = {1e-4};
     const std::string text = two.text();
-    BOOST_TEST(has(text, "fine alone does\n"), text);
+    BOOST_TEST(has(text, "fine alone has rows on both sides of it\n"), text);
     BOOST_TEST(has(text, "coarse does not, as far as measured\n"), text);
     BOOST_TEST(has(text, "\n      1e-4        8.00\n"), text);
     BOOST_TEST(!has(text, "1e-5"), text); // reached by none, and no target
@@ -139,6 +139,15 @@ BOOST_AUTO_TEST_CASE(what_is_more_accurate_in_every_row_is_not_said_to_fall_shor
     const std::string text = two.text();
     BOOST_TEST(has(text, "better has less in every row, after 7.00e-1 s in the quickest\n"), text);
     BOOST_TEST(has(text, "failing does not, as far as measured\n"), text);
+    Study torn = study({"theta_L2L2"});
+    torn.add("between", {{1e-1, 1.0}, {std::nullopt, 2.0}, {1e-3, 4.0}});
+    torn.add("again", {{1e-1, 1.0}, {1e-3, 2.0}, {2e-2, 4.0}});
+    torn.add("later", {{std::nullopt, 1.0}, {1e-3, 0.7}});
+    torn.block.targets["theta_L2L2"] = {1e-2};
+    BOOST_TEST(has(torn.text(), "between does, but not from one row to the next: "), torn.text());
+    BOOST_TEST(has(torn.text(), "again does, but not from one row to the next: "), torn.text());
+    BOOST_TEST(has(torn.text(), "later has less in every row that did not fail, after 7.00e-1 s"),
+               torn.text());
 }
 
 // Seven have 21 pairs, of which six are of the fastest; the first of all reaches nothing.

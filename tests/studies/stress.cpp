@@ -283,6 +283,31 @@ BOOST_AUTO_TEST_CASE(every_check_beyond_its_limit_is_named) {
         {1.11, 0.9, 0.0, nan}, 0.92);
 }
 
+// Of the limit of each; those of contact count with stops alone.
+BOOST_AUTO_TEST_CASE(closeness_is_that_of_the_check_nearest_to_its_limit) {
+    StressChecks none;
+    BOOST_TEST(none.closeness(true) == 0.0);
+    const auto half = [](double StressChecks::*check, double limit) {
+        StressChecks checks;
+        checks.*check = limit / 2;
+        return std::pair(checks.closeness(false), checks.closeness(true));
+    };
+    const std::pair either(0.5, 0.5);
+    const std::pair with_stops(0.0, 0.5);
+    BOOST_TEST((half(&StressChecks::energy, StressLimits::energy) == either));
+    BOOST_TEST((half(&StressChecks::heat_residual, StressLimits::residual) == either));
+    BOOST_TEST((half(&StressChecks::beam_residual, StressLimits::residual) == either));
+    BOOST_TEST((half(&StressChecks::penetration, StressLimits::contact) == with_stops));
+    BOOST_TEST((half(&StressChecks::wrong_sign, StressLimits::contact) == with_stops));
+    BOOST_TEST((half(&StressChecks::complementarity, StressLimits::contact) == with_stops));
+    StressChecks others;
+    others.order_defect = -StressLimits::order / 4;
+    BOOST_TEST(others.closeness(false) == 0.25);
+    others.path_limit = 30.0;
+    others.path = 10.0;
+    BOOST_TEST(others.closeness(true) == 1.0 / 3.0, boost::test_tools::tolerance(1e-15));
+}
+
 BOOST_AUTO_TEST_CASE(error_of_the_mode_is_the_predicted_one) {
     StressParameters mode;
     mode.alpha = 0.5;
