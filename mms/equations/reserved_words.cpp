@@ -153,6 +153,8 @@ std::set<std::string> reserved_words(CodeLanguage language) {
 std::set<std::string> global_names(CodeLanguage language) {
     if (language == CodeLanguage::fortran)
         return words(intrinsics_of_fortran);
+    if (language != CodeLanguage::cpp)
+        return {};
     std::set<std::string> all = all_functions_of_c();
     all.merge(words(other_functions_of_c));
     return all;

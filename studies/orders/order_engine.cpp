@@ -379,9 +379,10 @@ std::vector<FittedNumber> OrderEnsemble::order_by_window(Index width) const {
     return means;
 }
 
-/// Whether the order's last step is more than known scatter makes of an order that stands still.
-/// One window is part of the other, so that the variance of the step is the difference of theirs.
-bool OrderEnsemble::is_significant_step(const std::vector<FittedNumber>& windows) const {
+/// Whether the order's last step is more than known scatter makes of an order that stands still;
+/// where none is known, any is. One window is part of the other, so that the variance of the step
+/// is the difference of theirs.
+bool OrderEnsemble::may_be_a_step(const std::vector<FittedNumber>& windows) const {
     constexpr double deviations = 2;
     const auto& last = windows.back();
     const auto& before = windows[windows.size() - 2];
@@ -418,7 +419,7 @@ bool OrderEnsemble::runs_away(Index width) const {
     constexpr double hardly_less = 0.75;
     constexpr double least_of_many = 0.25; // of `narrowest`, where many steps go one way
     const auto means = order_by_window(width);
-    if (rows_.widths() != 1 || means.size() < 3 || !is_significant_step(means))
+    if (rows_.widths() != 1 || means.size() < 3 || !may_be_a_step(means))
         return false;
     std::vector<double> ratios; // of consecutive steps
     for (std::size_t i = 2; i < means.size(); ++i)
@@ -438,7 +439,7 @@ bool OrderEnsemble::runs_away(Index width) const {
 
 std::string OrderEnsemble::motion(Index width) const {
     const auto means = order_by_window(width);
-    if (means.size() < 2 || !is_significant_step(means))
+    if (means.size() < 2 || !may_be_a_step(means))
         return {};
     const double last = means.back().value;
     const double step = last - means[means.size() - 2].value;

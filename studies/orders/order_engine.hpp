@@ -139,7 +139,7 @@ private:
     double sequence_factor() const;
     double greatest_share(Eigen::Index width) const;
     std::vector<FittedNumber> order_by_window(Eigen::Index width) const;
-    bool is_significant_step(const std::vector<FittedNumber>& windows) const;
+    bool may_be_a_step(const std::vector<FittedNumber>& windows) const;
     bool is_explained() const;
     bool runs_away(Eigen::Index width) const;
     std::string motion(Eigen::Index width) const;
