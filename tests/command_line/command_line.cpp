@@ -132,7 +132,8 @@ BOOST_AUTO_TEST_CASE(bad_input_exits_with_two_says_one_line_and_writes_nothing) 
     for (const std::string arguments :
          {"run no-such-scene", "run table1 --set beam.zeta=-1", "run table1 --set beam.zata=1",
           "run table1 --set 'ladder.elements=[]'", "run table1 --set beam.alpha=1e400",
-          "run table1 --set solution=missing", "derive no-such-solution"}) {
+          "run table1 --set solution=missing", "derive no-such-solution",
+          "derive heat-2d --latex --code c"}) {
         const Called called =
             call(directory, arguments + (arguments.starts_with("run") ? " --json " + out : ""));
         BOOST_TEST(called.exit == 2, arguments);

@@ -15,6 +15,7 @@
 #include <boost/test/unit_test.hpp>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <limits>
 #include <set>
@@ -281,6 +282,20 @@ BOOST_AUTO_TEST_CASE(every_check_beyond_its_limit_is_named) {
     named(
         "of the predicted one", [](StressChecks& c, double v) { c.error = v; },
         {1.11, 0.9, 0.0, nan}, 0.92);
+}
+
+// However busy the machine is: no longer than it was waited for.
+BOOST_AUTO_TEST_CASE(seconds_of_a_case_are_seconds) {
+    StressParameters ordinary;
+    ordinary.alpha = 0.5;
+    ordinary.elements = 10;
+    ordinary.steps = 20;
+    ordinary.dt = 0.01;
+    const auto start = std::chrono::steady_clock::now();
+    const StressCase result = judge(ordinary);
+    const std::chrono::duration<double> waited = std::chrono::steady_clock::now() - start;
+    BOOST_TEST(result.seconds > 0.0);
+    BOOST_TEST(result.seconds <= waited.count());
 }
 
 // Of the limit of each; those of contact count with stops alone.
