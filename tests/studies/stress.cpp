@@ -101,7 +101,6 @@ BOOST_AUTO_TEST_CASE(outcomes_have_their_reasons) {
     ordinary.alpha = 0.5;
     ordinary.zeta = 0.1;
     ordinary.dt = 0.01;
-    ordinary.time = "euler";
     ordinary.elements = 10;
     ordinary.steps = 10;
     ordinary.load = 1.0;
@@ -390,7 +389,6 @@ BOOST_AUTO_TEST_CASE(checks_do_not_depend_on_the_size_of_the_data) {
         ordinary.alpha = 0.5;
         ordinary.zeta = 0.1;
         ordinary.dt = 0.01;
-    ordinary.time = "euler";
         ordinary.elements = 20;
         ordinary.steps = 20;
         ordinary.load = 1e-3;
