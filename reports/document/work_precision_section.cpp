@@ -182,8 +182,10 @@ std::string without_time(const SchemeRuns& scheme, std::size_t norm, double erro
     bool has_failed = false;
     for (std::size_t i = 0; i < scheme.runs.size(); ++i) {
         const RungResult& run = scheme.runs[i];
-        if (run.errors.empty() || !scheme.timings[i])
+        if (run.errors.empty())
             has_failed = true;
+        else if (!scheme.timings[i])
+            continue; // not timed any more
         else if (run.errors.at(norm) < error)
             soonest = std::min(soonest, scheme.timings[i]->median);
         else
@@ -192,8 +194,9 @@ std::string without_time(const SchemeRuns& scheme, std::size_t norm, double erro
     if (!std::isfinite(soonest))
         return " does not, as far as measured";
     if (is_above)
-        return " does, but not from one row to the next: one between failed, or a finer one is "
-               "above it again";
+        return " does, but not from one row to the next: one between has failed or has the error "
+               "0, "
+               "or a finer one is above it again";
     return fmt::format(" has less in every row{}, after {} s in the quickest",
                        has_failed ? " that did not fail" : "", scientific(soonest, 2));
 }

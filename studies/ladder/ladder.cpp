@@ -6,9 +6,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <set>
 #include <string>
+#include <utility>
 
 namespace tvbeam {
 
@@ -23,6 +25,19 @@ std::vector<Refinement> made_whole(std::vector<Refinement> roots, const Refineme
     return roots;
 }
 
+/// Whether the orders of a window move: only then is it worth the time to ask where they go.
+bool moves(const LadderVerdict& verdict) {
+    constexpr double still = 0.025; // of the order
+    if (!verdict.window)
+        return false;
+    const auto& [first, last, order] = *verdict.window;
+    std::vector<double> orders;
+    for (std::size_t i = first + 1; i <= last; ++i)
+        if (verdict.orders[i])
+            orders.push_back(*verdict.orders[i]);
+    return !orders.empty() && std::abs(orders.back() - orders.front()) > still * order;
+}
+
 LadderNorm analysed(const Measure& norm, const std::vector<RungResult>& rungs, std::size_t k,
                     const TwoTermFit* fit, const std::optional<Refinement>& reference) {
     const TwoTermModel* model = fit != nullptr ? &fit->model : nullptr;
@@ -33,11 +48,13 @@ LadderNorm analysed(const Measure& norm, const std::vector<RungResult>& rungs, s
     result.orders = observed_orders(records_of(rungs, k));
     // Verdicts rest on the norm itself, in which the two terms of the error add up.
     const auto roots = root_records_of(rungs, k, norm);
-    const LadderOrder along = model == nullptr ? order_along(roots) : LadderOrder{};
-    result.verdicts =
+    auto verdict =
         judge(model != nullptr && reference ? made_whole(roots, *reference, *model) : roots,
-              {.model = model, .order = along.order.determined ? &along.order : nullptr})
-            .rows;
+              {.model = model});
+    if (model == nullptr && moves(verdict))
+        if (const auto along = order_along(roots); along.order.determined)
+            verdict = judge(roots, {.order = &along.order});
+    result.verdicts = std::move(verdict.rows);
     const auto figure = [&norm](double root) { return norm.squared ? root * root : root; };
     if (fit != nullptr)
         for (const auto& record : roots) {

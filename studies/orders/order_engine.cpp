@@ -316,8 +316,10 @@ std::optional<OrderEnsemble::Mixture> OrderEnsemble::mix(const Functional& numbe
     double weights = 0;
     double mean = 0;
     for (const auto& [where, one] : numbers) {
-        // All of it, also where known scatter may have made it: it may hide as much drift.
-        const auto change = change_of(numbers, where.first, where.second);
+        auto change = change_of(numbers, where.first, where.second);
+        // All of it, also where known scatter may have made it: it may as well hide some.
+        if (change && rows_.scatter > 0)
+            change = std::hypot(*change, tuning_.hidden_drift * one.error);
         if (!change || !std::isfinite(std::hypot(one.error, *change)))
             continue;
         const double unit = std::hypot(one.error, *change) + tuning_.agreement;

@@ -326,12 +326,44 @@ BOOST_AUTO_TEST_CASE(what_stated_scatter_makes_of_an_order_is_no_motion) {
     }
     BOOST_TEST(moves <= 4);
     BOOST_TEST(determined >= 35);
-    BOOST_TEST(missed <= 6);
+    BOOST_TEST(missed <= 2);
     // A motion that is more than the scatter is told.
     std::vector<ErrorRow> bent;
     for (int k = 0; k < 5; ++k)
         bent.push_back({{std::exp2(-k)}, std::exp2(-2 * k - 0.3 * k * k), 0.02});
     BOOST_TEST(estimate_orders(bent).front().status.starts_with("rising past"));
+}
+
+// h^p + b h^q with 1 % of scatter, which may hide the drift of the order: where that was taken for
+// none, 16 % of the intervals missed. Twice the standard error of 95 % in as many is allowed.
+BOOST_AUTO_TEST_CASE(drift_that_stated_scatter_may_hide_is_in_the_interval) {
+    std::mt19937 random(19);
+    std::normal_distribution<double> off(0.0, 1.0);
+    std::uniform_real_distribution<double> uniform(0.0, 1.0);
+    constexpr double sigma = 0.01;
+    int missed = 0;
+    int determined = 0;
+    for (int table = 0; table < 300; ++table) {
+        const double p = table % 3 == 0 ? 1.0 : table % 3 == 1 ? 2.0 : 0.5 + 3.5 * uniform(random);
+        const double q = p + std::exp2(table % 4 / 2 - 1); // nearer by ½ or 1
+        const double b = (table % 2 == 0 ? 1 : -1) * (0.1 + 0.9 * uniform(random));
+        const double coarsest = 0.2 + 0.6 * uniform(random);
+        std::vector<ErrorRow> rows;
+        for (const double width : {1.0, 0.7, 0.45, 0.31, 0.2, 0.14}) {
+            const double h = coarsest * width;
+            rows.push_back({{h},
+                            (std::pow(h, p) + b * std::pow(h, q)) * std::exp(sigma * off(random)),
+                            sigma});
+            if (rows.size() == static_cast<std::size_t>(3 + table % 4))
+                break;
+        }
+        const auto order = estimate_orders(rows).front();
+        determined += order.determined ? 1 : 0;
+        missed += order.determined && std::abs(order.value - p) > order.half_width() ? 1 : 0;
+    }
+    BOOST_TEST(determined >= 150);
+    BOOST_TEST(missed <= 0.05 * determined + 2 * std::sqrt(0.05 * 0.95 * determined));
+    BOOST_TEST_MESSAGE(missed << " of " << determined);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -286,14 +286,13 @@ BOOST_AUTO_TEST_CASE(every_check_beyond_its_limit_is_named) {
 
 // However busy the machine is: no longer than it was waited for.
 BOOST_AUTO_TEST_CASE(seconds_of_a_case_are_seconds) {
-    StressParameters ordinary;
-    ordinary.alpha = 0.5;
-    ordinary.elements = 10;
-    ordinary.steps = 20;
-    ordinary.dt = 0.01;
-    ordinary.time = "euler";
+    StressParameters few;
+    few.elements = 10;
+    few.steps = 20;
+    few.time = "euler";
+    few.dt = 0.01;
     const auto start = std::chrono::steady_clock::now();
-    const StressCase result = judge(ordinary);
+    const StressCase result = judge(few);
     const std::chrono::duration<double> waited = std::chrono::steady_clock::now() - start;
     BOOST_TEST(result.seconds > 0.0);
     BOOST_TEST(result.seconds <= waited.count());
