@@ -67,6 +67,23 @@ BOOST_AUTO_TEST_CASE(a_ladder_of_calls_shows_the_order_of_what_is_called) {
     }
 }
 
+// e = h + h^1.5: orders from 1.23 down to 1.11, pairs of which agree, and go to 1.
+BOOST_AUTO_TEST_CASE(a_ladder_of_calls_is_asymptotic_at_the_order_that_it_goes_to) {
+    const auto drifting = [](const RunTask& task) {
+        RungResult result = made_up(task);
+        const double h = 1.0 / static_cast<double>(task.rung.elements);
+        result.errors.assign(task.measures.size(), h + std::pow(h, 1.5));
+        return result;
+    };
+    const LadderBlock block{
+        .final_time = 1.0, .rungs = levels({1, 2, 4, 8, 16}), .norms = {norms[0]}, .printed = {}};
+    const LadderResult ladder = run_ladder(block, method("first"), {.run = drifting});
+    for (const auto& verdict : ladder.norms[0].verdicts)
+        BOOST_TEST(int(verdict.verdict != Verdict::asymptotic), verdict.reason);
+    BOOST_TEST(ladder.norms[0].verdicts.back().reason.find("that of the end is 1.00 ± ") !=
+               std::string::npos);
+}
+
 BOOST_AUTO_TEST_CASE(a_grid_of_calls_has_the_orders_and_constants_of_what_is_called) {
     OrdersBlock block{.final_time = 1.0, .grid = {}, .norms = {norms[0]}};
     for (const std::int64_t steps : {10, 20, 40, 80})
