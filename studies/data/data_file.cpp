@@ -331,6 +331,16 @@ void choose_figures(const Names& names, const DataChoice& choice, DataFile& data
     }
 }
 
+/// A figure is no width, no other figure and no deviation of itself.
+void require_one_meaning_each(const Names& names, const std::vector<Use>& uses) {
+    for (std::size_t i = 0; i < uses.size(); ++i)
+        for (std::size_t k = 0; k < i; ++k)
+            if (uses[i].column == uses[k].column)
+                throw InputError(names.place, "column " + names.all[uses[i].column] +
+                                                  " is asked for twice: a column is a width, an "
+                                                  "error, a value or a deviation, once");
+}
+
 /// Bytes; a record of ten figures has some two hundred.
 constexpr std::size_t largest_table = 8 << 20;
 
@@ -474,6 +484,7 @@ DataFile read_data(const std::string& file, const DataChoice& choice) {
     std::vector<Use> uses;
     choose_widths(names, choice, data, uses);
     choose_figures(names, choice, data, uses);
+    require_one_meaning_each(names, uses);
     std::vector<TextField> fields;
     for (bool more = head.numbers_follow || lines.next(); more; more = lines.next()) {
         const auto line = trimmed(lines.line());

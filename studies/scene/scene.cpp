@@ -5,6 +5,7 @@
 #include "mms/text/toml_reader.hpp"
 #include "studies/data/analysed_expectation.hpp"
 #include "studies/external/external_runs.hpp"
+#include "studies/gates/command_expectation.hpp"
 #include "studies/gates/derived_expectation.hpp"
 #include "studies/gates/equations_expectation.hpp"
 #include "studies/gates/refused_expectation.hpp"
@@ -261,11 +262,12 @@ void expect_preparation(TableReader& expect, const Scene& scene,
 }
 
 /// [expect]: what is left out, the reference, what is derived, what is refused, what tables and
-/// equations of others show, a table for each study.
+/// equations of others show, what commands say, a table for each study.
 void read_expectations(Scene& scene, TableReader expect, const Reading& reading) {
     expect_refused(expect, scene, reading, scene.expectations);
     expect_analysed(expect, scene, scene.expectations);
     expect_equations(expect, scene, scene.expectations);
+    expect_commands(expect, scene, reading.program, scene.expectations);
     expect_words(expect, "left_out", scene.expectations, [](const StudyResult& result) {
         std::vector<std::string> parts;
         for (const auto& sentence : result.left_out)

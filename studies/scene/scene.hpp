@@ -80,6 +80,7 @@ struct Reading {
     bool unrun = false;        ///< for what it says of itself alone: no formulas in templates
     /// Kinds of files that [report] may name; empty: any.
     std::vector<std::string> report_files = {};
+    std::string program = {};   ///< tvbeam's own file, which [[expect.commands]] run; empty: none
     AskedKeys* asked = nullptr; ///< where to note what the scene may hold and does; null: nowhere
     /// With these keys, KEY=VALUE each, and without what the scene itself expects and what studies
     /// that: as [[expect.refused]] changes it. Expectations are read where a key is of them.

@@ -542,6 +542,19 @@ Entries of_equations() {
     };
 }
 
+Entries of_commands() {
+    return {
+        {"expect.commands", KeyType::tables, "anything",
+         "commands of tvbeam, one after the other in one directory, which is empty at first"},
+        {"expect.commands.run", KeyType::texts, required, "the words that follow tvbeam"},
+        {"expect.commands.files", KeyType::table, "none", "what is written there before"},
+        {"expect.commands.files.NAME", KeyType::text, "", "the text of the file"},
+        {"expect.commands.exit", KeyType::integer, "0", "the code that it ends with"},
+        {"expect.commands.says", KeyType::texts, "anything",
+         "words of what it writes to standard output and error"},
+    };
+}
+
 Entries of_what_is_written() {
     return {
         {"short",
@@ -561,7 +574,7 @@ Entries all_entries() {
     for (auto&& part :
          {of_the_whole(), of_the_beam(), of_the_solver(), of_ladders_and_grids(),
           of_other_studies(), of_expectations(), of_what_is_derived(), of_what_is_refused(),
-          of_what_is_analysed(), of_equations(), of_what_is_written()})
+          of_what_is_analysed(), of_equations(), of_commands(), of_what_is_written()})
         all.insert(all.end(), part.begin(), part.end());
     return all;
 }

@@ -15,6 +15,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <filesystem>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -47,6 +48,11 @@ std::string recorded_report(const std::vector<BaselineEntry>& entries, const std
     return text;
 }
 
+std::string own_program() {
+    std::error_code error;
+    return std::filesystem::read_symlink("/proc/self/exe", error).string();
+}
+
 constexpr const char* interrupted_reason = "it was interrupted";
 
 int check_command(const CheckOptions& options) {
@@ -60,7 +66,8 @@ int check_command(const CheckOptions& options) {
         scenes.push_back(read_scene(name, options.overrides,
                                     {.short_form = options.short_form,
                                      .expectations = true,
-                                     .report_files = report_format_names()}));
+                                     .report_files = report_format_names(),
+                                     .program = own_program()}));
     for (const auto& scene : scenes)
         predict(scene, options.quiet, options.really_long);
     const auto baseline =

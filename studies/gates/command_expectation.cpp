@@ -1,0 +1,193 @@
+#include "studies/gates/command_expectation.hpp"
+
+#include "mms/text/toml_reader.hpp"
+#include "studies/external/process.hpp"
+#include "studies/scene/scene.hpp"
+
+#include <boost/algorithm/string/join.hpp>
+#include <boost/algorithm/string/trim.hpp>
+#include <boost/crc.hpp>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace tvbeam {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t most_commands = 100;
+constexpr double longest_command = 60.0; // s
+constexpr std::size_t most_shown = 600;
+constexpr std::size_t most_examined = 16384; // of a longer text, its checksum
+
+/// Set for a command of a scene: the scenes that it checks run no commands of theirs.
+constexpr const char* within_a_command = "TVBEAM_WITHIN_A_COMMAND";
+
+struct AskedCommand {
+    std::vector<std::string> words;
+    std::map<std::string, std::string> files; ///< their texts by their names
+    std::int64_t exit = 0;
+    std::vector<std::string> says;
+    std::string what;
+    Place place_of_exit;
+    Place place_of_says;
+};
+
+struct Ended {
+    std::string exit; ///< as "exit 0", or what else became of it
+    std::string said;
+};
+
+/// Of tables whose heading ends with the seconds the rows without their last word.
+std::string without_seconds(const std::string& line, bool& in_table) {
+    if (line.empty())
+        in_table = false;
+    const std::string kept = boost::algorithm::trim_right_copy(line);
+    if (in_table)
+        return boost::algorithm::trim_right_copy(kept.substr(0, kept.rfind(' ') + 1));
+    in_table = kept.ends_with(" sec");
+    return line;
+}
+
+Ended run(const AskedCommand& command, const std::string& program, const Keeper& keeper) {
+    for (const auto& [name, text] : command.files) {
+        const fs::path file = keeper.directory() / name;
+        fs::create_directories(file.parent_path());
+        std::ofstream(file, std::ios::binary) << text;
+    }
+    // The shell makes one of the two streams.
+    ProcessTask task{.program = "/bin/sh",
+                     .arguments = {"-c", R"(exec "$0" "$@" 2>&1)", program},
+                     .directory = keeper.directory(),
+                     .environment = {{within_a_command, "1"}, {"GITHUB_STEP_SUMMARY", ""}},
+                     .timeout = longest_command,
+                     .line = {},
+                     .go_on = [] { return true; }};
+    task.arguments.insert(task.arguments.end(), command.words.begin(), command.words.end());
+    Ended ended;
+    bool in_table = false;
+    task.line = [&](const std::string& line) {
+        ended.said += without_seconds(line, in_table) + "\n";
+    };
+    const ProcessResult result = run_process(task, keeper);
+    ended.exit = result.failure.empty() ? "exit 0" : result.failure;
+    return ended;
+}
+
+/// The files of a directory by their names, each with how many lines it has.
+std::string files_in(const fs::path& directory) {
+    std::set<std::string> files;
+    for (const auto& entry : fs::recursive_directory_iterator(directory)) {
+        if (!entry.is_regular_file())
+            continue;
+        std::ifstream file(entry.path(), std::ios::binary);
+        const auto lines = std::count(std::istreambuf_iterator<char>(file), {}, '\n');
+        const std::string kind = entry.path().extension().string();
+        const std::string name = entry.path().lexically_relative(directory).string();
+        // Pictures are as long as what draws them makes them, and so are notes for --resume.
+        const bool is_text = kind == ".csv" || kind == ".toml" || kind == ".py" || kind == ".md";
+        files.insert(is_text ? fmt::format("{}: {} lines", name, lines) : name);
+    }
+    return boost::algorithm::join(files, "\n");
+}
+
+std::string shown(const std::string& text) {
+    return text.size() <= most_shown ? text : text.substr(0, most_shown) + "…";
+}
+
+std::string examined(const std::string& text) {
+    if (text.size() <= most_examined)
+        return text;
+    boost::crc_32_type sum;
+    sum.process_bytes(text.data(), text.size());
+    return fmt::format("{:08x} of {} bytes\n", sum.checksum(), text.size());
+}
+
+void add_checks(const AskedCommand& command, const Ended& ended, const std::string& files,
+                std::vector<CheckedExpectation>& checked) {
+    const std::string wanted = "exit " + std::to_string(command.exit);
+    checked.push_back({.what = command.what,
+                       .expected = wanted,
+                       .found = ended.exit + ": " + shown(ended.said),
+                       .place = command.place_of_exit,
+                       .holds = ended.exit == wanted,
+                       .examined = ended.exit + "\n" + examined(ended.said) + files});
+    for (const auto& words : command.says)
+        checked.push_back({.what = command.what + ".says",
+                           .expected = "\"" + words + "\"",
+                           .found = shown(ended.said),
+                           .place = command.place_of_says,
+                           .holds = ended.said.find(words) != std::string::npos});
+}
+
+AskedCommand read_command(TableReader& table) {
+    AskedCommand command{.words = table.texts("run").value_or(std::vector<std::string>()),
+                         .files = {},
+                         .exit = table.integer("exit").value_or(0),
+                         .says = table.texts("says").value_or(std::vector<std::string>()),
+                         .what = what_of(table, ""),
+                         .place_of_exit = table.place("run"),
+                         .place_of_says = table.place("says")};
+    if (command.words.empty())
+        throw table.error("run", " must be the words that follow tvbeam");
+    for (std::size_t i = 0; i < command.says.size(); ++i)
+        if (std::ranges::none_of(command.says[i],
+                                 [](unsigned char letter) { return std::isalnum(letter); }))
+            throw table.error("says", " must hold words of what is said", i);
+    if (auto files = table.table("files"))
+        for (const auto& name : files->unread()) {
+            const auto within = fs::path(name).lexically_normal();
+            if (within.is_absolute() || *within.begin() == "..")
+                throw table.error("files",
+                                  " names '" + name + "', which is not within the directory");
+            command.files[name] = files->text(name).value_or("");
+        }
+    table.finish();
+    return command;
+}
+
+} // namespace
+
+void expect_commands(TableReader& expect, const Scene& scene, const std::string& program,
+                     std::vector<Expectation>& expectations) {
+    auto tables = expect.tables("commands");
+    if (tables.empty())
+        return;
+    if (tables.size() > most_commands)
+        throw expect.error("commands", " has " + std::to_string(tables.size()) +
+                                           " of them; at most " + std::to_string(most_commands) +
+                                           " are run");
+    std::vector<AskedCommand> commands;
+    for (auto& table : tables)
+        commands.push_back(read_command(table));
+    expectations.push_back([commands, program, folder = fs::path(scene.file).parent_path()](
+                               const StudyResult& /*result*/) {
+        std::vector<CheckedExpectation> checked;
+        const bool within = std::getenv(within_a_command) != nullptr;
+        if (program.empty() || within) {
+            const std::string why = within ? "nothing: a command of another scene checks this one"
+                                           : "nothing: no program is known to run";
+            add_checks(commands.front(), {why, ""}, "", checked);
+            return checked;
+        }
+        const Keeper keeper;
+        for (const auto& command : commands)
+            add_checks(command, run(command, program, keeper), files_in(keeper.directory()),
+                       checked);
+        return checked;
+    });
+}
+
+} // namespace tvbeam
