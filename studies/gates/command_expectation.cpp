@@ -16,6 +16,7 @@
 #include <fstream>
 #include <iterator>
 #include <map>
+#include <regex>
 #include <set>
 #include <string>
 #include <utility>
@@ -50,7 +51,8 @@ struct Ended {
     std::string said;
 };
 
-/// Of tables whose heading ends with the seconds the rows without their last word.
+/// Of tables whose heading ends with the seconds the rows without their last word, and of other
+/// lines what comes before seconds at their end.
 std::string without_seconds(const std::string& line, bool& in_table) {
     if (line.empty())
         in_table = false;
@@ -58,7 +60,8 @@ std::string without_seconds(const std::string& line, bool& in_table) {
     if (in_table)
         return boost::algorithm::trim_right_copy(kept.substr(0, kept.rfind(' ') + 1));
     in_table = kept.ends_with(" sec");
-    return line;
+    static const std::regex seconds(", [0-9.]+ s$");
+    return std::regex_replace(kept, seconds, "");
 }
 
 Ended run(const AskedCommand& command, const std::string& program, const Keeper& keeper) {
@@ -183,9 +186,10 @@ void expect_commands(TableReader& expect, const Scene& scene, const std::string&
             return checked;
         }
         const Keeper keeper;
-        for (const auto& command : commands)
-            add_checks(command, run(command, program, keeper), files_in(keeper.directory()),
-                       checked);
+        for (const auto& command : commands) {
+            const Ended ended = run(command, program, keeper);
+            add_checks(command, ended, files_in(keeper.directory()), checked);
+        }
         return checked;
     });
 }
