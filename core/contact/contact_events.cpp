@@ -22,17 +22,18 @@ void ContactEvents::Levels::push(double time, double reading) {
     count = std::min(count + 1, 2);
 }
 
-double ContactEvents::Levels::reaches(double target, double lowest, double highest) const {
+std::optional<double> ContactEvents::Levels::reaches(double target, double lowest,
+                                                     double highest) const {
     if (count < 2)
-        return highest;
+        return std::nullopt;
     const double slope = (value[0] - value[1]) / (t[0] - t[1]);
     const double at = t[0] + (target - value[0]) / slope;
     // A motion that turns around between the levels gives a time before them, or none.
-    return at >= lowest && at <= highest ? at : highest;
+    return at >= lowest && at <= highest ? std::optional(at) : std::nullopt;
 }
 
 ContactEvents::ContactEvents(const Stops& stops, double tip, double round_off)
-    : stops_(stops), round_off_(round_off) {
+    : stops_(stops), round_off_(round_off), tip_before_(tip) {
     free_.push(0.0, tip);
     // A start on a rigid stop is one, whichever side of it the state's round-off puts the tip.
     if (stops.epsilon > 0.0 || !(starts_on(Stop::lower) || starts_on(Stop::upper)))
@@ -59,29 +60,41 @@ void ContactEvents::add(double t, double tip, double stress) {
     const bool presses = stress != 0.0;
     const bool changes_sides = pressed && presses && stress * pressed_.value[0] < 0.0;
     if (pressed && (!presses || changes_sides)) {
-        events_.push_back({Kind::release, pressed_.value[0] > 0.0 ? Stop::lower : Stop::upper,
-                           pressed_.reaches(0.0, before_, t), events_[onset_].beyond});
+        const Stop stop = pressed_.value[0] > 0.0 ? Stop::lower : Stop::upper;
+        events_.push_back({Kind::release, stop,
+                           pressed_.reaches(0.0, before_, t).value_or(passes(stop, t, tip)),
+                           events_[onset_].beyond});
         pressed_ = {};
         free_ = {};
     }
     if (presses) {
         if (pressed_.count == 0)
-            begin_contact(t, stress > 0.0 ? Stop::lower : Stop::upper);
+            begin_contact(t, tip, stress > 0.0 ? Stop::lower : Stop::upper);
         events_[onset_].beyond = std::max(events_[onset_].beyond, passed);
         pressed_.push(t, stress);
     } else {
         free_.push(t, tip);
     }
     before_ = t;
+    tip_before_ = tip;
 }
 
-void ContactEvents::begin_contact(double t, Stop stop) {
+double ContactEvents::passes(Stop stop, double t, double tip) const {
+    if (!(stops_.epsilon > 0.0))
+        return t;
+    const double gap = stop == Stop::lower ? stops_.lower : stops_.upper;
+    const double at = before_ + (gap - tip_before_) / (tip - tip_before_) * (t - before_);
+    return at >= before_ && at <= t ? at : t;
+}
+
+void ContactEvents::begin_contact(double t, double tip, Stop stop) {
     const double gap = stop == Stop::lower ? stops_.lower : stops_.upper;
     onset_ = events_.size();
     if (starts_on(stop))
         events_.push_back({Kind::onset, stop, 0.0, beyond_});
     else
-        events_.push_back({Kind::onset, stop, free_.reaches(gap, before_, t), 0.0});
+        events_.push_back({Kind::onset, stop,
+                           free_.reaches(gap, before_, t).value_or(passes(stop, t, tip)), 0.0});
 }
 
 } // namespace tvbeam

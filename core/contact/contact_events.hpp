@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,9 +32,11 @@ std::string name_of(ContactEvent::Stop stop); ///< "g1", "g2"
 /// - a release, where the line through the contact stress of the two last levels in contact reaches
 ///   zero;
 ///
-/// each kept within its step. Both are exact to the order two in Δt for a smooth motion that is
-/// itself exact. Where there are no two such levels the end of the step stands for the event; a tip
-/// that starts on a stop and is held there by the first step has its onset at t = 0.
+/// each where it lies within its step. Both are exact to the order two in Δt for a smooth motion
+/// that is itself exact. Where there are no two such levels, or their line leaves the step, a
+/// penalised stop, which the tip passes, is met where the line through the tips at both ends of the
+/// step meets it, and of a rigid one the end of the step stands for the event; a tip that starts on
+/// a stop and is held there by the first step has its onset at t = 0.
 class ContactEvents {
 public:
     /// At the state of t = 0. round_off: of the tip there, relative; one as near to a stop starts
@@ -58,22 +61,27 @@ private:
         std::array<double, 2> t{};
         std::array<double, 2> value{};
         void push(double time, double reading);
-        /// Where their line takes the value, within (lowest, highest]; highest where there is none.
-        [[nodiscard]] double reaches(double target, double lowest, double highest) const;
+        /// Where their line takes the value, if that is within [lowest, highest].
+        [[nodiscard]] std::optional<double> reaches(double target, double lowest,
+                                                    double highest) const;
     };
 
     /// By how far a tip is beyond a stop, 0 between them.
     [[nodiscard]] double beyond(double tip) const;
     /// Whether the tip is on the stop, or in it, at t = 0 and no level came before this one.
     [[nodiscard]] bool starts_on(Stop stop) const;
-    /// Notes an onset in the step that ends at t.
-    void begin_contact(double t, Stop stop);
+    /// Where in the step that ends at t, with this tip, a penalised stop is passed; t of a rigid
+    /// one.
+    [[nodiscard]] double passes(Stop stop, double t, double tip) const;
+    /// Notes an onset in that step.
+    void begin_contact(double t, double tip, Stop stop);
 
     Stops stops_;
     double round_off_;
     Levels free_;           // tips of the free levels since the last contact
     Levels pressed_;        // stresses since the last onset
     double before_ = 0.0;   // t of the level before
+    double tip_before_;     // … and its tip
     std::size_t onset_ = 0; // index of the last onset's event
     std::vector<ContactEvent> events_;
     double beyond_ = 0.0;

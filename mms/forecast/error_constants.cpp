@@ -1,5 +1,6 @@
 #include "mms/forecast/error_constants.hpp"
 
+#include "core/norms/norm_sums.hpp"
 #include "core/norms/norms.hpp"
 #include "core/space/quadrature.hpp"
 #include "core/time/time_scheme.hpp"
@@ -165,6 +166,9 @@ public:
         return squares;
     }
 
+    /// Whether the discrete temperature leaves that of the data within a first step of any length.
+    [[nodiscard]] bool jumps_at_first() const { return beam_.zeta == 0.0 && beam_.alpha != 0.0; }
+
 private:
     [[nodiscard]] Eigen::ArrayXXd at(const ArrayXd& x, double t) const {
         return tape_.evaluate(x, ArrayXd::Constant(1, t));
@@ -227,6 +231,13 @@ const ExpectedOrder* row_of(const ExpectedOrders& expected, const std::string& n
     return found == expected.orders.end() ? nullptr : &*found;
 }
 
+bool has_maximum_of_temperature(const Norm& norm) {
+    return std::ranges::any_of(norm.parts, [](const TimeNorm& part) {
+        return part.kind == TimeNorm::Kind::Linf && (part.quantities[index(Quantity::theta)] ||
+                                                     part.quantities[index(Quantity::theta_x)]);
+    });
+}
+
 std::vector<NormConstants> constants_at(const Forecaster& forecaster,
                                         const ExpectedOrders& expected, const TimeScheme& scheme,
                                         ThermalMass mass, bool coupled,
@@ -241,7 +252,14 @@ std::vector<NormConstants> constants_at(const Forecaster& forecaster,
             continue;
         const Norm norm = *Norm::named(name);
         const double root = norm.squared ? 0.5 : 1.0;
-        NormConstants constants{name, std::nullopt, std::nullopt};
+        NormConstants constants{name, {}, std::nullopt, std::nullopt};
+        if (forecaster.jumps_at_first() && has_maximum_of_temperature(norm)) {
+            constants.unknown =
+                "without viscosity the temperature jumps in the first step, where a "
+                "maximum over time may stand";
+            all.push_back(constants);
+            continue;
+        }
         if (order->in_h.has_error())
             constants.in_h = leading_term(norm, root * order->in_h.least, space);
         if (order->euler.has_error()) // every scheme or none has an error in time

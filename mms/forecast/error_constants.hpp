@@ -18,6 +18,7 @@ struct LeadingTerm {
 
 struct NormConstants {
     std::string norm;                 ///< the norm itself, not its square
+    std::string unknown;              ///< why its sizes are not known; empty: they are
     std::optional<LeadingTerm> in_h;  ///< a h^p; none: no error of that kind
     std::optional<LeadingTerm> in_dt; ///< b Δt^q; likewise
 };
@@ -50,7 +51,9 @@ struct ErrorConstants {
 ///
 /// Not known where a contact begins or ends, at penalised stops that are touched, where a phase
 /// ends, for BDF2 where the solution is quadratic in time, for SDIRK2 without viscosity, and where
-/// the driven problem does not settle to 0.2 %. Throws InputError as expected_orders does.
+/// the driven problem does not settle to 0.2 %. Without viscosity W jumps to equilibrium in the
+/// first step, and a coupled Θ with it, away from I_hθ̃: maxima over time of errors in θ are not
+/// known. Throws InputError as expected_orders does.
 ErrorConstants error_constants(const Solution& solution, const Beam& beam, double final_time,
                                const std::string& time_scheme, ThermalMass mass);
 

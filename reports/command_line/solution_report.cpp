@@ -120,6 +120,7 @@ std::string orders_table(const ExpectedOrders& expected) {
 std::string sizes_table(const SolutionSetting& setting) {
     Table::Column norm{"norm", {}};
     std::vector<Table::Column> columns;
+    std::string unknown_norms;
     const auto add = [&](const std::string& heading, const std::string& time, ThermalMass mass,
                          std::optional<LeadingTerm> NormConstants::*term) {
         const ErrorConstants sizes =
@@ -131,7 +132,11 @@ std::string sizes_table(const SolutionSetting& setting) {
         for (const NormConstants& row : sizes.norms) {
             const auto known = Norm::named(row.norm);
             norm.cells.push_back(row.norm + (known && known->squared ? "^(1/2)" : ""));
-            columns.back().cells.push_back(row.*term ? scientific((row.*term)->constant, 3) : "-");
+            columns.back().cells.push_back(row.*term ? scientific((row.*term)->constant, 3)
+                                           : row.unknown.empty() ? "-"
+                                                                 : "?");
+            if (!row.unknown.empty())
+                unknown_norms = wrapped("?: not known: " + row.unknown);
         }
         return std::string();
     };
@@ -143,7 +148,7 @@ std::string sizes_table(const SolutionSetting& setting) {
     for (const auto& time : TimeScheme::names())
         unknown += add((time == "euler" ? "b: " : "") + time, time, ThermalMass::consistent,
                        &NormConstants::in_dt);
-    return text_table({"", {"", {norm}}, {{"", columns}}}) +
+    return text_table({"", {"", {norm}}, {{"", columns}}}) + unknown_norms +
            (unknown.empty() ? "" : wrapped("not known: " + unknown));
 }
 

@@ -3,6 +3,7 @@
 #include "mms/text/file_text.hpp"
 #include "mms/text/input_error.hpp"
 #include "reports/files/json_values.hpp"
+#include "reports/files/solver_runs.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -91,6 +92,14 @@ ComparedResults compare_results(const std::string& first, const std::string& sec
         if (json.contains("scene"))
             scenes.at(i) = json_values(json["scene"], is_not_compared);
         json.erase("scene");
+        json.erase("file"); // of a table that was analysed
+        if (auto remarks = json.find("remarks"); remarks != json.end() && remarks->is_array())
+            remarks->erase(std::remove_if(remarks->begin(), remarks->end(),
+                                          [](const Json& remark) {
+                                              return remark.is_string() &&
+                                                     SolverRuns::is_remark(remark);
+                                          }),
+                           remarks->end());
         results.at(i) = json_values(json, is_not_compared);
     }
     ComparedResults compared;

@@ -17,6 +17,8 @@ using Json = nlohmann::ordered_json;
 
 constexpr const char* runs_schema = "tvbeam-solver-runs/1";
 
+constexpr const char* end_of_remark = ", and not made.";
+
 } // namespace
 
 SolverRuns::SolverRuns(const std::filesystem::path& directory, const Scene& scene)
@@ -45,8 +47,9 @@ void SolverRuns::read_line(const KeptLine& line) {
 
 std::optional<RungResult> SolverRuns::find(const Series& series, std::size_t index) {
     auto result = kept(series, index);
+    const std::string identity = result ? identities_.of(series, index) : std::string();
     const std::scoped_lock lock(mutex_);
-    used_ += result ? 1 : 0;
+    used_ += result && !runs_[identity].is_new ? 1 : 0;
     return result;
 }
 
@@ -78,6 +81,7 @@ void SolverRuns::add(const Series& series, std::size_t index, const RungResult& 
     const std::scoped_lock lock(mutex_);
     Run& run = runs_[identity];
     run.seconds = result.seconds;
+    run.is_new = true;
     for (std::size_t k = 0; k < series.measures.size(); ++k)
         run.figures[series.measures[k].name] = result.errors[k];
     if (!failure_.empty())
@@ -111,9 +115,14 @@ std::size_t SolverRuns::found() {
 
 std::string SolverRuns::remark() const {
     const std::scoped_lock lock(mutex_);
-    return used_ == 0 ? ""
-                      : fmt::format("{} run{} found again in {}, and not made.", used_,
-                                    used_ == 1 ? " was" : "s were", file_.path().string());
+    return used_ == 0
+               ? ""
+               : fmt::format("{} run{} found again in {}{}", used_, used_ == 1 ? " was" : "s were",
+                             file_.path().string(), end_of_remark);
+}
+
+bool SolverRuns::is_remark(const std::string& text) {
+    return text.ends_with(end_of_remark);
 }
 
 void SolverRuns::write() {

@@ -30,9 +30,10 @@ public:
 
     /// How many of the scene's runs are there.
     [[nodiscard]] std::size_t found();
-    /// "3 runs were found again in FILE, and not made", of those that were asked for so far; empty:
-    /// none were.
+    /// "3 runs were found again in FILE, and not made", of those that were asked for so far and
+    /// that an earlier command has made; empty: none were.
     [[nodiscard]] std::string remark() const;
+    static bool is_remark(const std::string& text); ///< that one, of any run
     [[nodiscard]] bool holds_runs() const {
         const std::scoped_lock lock(mutex_);
         return !runs_.empty();
@@ -50,6 +51,7 @@ private:
     struct Run {
         double seconds = 0.0;
         std::map<std::string, double> figures; ///< errors and values by name
+        bool is_new = false;                   ///< made by this command
     };
     void read_line(const KeptLine& line);
     std::optional<RungResult> kept(const Series& series, std::size_t index) const;

@@ -19,6 +19,7 @@
 #include <cmath>
 #include <limits>
 #include <set>
+#include <tuple>
 
 namespace tvbeam {
 
@@ -102,10 +103,11 @@ void add_ladder(const LadderResult& ladder, std::vector<Cell>& cells) {
 
 void add_orders(const OrdersResult& orders, std::vector<Cell>& cells) {
     for (const auto& [norm, fit] : orders.norms)
-        for (const auto& [heading, order] :
-             {std::pair{"p", &TwoTermModel::p}, {"q", &TwoTermModel::q}})
-            cells.push_back({norm + " (fit)", heading,
-                             fit.holds() ? std::optional(fit.model.*order) : std::nullopt, false});
+        for (const auto& [heading, interval, order] :
+             {std::tuple{"p", &fit.p, fit.model.p}, {"q", &fit.q, fit.model.q}})
+            cells.push_back(
+                {norm + " (fit)", heading,
+                 fit.holds() && interval->determined ? std::optional(order) : std::nullopt, false});
 }
 
 std::vector<Cell> cells_of(const StudyResult& result) {

@@ -341,6 +341,30 @@ void require_one_meaning_each(const Names& names, const std::vector<Use>& uses) 
                                                   "error, a value or a deviation, once");
 }
 
+/// Sizes by a name that is not known count something where all are whole and from 2 on: widths are
+/// hardly ever that.
+void take_whole_sizes_for_counts(const Names& names, const DataChoice& choice, DataFile& data) {
+    for (const auto& size : choice.sizes) {
+        const auto width =
+            std::ranges::find_if(data.widths, [&](const auto& one) { return one.name == size; });
+        if (width == data.widths.end() || is_width(size) || !names.find(size))
+            continue;
+        const auto& numbers = width->numbers;
+        const bool is_refined =
+            std::ranges::any_of(numbers, [&](double number) { return number != numbers.front(); });
+        if (!is_refined || !std::ranges::all_of(numbers, [](double number) {
+                return number >= 2.0 && std::floor(number) == number;
+            }))
+            continue;
+        for (double& number : width->numbers)
+            number = 1.0 / number;
+        width->name = data.widths.size() == 1 ? "h" : "h_" + size;
+        data.remarks.push_back("h = 1/" + size +
+                               ", as its numbers are whole: dimension 1 was assumed; --dimension D "
+                               "says another");
+    }
+}
+
 /// Bytes; a record of ten figures has some two hundred.
 constexpr std::size_t largest_table = 8 << 20;
 
@@ -500,6 +524,7 @@ DataFile read_data(const std::string& file, const DataChoice& choice) {
     }
     if (data.widths.front().numbers.empty())
         throw InputError({data.name}, "has no records below its line of names");
+    take_whole_sizes_for_counts(names, choice, data);
     require_squares_of(data);
     return data;
 }

@@ -292,8 +292,9 @@ void expect_size(const DerivedTable& of, const std::string& key, const std::stri
     const ErrorConstants& sizes = of.parts.sizes(time);
     const NormConstants* row = sizes.of(norm);
     const auto& size = row == nullptr ? std::optional<LeadingTerm>() : row->*term;
+    const std::string unknown = row == nullptr ? sizes.unknown : row->unknown;
     of.add(held({what_of(of.table, key), size ? std::optional(size->constant) : std::nullopt,
-                 sizes.unknown.empty() ? "no error of that kind" : "not known: " + sizes.unknown},
+                 unknown.empty() ? "no error of that kind" : "not known: " + unknown},
                 band->lowest, band->highest, of.table.place(key)));
 }
 

@@ -71,8 +71,9 @@ std::vector<Metric> forecast_metrics(std::size_t k, double within, const StudyRe
     };
     const ErrorConstants forecast = forecast_constants(result.scene, block.final_time);
     const NormConstants* norm = forecast.of(measure.root());
-    if (norm == nullptr)
-        return {metric("a, b", std::nullopt, "no forecast: " + forecast.unknown)};
+    if (norm == nullptr || !norm->unknown.empty())
+        return {metric("a, b", std::nullopt,
+                       "no forecast: " + (norm == nullptr ? forecast.unknown : norm->unknown))};
     const auto order = [](const auto& term) {
         return term ? std::optional(term->order) : std::nullopt;
     };

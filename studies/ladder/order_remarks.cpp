@@ -74,6 +74,12 @@ std::string departure(const Measure& norm, std::span<const Refinement> roots,
     const bool rises = greatest->order > before + steady;
     const Observed& extreme = rises ? *greatest : *least;
     std::string text = (rises ? "; then it rises, to " : "; then it falls, to ") + at(extreme);
+    if (rises && orders.leaves->order < before)
+        text =
+            "; then it falls, to " +
+            at(*std::min_element(orders.leaves, greatest,
+                                 [](const auto& a, const auto& b) { return a.order < b.order; })) +
+            ", and rises, to " + at(extreme);
     if (last.rung != extreme.rung)
         text += "; " + at(last);
     if (!rises && last.order <= 0.0)
@@ -113,15 +119,42 @@ std::string from_pairs(const Measure& norm, std::span<const Refinement> roots,
     return text + departure(norm, roots, {known.begin(), leaves, known.end()}, explained);
 }
 
-/// Orders along a ladder exist only where every step refines by the same ratio.
+/// Orders along a ladder exist only where every step refines by the same ratio, in both widths.
 bool refines_evenly(std::span<const Refinement> roots) {
-    const auto first = refinement_ratio(roots[0], roots[1]);
-    for (std::size_t i = 2; i < roots.size(); ++i) {
-        const auto ratio = refinement_ratio(roots[i - 1], roots[i]);
-        if (!first || !ratio || std::abs(*ratio / *first - 1.0) > 0.01)
-            return false;
-    }
-    return first.has_value();
+    const auto evenly = [&](double Refinement::*width) {
+        const double first = roots[0].*width / roots[1].*width;
+        for (std::size_t i = 2; i < roots.size(); ++i)
+            // What the records lack does not change.
+            if (std::abs(roots[i - 1].*width / roots[i].*width / first - 1.0) > 0.01)
+                return false;
+        return true;
+    };
+    return refinement_ratio(roots[0], roots[1]) && evenly(&Refinement::h) &&
+           evenly(&Refinement::dt);
+}
+
+/// Of a ladder that refines one width alone: what the error of the other one, which stays, comes
+/// to.
+std::string from_what_stays(const Measure& norm, std::span<const Refinement> roots,
+                            const TwoTermModel& model) {
+    const auto same = [&](double Refinement::*width) {
+        return std::ranges::all_of(
+            roots, [&](const Refinement& root) { return root.*width == roots.front().*width; });
+    };
+    const bool in_time = same(&Refinement::dt);
+    if (in_time == same(&Refinement::h))
+        return {};
+    const auto& last = roots.back();
+    const double space = model.spatial(last.h);
+    const double time = model.temporal(last.dt);
+    constexpr double seen = 0.1; // of the other
+    if (!((in_time ? time : space) > seen * (in_time ? space : time)))
+        return {};
+    return fmt::format("{}: the {} error stays as it is along this ladder, as {} is the same; at "
+                       "{} it is {} times as large as the {} error.",
+                       norm.name, in_time ? "time" : "space", in_time ? "dt" : "h",
+                       rung_name(roots, last), times_text(in_time ? time / space : space / time),
+                       in_time ? "space" : "time");
 }
 
 /// Why the orders are what they are: the faster term, of the higher order along the ladder, and the
@@ -129,8 +162,12 @@ bool refines_evenly(std::span<const Refinement> roots) {
 std::string from_model(const Measure& norm, std::span<const Refinement> roots,
                        const TwoTermModel& model) {
     const LadderForecast view = forecast(model, roots);
+    if (model.a == 0.0 || model.b == 0.0)
+        return {};
+    if (const std::string stays = from_what_stays(norm, roots, model); !stays.empty())
+        return stays;
     // A term that hardly shrinks was not seen by the fit, whatever it calls its order.
-    if (model.a == 0.0 || model.b == 0.0 || view.asymptotic_order < 0.25 || !refines_evenly(roots))
+    if (view.asymptotic_order < 0.25 || !refines_evenly(roots))
         return {};
     const auto order = [&](double of_norm_itself) {
         return order_text((norm.squared ? 2.0 : 1.0) * of_norm_itself);
@@ -193,7 +230,10 @@ std::vector<std::string> order_remarks(const Measure& norm, std::span<const Refi
     if (known.size() < 2)
         return {};
     const std::string why = model != nullptr ? from_model(norm, roots, *model) : "";
-    std::vector<std::string> remarks{from_pairs(norm, roots, known, has_defect || !why.empty())};
+    // Orders of steps that are uneven are as uneven, and no news beside a model.
+    const bool explained =
+        has_defect || !why.empty() || (model != nullptr && !refines_evenly(roots));
+    std::vector<std::string> remarks{from_pairs(norm, roots, known, explained)};
     if (!why.empty())
         remarks.push_back(why);
     return remarks;

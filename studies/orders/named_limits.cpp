@@ -81,13 +81,25 @@ std::optional<MethodLimit> celik_of(std::span<const ValueRow> levels) {
     if (e21 == 0 || e32 == 0)
         return std::nullopt;
     const double sign = e32 / e21 < 0 ? -1 : 1;
-    double p = std::abs(std::log(std::abs(e32 / e21))) / std::log(r21);
-    for (int k = 0; k < 200 && std::isfinite(p); ++k)
-        p = std::abs(std::log(std::abs(e32 / e21)) +
-                     std::log((std::pow(r21, p) - sign) / (std::pow(r32, p) - sign))) /
-            std::log(r21);
-    if (!(p > 0) || !std::isfinite(p))
+    const auto next = [&](double p) {
+        return std::abs(std::log(std::abs(e32 / e21)) +
+                        std::log((std::pow(r21, p) - sign) / (std::pow(r32, p) - sign))) /
+               std::log(r21);
+    };
+    // The iteration of the procedure, and where that goes round in circles half its steps: what
+    // solves the equation counts, not what an iteration ends with.
+    const auto solved = [&](double part) -> std::optional<double> {
+        double p = std::abs(std::log(std::abs(e32 / e21))) / std::log(r21);
+        for (int k = 0; k < 400 && std::isfinite(p); ++k)
+            p += part * (next(p) - p);
+        const bool solves = p > 0 && std::abs(next(p) - p) <= 1e-9 * std::max(1.0, p);
+        return solves ? std::optional(p) : std::nullopt;
+    };
+    const auto whole = solved(1.0);
+    const auto order = whole ? whole : solved(0.5);
+    if (!order)
         return std::nullopt;
+    const double p = *order;
     const double gain = std::pow(r21, p) - 1;
     return MethodLimit{fine.value - e21 / gain, 1.25 * std::abs(e21) / gain, p,
                        sign < 0 ? "oscillatory" : "f0 + C h^p"};

@@ -276,8 +276,10 @@ std::optional<double> OrderEnsemble::change_of(const Numbers& numbers, int famil
         }
         if (compared)
             continue;
+        // Of the leading terms alone the model with a next term in the width of this axis.
         const int leading = family - family % 100;
-        const int stand_in = family == leading ? leading + 1 : leading;
+        const int axis = leading == 0 ? static_cast<int>(i) : 0;
+        const int stand_in = family == leading ? leading + 1 + axis : leading;
         const auto found = numbers.find({stand_in, place});
         if (found == numbers.end())
             return std::nullopt;
@@ -339,7 +341,7 @@ std::optional<OrderEnsemble::Mixture> OrderEnsemble::mix(const Functional& numbe
         spread +=
             weight * (change * change + (rows_.scatter > 0 ? std::max(0.0, off - own) : off + own));
     }
-    const double factor = levels_.size() == 1 ? sequence_factor() : tuning_.grid;
+    const double factor = levels_.size() == 1 ? sequence_factor() : grid_factor();
     return Mixture{mean, std::hypot(1.96 * std::sqrt(scatter / weights),
                                     factor * std::sqrt(spread / weights)) +
                              tuning_.narrowest};
@@ -348,6 +350,12 @@ std::optional<OrderEnsemble::Mixture> OrderEnsemble::mix(const Functional& numbe
 double OrderEnsemble::sequence_factor() const {
     const auto spare = static_cast<double>(levels_.front().size()) - 2;
     return tuning_.sequence * (1 + tuning_.few_levels / (spare * spare));
+}
+
+double OrderEnsemble::grid_factor() const {
+    const bool few = std::ranges::any_of(
+        levels_, [](const auto& levels) { return levels.size() == fewest_levels; });
+    return tuning_.grid * (few ? tuning_.three_levels : 1.0);
 }
 
 double OrderEnsemble::greatest_share(Index width) const {

@@ -49,6 +49,9 @@ struct OrderTuning {
     /// Half of a grid's interval over the spread. Raised from 1 after a look at all three sets of
     /// grids, because the shipped solutions held 94 % only: a choice that is not free of them.
     double grid = 1.2;
+    /// … and this much wider where some width has three levels alone: no window leaves one out, and
+    /// all that is seen of its drift is what models with a next term change.
+    double three_levels = 2.5;
     /// Half of a sequence's interval over the spread: its windows are few and share their finest
     /// rows.
     double sequence = 3.0;
@@ -142,6 +145,7 @@ private:
     std::optional<Mixture> mix(const Functional& number) const;
     std::string status_of(Eigen::Index width, const OrderInterval& order) const;
     double sequence_factor() const;
+    double grid_factor() const;
     double greatest_share(Eigen::Index width) const;
     std::vector<FittedNumber> order_by_window(Eigen::Index width) const;
     bool may_be_a_step(const std::vector<FittedNumber>& windows) const;

@@ -148,7 +148,9 @@ LadderForecast forecast(const TwoTermModel& model, std::span<const Refinement> l
 
     const auto rows = carried_on(model, result.rows);
     result.asymptotic_from = onset(rows, result.asymptotic_order, tolerance);
-    if (model.rho < 0)
+    // By so little nothing is seen to cancel, and a fit has no other sign for zero.
+    constexpr double least_opposed = 0.05;
+    if (model.rho < -least_opposed)
         result.cancellation = crossing(rows);
     return result;
 }

@@ -7,6 +7,8 @@
 
 #include <cmath>
 #include <functional>
+#include <optional>
+#include <random>
 #include <vector>
 
 using namespace tvbeam;
@@ -131,6 +133,40 @@ BOOST_AUTO_TEST_CASE(celik_extrapolates_with_the_ratio_of_the_fine_pair) {
         BOOST_TEST(std::abs(found->order - p) < 1e-6);
         BOOST_TEST(std::abs(found->limit - 1.0) < 1e-8);
     }
+}
+
+// Tables on which the iteration goes round in circles: what was reported solved no equation. The
+// three values determine f0 + C h^p, of orders 1.12994 and 0.946; oscillating, 4.504.
+BOOST_AUTO_TEST_CASE(an_order_of_celik_solves_his_equation_or_is_none) {
+    const auto order = [](const std::vector<double>& widths, const std::vector<double>& values) {
+        std::vector<ValueRow> rows;
+        for (std::size_t i = 0; i < 3; ++i)
+            rows.push_back({widths[i], values[i]});
+        const auto found = celik_of(rows);
+        return found ? std::optional(found->order) : std::nullopt;
+    };
+    BOOST_TEST(std::abs(order({9, 3, 2}, {1.11311, 1.03941, 1.0284}).value() - 1.12994) < 1e-4);
+    BOOST_TEST(std::abs(order({9, 3, 2}, {1.1192, 1.02299, 1.00622}).value() - 0.946) < 1e-3);
+    BOOST_TEST(std::abs(order({9, 3, 2}, {1.0545, 1.04106, 1.04117}).value() - 4.504) < 1e-3);
+    std::mt19937 generator(7);
+    std::uniform_real_distribution<double> step(0.1, 10);
+    std::uniform_real_distribution<double> ratio(1.2, 3);
+    int known = 0;
+    for (int table = 0; table < 300; ++table) {
+        const double r21 = ratio(generator);
+        const double r32 = ratio(generator);
+        const double e21 = step(generator) * (table % 4 == 0 ? -1 : 1);
+        const double e32 = step(generator);
+        const auto p = order({r21 * r32, r21, 1}, {e21 + e32, e21, 0});
+        if (!p)
+            continue;
+        ++known;
+        const double sign = e21 < 0 ? -1 : 1;
+        const double rest = std::log(e32 / std::abs(e21)) +
+                            std::log((std::pow(r21, *p) - sign) / (std::pow(r32, *p) - sign));
+        BOOST_TEST(std::abs(std::abs(rest) / std::log(r21) - *p) < 1e-7 * std::max(1.0, *p));
+    }
+    BOOST_TEST(known > 200);
 }
 
 // f = 7 + 10 h + r with r = −6, 15, −12, 3 on h = 8, 4, 2, 1. With the weights 1/h, r is orthogonal

@@ -113,6 +113,39 @@ BOOST_AUTO_TEST_CASE(the_points_of_a_convergence_figure_are_the_errors_and_the_p
     BOOST_TEST(has(script_of(plots[0]), "published in Table 1"));
 }
 
+// Steps that follow no power of h: from which to which they go.
+BOOST_AUTO_TEST_CASE(the_axis_of_h_says_what_becomes_of_the_step) {
+    const auto script = [](const std::vector<double>& steps) {
+        StudyResult result = paper();
+        auto& rungs = result.get<LadderResult>()->rungs;
+        BOOST_REQUIRE(rungs.size() == steps.size());
+        for (std::size_t i = 0; i < steps.size(); ++i)
+            rungs[i].rung.dt = steps[i];
+        return script_of(convergence_plots(result).at(0));
+    };
+    BOOST_TEST(has(script({0.1, 0.09, 0.08, 0.07, 0.05}), "(and Δt with it, from 0.1 to 0.05)"));
+    BOOST_TEST(has(script({0.1, 0.1, 0.1, 0.1, 0.1}), "(Δt = 0.1)"));
+}
+
+// A letter is 0.62 of its font wide; 90 of the 540 pixels are samples and margins.
+BOOST_AUTO_TEST_CASE(a_legend_s_letters_are_as_large_as_its_longest_line_allows) {
+    const auto font_of = [](std::size_t letters) {
+        Drawing drawing;
+        const std::string title(letters, 'm');
+        drawing.add_curve({.block = drawing.add_block("d", "1 1\n2 2\n")}, {}, title);
+        const std::string script = gnuplot_script(drawing, "x");
+        const auto at = script.find("set key");
+        BOOST_REQUIRE(at != std::string::npos);
+        const auto font = script.find("font ',", at);
+        BOOST_REQUIRE(font != std::string::npos);
+        return std::stoi(script.substr(font + 7));
+    };
+    for (const std::size_t letters : {50U, 60U, 70U})
+        BOOST_TEST(0.62 * font_of(letters) * static_cast<double>(letters) <=
+                   Drawing::plot_width - 90.0);
+    BOOST_TEST(font_of(10) > font_of(80));
+}
+
 BOOST_AUTO_TEST_CASE(the_triangles_of_a_convergence_figure_have_the_whole_orders_that_are_seen) {
     // e = 3 h² and e = 5e-4 h^3.5: the orders are 2, which is whole, and 3.5.
     const auto plots = convergence_plots(made_up(
@@ -211,6 +244,7 @@ BOOST_AUTO_TEST_CASE(the_two_parameters_that_decide_the_outcome_are_the_axes) {
     BOOST_TEST(has(script_of(plot), "set ylabel 'time step Δt'"), script_of(plot));
     BOOST_TEST(has(script_of(plot), "'refused: 28'"), script_of(plot));
     BOOST_TEST(has(script_of(plot), "'certified: 84'"), script_of(plot));
+    BOOST_TEST(plot.caption.starts_with("Outcomes of 112 cases over"), plot.caption);
     const auto blocks = blocks_of(plot);
     double cases = 0;
     for (const auto& [heading, rows] : blocks)

@@ -138,6 +138,22 @@ BOOST_AUTO_TEST_CASE(latex_sets_points_and_powers_of_ten_below_each_other) {
     }
 }
 
+// Pages hold 45 rows: 100 rows stand on three, each once.
+BOOST_AUTO_TEST_CASE(latex_has_every_row_of_a_table_that_is_longer_than_a_page) {
+    Table::Column names{"name", {}};
+    for (int i = 0; i < 100; ++i)
+        names.cells.push_back("row" + std::to_string(i) + "end");
+    Document long_one = document();
+    long_one.sections = {{"Rows", {Table{"Rows.", {"", {names}}, {{"", {names}}}}}}};
+    const std::string latex = latex_report(long_one);
+    for (const auto& name : names.cells) {
+        const auto first = latex.find(name);
+        BOOST_TEST((first != std::string::npos), name);
+        const auto line_end = latex.find('\n', first);
+        BOOST_TEST((latex.find(name, line_end) == std::string::npos), name);
+    }
+}
+
 BOOST_AUTO_TEST_CASE(markdown_has_a_cell_a_column_and_no_markup_of_a_cell) {
     const std::string markdown = markdown_report(document());
     BOOST_TEST(has(markdown, "| s | theta_L2L2 error | theta_L2L2 ord. | note |\n"
@@ -227,6 +243,9 @@ BOOST_AUTO_TEST_CASE(formulas_are_set_with_raised_exponents_and_greek_letters) {
     BOOST_TEST(html_formula("x^sin(t)*u") == "<i>x</i><sup>sin(<i>t</i>)</sup>\u2009<i>u</i>");
     BOOST_TEST(html_formula("theta_A <= 1") == "<i>θ</i><sub>A</sub> ≤ 1");
     BOOST_TEST(html_formula("a<b&c^") == "<i>a</i>&lt;<i>b</i>&amp;<i>c</i>^");
+    // What is called is upright; what is not is slanted.
+    BOOST_TEST(html_formula("cosh(k)") == "cosh(<i>k</i>)");
+    BOOST_TEST(html_formula("sqrt(x + 1)").starts_with("√("), html_formula("sqrt(x + 1)"));
 }
 
 BOOST_AUTO_TEST_CASE(every_norm_has_words_and_no_two_the_same) {

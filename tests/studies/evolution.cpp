@@ -388,6 +388,12 @@ BOOST_AUTO_TEST_CASE(how_far_the_tip_passes_penalised_stops_is_said) {
     BOOST_TEST(events[0].beyond == 0.25);
     BOOST_TEST(events[1].beyond == 0.25);
     BOOST_TEST(events[2].beyond == 0.5);
+    // Each where the line through the tips of its step passes the stop, from 0 to 0.625, from 0.75
+    // to 0, and from there to −1.5: of a first free level, of stresses that grow, and of one level
+    // alone.
+    BOOST_TEST(events[0].t == 0.8, boost::test_tools::tolerance(1e-14));
+    BOOST_TEST(events[1].t == 2.0 + 1.0 / 3.0, boost::test_tools::tolerance(1e-14));
+    BOOST_TEST(events[2].t == 3.0 + 2.0 / 3.0, boost::test_tools::tolerance(1e-14));
 }
 
 // Where there is no stop nothing is passed, however far the tip goes.

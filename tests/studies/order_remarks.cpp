@@ -131,4 +131,49 @@ BOOST_AUTO_TEST_CASE(a_model_explains_no_ladder_of_uneven_ratios) {
     BOOST_TEST(remarks_by_model({10.0, 20.0, 60.0}).size() == 1U);
 }
 
+namespace {
+
+std::vector<std::string> remarks_along(const TwoTermModel& model,
+                                       const std::vector<Refinement>& widths) {
+    std::vector<Refinement> ladder = widths;
+    for (auto& rung : ladder)
+        rung.error = model.error(rung.h, rung.dt);
+    return order_remarks(measure_of(*Norm::named("theta_L2L2")), ladder, &model);
+}
+
+} // namespace
+
+// h² + Δt/10 with Δt = 0.1, 0.1, 0.1, 0.025: of order 1.50, 0.88 and 2.00 from row to row. The
+// terms fall alike in the last step alone.
+BOOST_AUTO_TEST_CASE(a_model_explains_no_ladder_of_uneven_steps) {
+    const auto remarks =
+        remarks_along({.a = 1.0, .p = 2.0, .b = 0.1, .q = 1.0, .rho = 1.0},
+                      {{1.0 / 4, 0.1}, {1.0 / 8, 0.1}, {1.0 / 16, 0.1}, {1.0 / 32, 0.025}});
+    BOOST_REQUIRE(remarks.size() == 1U);
+    BOOST_TEST(remarks[0] ==
+               "theta_L2L2: order 1.50 up to s = 8; then it falls, to 0.88 at s = 16, "
+               "and rises, to 2.00 at s = 32.");
+}
+
+// Δt = 0.01 stays: its term is 0.01 against h² = 9.8e-4 at s = 32, and against 0.0039 at s = 16.
+BOOST_AUTO_TEST_CASE(what_stays_along_a_ladder_is_why_its_orders_fall) {
+    const auto remarks = remarks_along({.a = 1.0, .p = 2.0, .b = 1.0, .q = 1.0, .rho = 1.0},
+                                       {{1.0 / 8, 0.01}, {1.0 / 16, 0.01}, {1.0 / 32, 0.01}});
+    BOOST_REQUIRE(remarks.size() == 2U);
+    BOOST_TEST(remarks[0].find("not known") == std::string::npos, remarks[0]);
+    BOOST_TEST(remarks[1] ==
+               "theta_L2L2: the time error stays as it is along this ladder, as dt is "
+               "the same; at s = 32 it is 10 times as large as the space error.");
+}
+
+// Correlations that are zero but for rounding, and one that is not.
+BOOST_AUTO_TEST_CASE(terms_cancel_only_where_their_correlation_is_seen) {
+    for (const auto& [rho, cancels] : {std::pair{-4e-15, false}, {4e-15, false}, {-0.5, true}}) {
+        const auto remarks = remarks_along({.a = 1.0, .p = 2.0, .b = 0.001, .q = 1.0, .rho = rho},
+                                           {{0.1, 0.1}, {0.05, 0.05}, {0.025, 0.025}});
+        BOOST_REQUIRE(remarks.size() == 2U);
+        BOOST_TEST((remarks[1].find("opposite signs") != std::string::npos) == cancels, remarks[1]);
+    }
+}
+
 BOOST_AUTO_TEST_SUITE_END()

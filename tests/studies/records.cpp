@@ -285,6 +285,24 @@ BOOST_AUTO_TEST_CASE(sizes_are_widths_or_numbers_of_things_and_what_is_assumed_i
     BOOST_TEST(data_of("H,Error\n0.5,1\n").widths[0].numbers[0] == 0.5);
 }
 
+// Numbers of elements by any name; a width may be whole, too, but not all of them from 2 on, and
+// not by a name that says width.
+BOOST_AUTO_TEST_CASE(sizes_of_an_unknown_name_that_are_whole_count_something) {
+    const auto counts = data_of("ne,error\n10,1\n20,0.25\n", {.sizes = {"ne"}});
+    BOOST_TEST(counts.widths[0].name == "h");
+    BOOST_TEST(counts.widths[0].numbers[1] == 0.05);
+    BOOST_TEST(counts.remarks.at(0).starts_with("h = 1/ne, as its numbers are whole"));
+    const auto both = data_of("nx,ny,error\n10,10,1\n20,20,0.25\n", {.sizes = {"nx", "ny"}});
+    BOOST_TEST(both.widths[1].name == "h_ny");
+    BOOST_TEST(both.widths[1].numbers[0] == 0.1);
+    for (const std::string rows : {"4,1\n2.5,0.25\n", "2,1\n1,0.25\n", "2,1\n2,0.25\n"}) {
+        const auto widths = data_of("ne,error\n" + rows, {.sizes = {"ne"}});
+        BOOST_TEST(widths.widths[0].name == "ne");
+        BOOST_TEST(widths.remarks.empty());
+    }
+    BOOST_TEST(data_of("dx,error\n4,1\n2,1\n", {.sizes = {"dx"}}).widths[0].numbers[0] == 4.0);
+}
+
 BOOST_AUTO_TEST_CASE(an_empty_or_nan_error_is_a_failed_run) {
     const auto errors =
         data_of("h,error\n0.1,\n0.05,nan\n0.02,NA\n0.01,0\n0.01,inf\n").errors[0].numbers;
