@@ -22,6 +22,11 @@ std::vector<double> in_order(const std::vector<double>& numbers,
     return sorted;
 }
 
+DataColumn in_order(const DataColumn& column, const std::vector<std::size_t>& order) {
+    return {column.name, in_order(column.numbers, order),
+            column.units.empty() ? column.units : in_order(column.units, order)};
+}
+
 bool varies(const std::vector<double>& numbers) {
     return std::adjacent_find(numbers.begin(), numbers.end(), std::not_equal_to<>()) !=
            numbers.end();
@@ -165,6 +170,8 @@ ColumnAnalysis analyse_values(const DataAnalysis& data, const DataColumn& values
         rows[r] = {data.widths[along].numbers[r], column.numbers[r]};
         if (!sigma.empty())
             rows[r].sigma = sigma[r];
+        else if (!values.units.empty())
+            rows[r].unit = values.units[r];
     }
     if (is_one_path(data.widths, along)) {
         column.limit = estimate_limit(rows);
@@ -173,7 +180,7 @@ ColumnAnalysis analyse_values(const DataAnalysis& data, const DataColumn& values
         column.limit->limit.status = column.limit->order.status =
             "a limit is found along one way of refinement, and the widths are refined in turns";
     }
-    const auto& [limit, order, uncertainty, basis, gci, celik, eca] = *column.limit;
+    const auto& [limit, order, uncertainty, basis, gci, celik, eca, step] = *column.limit;
     column.by_width[along] = order;
     for (std::size_t i = 0; i < data.widths.size(); ++i)
         if (i != along)
@@ -190,6 +197,10 @@ ColumnAnalysis analyse_values(const DataAnalysis& data, const DataColumn& values
                            scientific(uncertainty, 2)) +
                    order_words(data.widths[along].name, order)
              : "no limit: " + limit.status));
+    if (step)
+        column.findings.push_back(
+            fmt::format("{}: the digits printed limit it: the finest step is {:.0f} in the last",
+                        column.name, *step));
     return column;
 }
 
@@ -209,11 +220,9 @@ DataAnalysis analyse(const DataFile& data) {
         analysis.widths.push_back({width.name, in_order(width.numbers, order)});
     const auto sigma = data.sigma.empty() ? std::vector<double>() : in_order(data.sigma, order);
     for (const auto& errors : data.errors)
-        analysis.columns.push_back(
-            analyse_errors(analysis, {errors.name, in_order(errors.numbers, order)}, sigma));
+        analysis.columns.push_back(analyse_errors(analysis, in_order(errors, order), sigma));
     for (const auto& values : data.values)
-        analysis.columns.push_back(
-            analyse_values(analysis, {values.name, in_order(values.numbers, order)}, sigma));
+        analysis.columns.push_back(analyse_values(analysis, in_order(values, order), sigma));
     return analysis;
 }
 

@@ -3,6 +3,7 @@
 #include "mms/text/file_text.hpp"
 #include "mms/text/input_error.hpp"
 #include "mms/text/nearest_name.hpp"
+#include "studies/data/printed_digits.hpp"
 #include "studies/orders/observed_order.hpp"
 #include "studies/text/number_text.hpp"
 
@@ -219,6 +220,9 @@ struct Use {
     double power = 1; ///< the width is the number to this power
     DataColumn* target = nullptr;
     std::vector<double>* plain = nullptr;
+    std::vector<PrintedDigits> printed = {}; ///< of an error or a value, one a record
+
+    bool is_figure() const { return !is_width && plain == nullptr; }
 };
 
 bool is_among(std::initializer_list<const char*> names, const std::string& name) {
@@ -443,9 +447,9 @@ Head head_of(Lines& lines) {
 }
 
 void read_record(const Lines& lines, const std::vector<TextField>& fields, const Head& head,
-                 const std::vector<Use>& uses) {
+                 std::vector<Use>& uses) {
     bool found = false; // an error or a value; deviations come behind them
-    for (const auto& use : uses) {
+    for (auto& use : uses) {
         const TextField& field = fields[use.column];
         const std::string& name = head.names[use.column];
         const double number = checked_number(lines, field, head.separator, name);
@@ -467,7 +471,9 @@ void read_record(const Lines& lines, const std::vector<TextField>& fields, const
                                  " it is too small for a double");
         auto& target = use.plain != nullptr ? *use.plain : use.target->numbers;
         target.push_back(width);
-        found = found || (!use.is_width && use.plain == nullptr && std::isfinite(number));
+        if (use.is_figure())
+            use.printed.push_back(printed_digits(field.text));
+        found = found || (use.is_figure() && std::isfinite(number));
         if (use.plain != nullptr && found && !(number > 0 && std::isfinite(number)))
             throw InputError(lines.place(field.column),
                              "'" + std::string(field.text) + "' in column " + name +
@@ -526,6 +532,9 @@ DataFile read_data(const std::string& file, const DataChoice& choice) {
         throw InputError({data.name}, "has no records below its line of names");
     take_whole_sizes_for_counts(names, choice, data);
     require_squares_of(data);
+    for (const auto& use : uses)
+        if (use.is_figure())
+            use.target->units = printed_units(use.target->numbers, use.printed);
     return data;
 }
 

@@ -28,7 +28,8 @@ struct DataChoice {
 
 struct DataColumn {
     std::string name;
-    std::vector<double> numbers; ///< one a record; NaN: failed
+    std::vector<double> numbers;    ///< one a record; NaN: failed
+    std::vector<double> units = {}; ///< of the last digits printed, one a record; empty: exact
 };
 
 struct DataFile {

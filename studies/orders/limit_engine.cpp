@@ -38,18 +38,20 @@ Rows levels_of(std::span<const ValueRow> given) {
     std::vector<double> counts;
     double squares = 0;
     for (std::size_t i = 0, next = 0; i < rows.size(); i = next) {
-        ValueRow mean{0, 0, 0};
+        ValueRow mean{0, 0, 0, 0};
         double square = 0;
         for (next = i; next < rows.size() && rows[next].h >= rows[i].h * std::exp(-cell); ++next) {
             const double off = rows[next].value - rows[i].value;
             mean.h += rows[next].h;
             mean.value += off;
             mean.sigma += rows[next].sigma * rows[next].sigma;
+            mean.unit = std::max(mean.unit, rows[next].unit);
             square += off * off;
         }
         const auto n = counts.emplace_back(static_cast<double>(next - i));
         squares += square - mean.value * mean.value / n;
-        levels.push_back({mean.h / n, rows[i].value + mean.value / n, std::sqrt(mean.sigma) / n});
+        levels.push_back(
+            {mean.h / n, rows[i].value + mean.value / n, std::sqrt(mean.sigma) / n, mean.unit});
     }
     const auto dof = static_cast<int>(rows.size() - levels.size());
     const double pooled = std::sqrt(squares / dof) * student_over_normal(dof);
@@ -57,6 +59,28 @@ Rows levels_of(std::span<const ValueRow> given) {
         if (std::isnan(levels[i].sigma))
             levels[i].sigma = pooled / std::sqrt(counts[i]);
     return levels;
+}
+
+/// The finest step in units of the last digit printed; none where it is `exact` of them or more.
+std::optional<double> coarsely_printed_step(const Rows& levels, double exact) {
+    const auto& fine = levels.back();
+    const auto& coarse = levels[levels.size() - 2];
+    const double step = std::abs(fine.value - coarse.value) / std::max(fine.unit, coarse.unit);
+    return step < exact ? std::optional(step) : std::nullopt;
+}
+
+/// Rounding is a scatter that values of equal widths, which are rounded alike, may not show.
+void add_rounding(Rows& levels) {
+    const double uniform = 1 / std::sqrt(12.0); // the deviation of what is spread over one unit
+    for (auto& level : levels)
+        level.sigma = std::isnan(level.sigma) ? uniform * level.unit
+                                              : std::max(level.sigma, uniform * level.unit);
+}
+
+/// How far from printed values that are all the same their limit may be: rounding is half a unit,
+/// and what hides in a unit goes on at first order at worst.
+double hidden_by_digits(const Rows& levels) {
+    return levels.back().unit * (0.5 + 1 / (levels.front().h / levels.back().h - 1));
 }
 
 Weights weights_of(std::span<const ValueRow> rows) {
@@ -242,13 +266,16 @@ OrderInterval order_of_differences(const Rows& given, double from_models) {
 } // namespace
 
 LimitEstimate estimate_limit(std::span<const ValueRow> rows, const LimitTuning& tuning) {
-    const Rows given = levels_of(rows);
+    Rows given = levels_of(rows);
     LimitEstimate result;
     if (given.size() < 3) {
         result.limit.status = result.order.status =
             "a limit needs values at three different widths";
         return result;
     }
+    result.finest_step = coarsely_printed_step(given, tuning.units_of_exact_steps);
+    if (result.finest_step)
+        add_rounding(given);
     if (is_significant(given) && runs_apart(given)) {
         result.limit.status = result.order.status = "the values run apart";
         return result;
@@ -256,8 +283,9 @@ LimitEstimate estimate_limit(std::span<const ValueRow> rows, const LimitTuning& 
     const auto [levels, origin, scale] = scaled(given);
     const double rounding = roundings * std::numeric_limits<double>::epsilon() * std::abs(origin);
     if (scale <= rounding) {
-        result.limit = {origin, origin - rounding, origin + rounding, true, 1, ""};
-        result.uncertainty = rounding;
+        const double half = std::max(rounding, hidden_by_digits(given));
+        result.limit = {origin, origin - half, origin + half, true, 1, ""};
+        result.uncertainty = half;
         result.basis = std::to_string(levels.size()) + " levels that are the same";
         result.order.status = "the values stand still";
         return result;
@@ -286,8 +314,9 @@ LimitEstimate estimate_limit(std::span<const ValueRow> rows, const LimitTuning& 
     const double unknown =
         std::max(rounding / scale, roundings * std::numeric_limits<double>::epsilon());
     if (const auto mean = mean_of(limits, tuning.agreement * last_step + unknown)) {
-        const double half =
-            scale * (factor * mean->spread + tuning.narrowest * std::abs(mean->value) + unknown);
+        const double half = std::max(
+            scale * (factor * mean->spread + tuning.narrowest * std::abs(mean->value) + unknown),
+            given.back().unit / 2);
         const double limit = origin + scale * mean->value;
         result.limit = {.value = limit,
                         .low = limit - half,

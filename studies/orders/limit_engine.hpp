@@ -10,7 +10,8 @@
 ///     u_m² = max(t_{dof} s_m / 1.96, σ_m)² + (δ_m / (r − 1))²        (√r for models with a given
 ///     p),
 ///
-/// with s_m from the residuals and σ_m from a stated deviation or that of replicates.
+/// with s_m from the residuals and σ_m from a stated deviation, that of replicates or that of
+/// rounding to the digits printed, where the finest step is so few of their units that it counts.
 ///
 /// The limit is the mean with weights 1 / u_m², its interval their spread, as in order_engine.hpp.
 #pragma once
@@ -30,6 +31,9 @@ struct LimitTuning {
     double few_levels = 3.0; ///< … and this much more over the square of the levels less two
     double narrowest = 0.01; ///< of the distance from the finest value to the limit
     double agreement = 0.01; ///< added to u_m in the weights, of the last step between levels
+    /// Of so many units of the last digit printed, rounding makes 0.2 % of the finest step: less
+    /// than no change of windows shows.
+    double units_of_exact_steps = 200;
 };
 
 struct LimitEstimate {
@@ -41,6 +45,8 @@ struct LimitEstimate {
     std::optional<MethodLimit> gci;              ///< Roache 1994, 1997; above order 4 with factor 3
     std::optional<MethodLimit> celik;            ///< Celik et al. 2008
     std::optional<MethodLimit> eca_hoekstra;     ///< Eça and Hoekstra 2014
+    /// In units of the last digit printed, where these are coarse enough to widen the intervals.
+    std::optional<double> finest_step;
 };
 
 /// Rows that are not finite are passed over; rows of one width are averaged. Values whose steps

@@ -15,6 +15,8 @@ struct ValueRow {
     double value = 0;
     /// Standard deviation; NaN: unknown. Counts where all rows have one.
     double sigma = std::numeric_limits<double>::quiet_NaN();
+    /// Of the last digit printed; 0: the value is exact, or σ knows of rounding.
+    double unit = 0;
 };
 
 /// The orders that are searched for one that is free.

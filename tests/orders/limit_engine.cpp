@@ -347,6 +347,66 @@ BOOST_AUTO_TEST_CASE(a_thousand_widths_have_the_limit_of_few) {
     BOOST_TEST(limit.limit.high - limit.limit.low < 1e-4);
 }
 
+// f = f_0 + C h^p (1 + h / 2), rounded to units from 1e-3 to 1e-6: steps from none to many of them.
+// 98 % hold the limit and the order, and none knows the limit to less than half a unit.
+BOOST_AUTO_TEST_CASE(values_of_few_digits_have_intervals_that_hold_their_limit_and_order) {
+    struct Held {
+        int asked = 0;
+        int missed = 0;
+        void add(const OrderInterval& interval, double truth) {
+            asked += interval.determined ? 1 : 0;
+            missed += interval.determined && !holds(interval, truth) ? 1 : 0;
+        }
+    } limits, orders;
+    for (const double p : {1.0, 2.0})
+        for (const double unit : {1e-3, 1e-4, 1e-5, 1e-6})
+            for (int levels = 3; levels <= 7; ++levels)
+                for (int k = 0; k < 10; ++k) {
+                    const double limit = 2 + 0.012345 * k; // whose last digits differ
+                    const double size = 0.002 * std::pow(1.7, k);
+                    auto rows = sequence(levels, [&](double h) {
+                        const double value = limit + size * std::pow(h, p) * (1 + h / 2);
+                        return unit * std::round(value / unit);
+                    });
+                    for (auto& row : rows)
+                        row.unit = unit;
+                    const auto found = estimate_limit(rows);
+                    limits.add(found.limit, limit);
+                    orders.add(found.order, p);
+                    BOOST_TEST(!(found.limit.half_width() < 0.499 * unit));
+                }
+    BOOST_TEST(limits.asked >= 380); // of 400
+    BOOST_TEST(orders.asked >= 110);
+    BOOST_TEST(limits.missed <= 0.02 * limits.asked);
+    BOOST_TEST(orders.missed <= 0.02 * orders.asked);
+}
+
+BOOST_AUTO_TEST_CASE(digits_beyond_the_steps_between_values_change_nothing) {
+    auto rows = sequence(6, [](double h) { return 3 + 0.1 * h * h + 0.03 * h * h * h; });
+    const auto exact = estimate_limit(rows);
+    for (auto& row : rows)
+        row.unit = 1e-10;
+    const auto printed = estimate_limit(rows);
+    BOOST_TEST(!printed.finest_step.has_value());
+    BOOST_TEST(printed.limit.low == exact.limit.low);
+    BOOST_TEST(printed.limit.high == exact.limit.high);
+    BOOST_TEST(printed.order.low == exact.order.low);
+    BOOST_TEST(printed.order.high == exact.order.high);
+}
+
+// Of first order over a ratio of 4, what is left is a third of what a unit hides.
+BOOST_AUTO_TEST_CASE(
+    values_that_are_the_same_in_all_digits_are_known_to_less_than_one_of_the_last) {
+    std::vector<ValueRow> rows;
+    for (const double h : {0.1, 0.05, 0.025})
+        rows.push_back({.h = h, .value = 3.142, .unit = 1e-3});
+    const auto found = estimate_limit(rows);
+    BOOST_TEST(found.limit.determined);
+    BOOST_TEST(found.limit.half_width() == 1e-3 * (0.5 + 1.0 / 3),
+               boost::test_tools::tolerance(1e-9));
+    BOOST_TEST(found.uncertainty == found.limit.half_width(), boost::test_tools::tolerance(1e-9));
+}
+
 BOOST_AUTO_TEST_CASE(two_widths_have_no_limit_and_the_status_says_so) {
     const auto limit =
         estimate_limit(std::vector<ValueRow>{{0.1, 1.0}, {0.1, 1.1}, {0.05, 1.2}, {0.025, NAN}});

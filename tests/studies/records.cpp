@@ -433,6 +433,49 @@ BOOST_AUTO_TEST_CASE(values_have_a_limit_along_one_way_of_refinement) {
     BOOST_TEST(analysis_of("h,value,error\n0.1,1,2\n").columns[0].name == "error");
 }
 
+// Also where trailing zeros are left out, where the digits are of a fixed number, and where numbers
+// are written as Fortran, or people with decimal commas, write them.
+BOOST_AUTO_TEST_CASE(the_last_digits_of_values_are_read) {
+    const auto units = [](const std::string& text) {
+        const auto data = data_of(text);
+        return data.values.empty() ? data.errors[0].units : data.values[0].units;
+    };
+    const auto are = [&](const std::string& text, const std::vector<double>& expected) {
+        const auto found = units(text);
+        BOOST_REQUIRE(found.size() == expected.size());
+        for (std::size_t i = 0; i < found.size(); ++i)
+            BOOST_TEST(found[i] == expected[i], boost::test_tools::tolerance(1e-12));
+    };
+    are("h,value\n4,3.142\n2,3.14e-2\n1,31\n", {1e-3, 1e-4, 1e-2});
+    are("h,value\n4,-1.251\n2,-1.25\n1,0\n", {1e-3, 1e-3, 1e-3});
+    are("h,value\n4,9.998\n2,10.01\n1,NA\n", {1e-3, 1e-2, 1e-3});
+    are("h,value\n4,1.5D-03\n2,+2.5-103\n", {1e-4, 1e-104});
+    are("h;value\n4;3,14\n2;3,15\n", {1e-2, 1e-2});
+    are("h,error\n4,1.2e-3\n2,3.1E-04\n", {1e-4, 1e-5});
+    are("h,value\n4,0e-99999999999\n2,7\n", {1, 1});
+    BOOST_TEST(units("h,value\n4,1.5\n2,1.23456789012345\n").empty());
+    BOOST_TEST(units("h,value\n4,0\n2,0\n").empty());
+}
+
+// The values are 5.7891 − 5.21 h², so that 5.7891 is their limit.
+BOOST_AUTO_TEST_CASE(a_finding_says_where_the_digits_printed_limit_it) {
+    const std::string printed =
+        "h,value\n0.1,5.737\n0.05,5.776\n0.025,5.786\n0.0125,5.788\n0.00625,5.789\n";
+    const auto column = analysis_of(printed).columns[0];
+    BOOST_TEST(column.limit->limit.low <= 5.7891);
+    BOOST_TEST(column.limit->limit.high >= 5.7891);
+    BOOST_REQUIRE(column.findings.size() == 2);
+    BOOST_TEST(column.findings[1] ==
+               "value: the digits printed limit it: the finest step is 1 in the last");
+    const auto finer = analysis_of("h,value\n0.1,5.737\n0.05,5.776075\n0.025,5.78584375\n"
+                                   "0.0125,5.7882859375\n0.00625,5.788896484375\n");
+    BOOST_TEST(finer.columns[0].findings.size() == 1);
+    // What is stated of the deviations holds.
+    const auto stated =
+        analysis_of("h,value,s\n4,5.7,0.01\n2,5.8,0.01\n1,5.8,0.01\n", {.sigma = "s"});
+    BOOST_TEST(stated.columns[0].findings.size() == 1);
+}
+
 BOOST_AUTO_TEST_CASE(a_grid_gets_the_two_term_model) {
     std::vector<Refinement> grid;
     for (const double dt : {0.1, 0.05, 0.025})

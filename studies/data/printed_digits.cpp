@@ -1,0 +1,69 @@
+#include "studies/data/printed_digits.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <limits>
+
+namespace tvbeam {
+
+namespace {
+
+/// With so many digits a number is the double that was printed.
+constexpr int digits_of_a_double = std::numeric_limits<double>::digits10;
+
+/// Where an exponent begins: behind a letter, or, of 1.5-103, at the sign. The end where there is
+/// none.
+std::size_t exponent_in(std::string_view text) {
+    const auto at = text.find_first_of("eEdDqQ+-", 1);
+    return std::min(at, text.size());
+}
+
+} // namespace
+
+PrintedDigits printed_digits(std::string_view text) {
+    const auto end = exponent_in(text);
+    const auto mantissa = text.substr(0, end);
+    PrintedDigits digits;
+    bool is_behind_the_point = false;
+    for (const char c : mantissa) {
+        if (c == '.' || c == ',')
+            is_behind_the_point = true;
+        if (c < '0' || c > '9')
+            continue;
+        digits.significant += digits.significant > 0 || c != '0' ? 1 : 0;
+        digits.last_place -= is_behind_the_point ? 1 : 0;
+    }
+    auto exponent = text.substr(end);
+    exponent.remove_prefix(std::min(exponent.find_first_of("0123456789-"), exponent.size()));
+    int places = 0;
+    std::from_chars(exponent.data(), exponent.data() + exponent.size(), places);
+    constexpr int beyond_doubles = 1000; // as of 0e-99999
+    digits.last_place += std::clamp(places, -beyond_doubles, beyond_doubles);
+    return digits;
+}
+
+std::vector<double> printed_units(const std::vector<double>& numbers,
+                                  const std::vector<PrintedDigits>& digits) {
+    int most = 0;
+    int finest = std::numeric_limits<int>::max();
+    for (std::size_t i = 0; i < numbers.size(); ++i)
+        if (std::isfinite(numbers[i])) {
+            most = std::max(most, digits[i].significant);
+            finest = std::min(finest, digits[i].last_place);
+        }
+    if (most == 0 || most >= digits_of_a_double)
+        return {};
+    std::vector<double> units;
+    units.reserve(numbers.size());
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+        // Of a fixed number of digits, the last place moves with the first.
+        const int first = numbers[i] != 0 && std::isfinite(numbers[i])
+                              ? digits[i].significant + digits[i].last_place
+                              : finest;
+        units.push_back(std::pow(10.0, std::max(finest, first - most)));
+    }
+    return units;
+}
+
+} // namespace tvbeam

@@ -1,0 +1,26 @@
+/// How finely the numbers of a column were printed.
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+namespace tvbeam {
+
+/// What the text of a number shows beside its value.
+struct PrintedDigits {
+    int significant = 0; ///< from the first that is not zero; of 0.00: none
+    int last_place = 0;  ///< the last digit counts 10^last_place
+};
+
+/// Of the text of a number, also one with a decimal comma or Fortran's exponent. A text without
+/// digits has none.
+PrintedDigits printed_digits(std::string_view text);
+
+/// The unit of the last digit of each number of a column; none where a number has so many digits
+/// that it is a double as it was, and all are taken for such. Programs that leave out trailing
+/// zeros print some numbers with fewer digits than they have: the number with the most digits, and
+/// that with the last place furthest right, speak for all. NaN has the latter's.
+std::vector<double> printed_units(const std::vector<double>& numbers,
+                                  const std::vector<PrintedDigits>& digits);
+
+} // namespace tvbeam
