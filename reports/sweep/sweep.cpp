@@ -325,11 +325,17 @@ std::string sweep_csv(const Sweep& sweep, const std::vector<StudyResult>& result
         std::replace(name.begin(), name.end(), ',', ';');
         text += comma + name;
     }
+    const bool has_failed = std::ranges::any_of(
+        results, [](const StudyResult& result) { return result.ending().failed; });
+    if (has_failed)
+        text += ",failed";
     text += "\n";
     for (std::size_t i = 0; i < rows.size(); ++i) {
         text += is_word(sweep.values[i]) ? sweep.values[i] : quoted(sweep.values[i]);
         for (const auto& cell : rows[i])
             text += cell.value ? fmt::format(",{}", *cell.value) : comma;
+        if (has_failed)
+            text += comma + (results[i].ending().failed ? quoted(results[i].ending().reason) : "");
         text += "\n";
     }
     return text;

@@ -174,6 +174,12 @@ BOOST_AUTO_TEST_CASE(a_row_of_a_sweep_that_failed_says_why) {
     BOOST_TEST(has(sweep.at("rows")[1].at("failed"), "beyond the range"));
     BOOST_TEST(sweep.at("provenance").contains("commit"));
     BOOST_TEST(sweep.at("interrupted") == false);
+    const Called csv =
+        call(directory, "run table1 --set ladder.printed={} --set ladder.elements=[4,8] --set "
+                        "ladder.dt=[0.1,0.05] --set beam.alpha=0.017,1e200 --quiet --csv -");
+    BOOST_TEST(has(csv.output, ",failed\n0.017,"), csv.output);
+    BOOST_TEST(has(csv.output, ",\n1e200,"), csv.output);
+    BOOST_TEST(has(csv.output, "beyond the range"), csv.output);
     // Words may be quoted as in the file.
     const Called quoted =
         call(directory, "run sheared --quiet --set 'scheme.time=\"euler\",\"bdf2\"'"
