@@ -3,7 +3,9 @@
 #include "studies/work_precision/work_precision.hpp"
 #include "reports/document/text_document.hpp"
 #include "reports/document/work_precision_section.hpp"
+#include "reports/plots/plot.hpp"
 #include "studies/runs/beam_runs.hpp"
+#include "studies/study.hpp"
 #include "studies/text/number_text.hpp"
 
 #include <boost/test/unit_test.hpp>
@@ -209,6 +211,23 @@ BOOST_AUTO_TEST_CASE(a_ratio_is_written_without_an_exponent_where_it_is_of_usual
                                       {-0.5, "-0.50"},
                                       {0.0, "0"}})
         BOOST_TEST(significant(value, 2) == text);
+}
+
+// However many errors are to be reached.
+BOOST_AUTO_TEST_CASE(every_norm_has_a_figure_of_error_against_run_time) {
+    for (const bool has_target : {false, true}) {
+        Study made = study({"theta_L2L2", "u_LinfH2semi"});
+        made.add("Euler", {{1e-2, 1.0}, {1e-4, 62.0}});
+        if (has_target)
+            made.block.targets["theta_L2L2"] = {1e-3};
+        StudyResult result = run_study(read_scene("cubic-deflection"));
+        result.scene.blocks.set(made.block);
+        result.records.set(made.result);
+        const auto plots = run_time_plots(result);
+        BOOST_REQUIRE(plots.size() == 2U);
+        BOOST_TEST(plots[0].name == "run_time_theta_L2L2");
+        BOOST_TEST(plots[1].name == "run_time_u_LinfH2semi");
+    }
 }
 
 BOOST_AUTO_TEST_SUITE_END()

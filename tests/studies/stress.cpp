@@ -5,6 +5,7 @@
 #include "core/run.hpp"
 #include "studies/ladder/ladder.hpp"
 #include "studies/scene/scene.hpp"
+#include "studies/stress/scratch.hpp"
 #include "studies/stress/stress_cases.hpp"
 #include "studies/stress/stress_problem.hpp"
 #include "studies/study.hpp"
@@ -540,6 +541,27 @@ BOOST_DATA_TEST_CASE(of_a_kept_case_every_check_is_there_that_was_made_and_no_ot
     BOOST_TEST((kept->path == one.checks->path));
     BOOST_TEST((kept->error == one.checks->error));
     BOOST_TEST((kept->order_defect == one.checks->order_defect));
+}
+
+// Of as many bytes as fit into memory, and of one more: those behind stand in a file.
+BOOST_AUTO_TEST_CASE(scratch_is_as_large_as_what_was_written_wherever_it_stands) {
+    Scratch scratch;
+    BOOST_TEST(scratch.size() == 0U);
+    const std::string first = "first";
+    const std::string last = "last";
+    scratch.write(0, first.data(), first.size());
+    BOOST_TEST(scratch.size() == first.size());
+    const std::size_t far = Scratch::most_in_memory + 7;
+    scratch.write(far, last.data(), last.size());
+    BOOST_TEST(scratch.size() == far + last.size());
+    for (const auto& [place, text] : {std::pair(std::size_t{0}, first), {far, last}}) {
+        std::string read(text.size(), ' ');
+        scratch.read(place, read.data(), read.size());
+        BOOST_TEST(read == text);
+    }
+    char between = 'x';
+    scratch.read(far - 1, &between, 1);
+    BOOST_TEST(between == '\0');
 }
 
 BOOST_AUTO_TEST_SUITE_END()
