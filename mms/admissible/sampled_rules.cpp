@@ -23,7 +23,6 @@ namespace {
 /// @param largest |g| at a point between them
 std::optional<double> unbounded_between(const std::function<ArrayXd(const ArrayXd&)>& g,
                                         double begin, double end, double largest) {
-    constexpr Index points = 9;
     constexpr double level = 1.4;    // |s - a|^(-1/4) grows as much in a fourth of the width
     constexpr int least_growths = 6; // of some 22; noise has set its records before
     constexpr double least_growth = 1e3;
@@ -31,10 +30,11 @@ std::optional<double> unbounded_between(const std::function<ArrayXd(const ArrayX
     const double width = narrowest * std::max({std::abs(begin), std::abs(end), end - begin});
     const double first = largest;
     int growths = 0;
-    while (end - begin > width) {
-        const ArrayXd s = ArrayXd::LinSpaced(points, begin, end);
+    CloseLook look{begin, end};
+    while (look.end - look.begin > width) {
+        const ArrayXd s = look.samples();
         const ArrayXd sizes = g(s).abs();
-        for (Index k = 0; k < points; ++k)
+        for (Index k = 0; k < s.size(); ++k)
             if (!std::isfinite(sizes(k)))
                 return s(k);
         Index at = 0;
@@ -44,11 +44,10 @@ std::optional<double> unbounded_between(const std::function<ArrayXd(const ArrayX
             return std::nullopt;
         growths += grows ? 1 : 0;
         largest = std::max(largest, greatest);
-        begin = s(std::max<Index>(at - 1, 0));
-        end = s(std::min<Index>(at + 1, points - 1));
+        look = look.next_to(s(at), look.spacing());
     }
     const bool is_bounded = growths < least_growths || largest < least_growth * first;
-    return is_bounded ? std::nullopt : std::optional(std::midpoint(begin, end));
+    return is_bounded ? std::nullopt : std::optional(std::midpoint(look.begin, look.end));
 }
 
 /// The same next to a local maximum of |g| on a grid.
