@@ -3,6 +3,7 @@
 #include "core/space/resolution.hpp"
 #include "core/space/tail_moment.hpp"
 #include "mms/admissible/admissibility.hpp"
+#include "mms/admissible/sampled_rules.hpp"
 #include "mms/derivation.hpp"
 #include "mms/expression/algebra.hpp"
 #include "mms/expression/expression_parser.hpp"
@@ -11,7 +12,6 @@
 #include "mms/expression/tape_compiler.hpp"
 #include "mms/plain_solution.hpp"
 #include "mms/problem_builder.hpp"
-#include "mms/sample_points.hpp"
 #include "mms/sampled_fields.hpp"
 #include "mms/separation.hpp"
 #include "mms/text/error_text.hpp"
@@ -140,20 +140,16 @@ Given given(const std::optional<SourceText>& source, const Names& names, const B
 
 void require_finite(const Names& names, const std::vector<ex>& formulas, const SourceText& source,
                     double final_time, const std::string& what) {
-    const ArrayXd x = sample_points(0.0, 1.0);
     for (std::size_t i = 0; i < formulas.size(); ++i) {
         const auto [begin, end] = names.phases[i];
         if (!(begin < final_time))
             break;
         const Tape tape = located(source, what, [&] { return compile_tape({formulas[i]}); });
-        for (const double t : sample_points(begin, std::min(end, final_time))) {
-            const ArrayXd sampled = tape.evaluate(x, ArrayXd::Constant(1, t)).row(0);
-            for (Index k = 0; k < x.size(); ++k)
-                if (!std::isfinite(sampled(k)))
-                    throw InputError(source.begin(),
-                                     what + " is not finite at x = " + number_text(x(k)) +
-                                         ", t = " + number_text(t));
-        }
+        const auto values = [&](const ArrayXd& x, double t) -> ArrayXd {
+            return tape.evaluate(x, ArrayXd::Constant(1, t)).row(0);
+        };
+        largest_on_grid(values, sample_points(begin, std::min(end, final_time)), final_time,
+                        source.begin(), what, "it exists");
     }
 }
 

@@ -29,9 +29,9 @@ std::vector<std::pair<std::string, std::string>> named_parts(const GivenData& da
 ///     μ(y,t) = q̂(y,t) = ∫_y^1 (x − y) q(x,t) dx,
 ///
 /// in closed form where q is a polynomial in x, otherwise by quadrature (tail_moment).
-/// Throws InputError where an expression does not parse, names a stop that the beam
-/// does not have, breaks (5), (6) or is not finite on a grid of [0,1] × [0, final_time]. The result
-/// holds no symbolic expression.
+/// Throws InputError where an expression does not parse, names a stop that the beam does not have,
+/// breaks (5), (6), or on a grid of [0,1] × [0, final_time] is not finite or grows without bound
+/// next to its largest value (sampled_rules.hpp). The result holds no symbolic expression.
 ProblemData given_problem(const GivenData& data, const Beam& beam, double final_time);
 
 /// What a deliberate defect adds (sum of core/problem.hpp) to the problem of a run on elements of

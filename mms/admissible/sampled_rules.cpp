@@ -69,16 +69,14 @@ std::optional<double> unbounded_on(const ArrayXd& grid, const ArrayXd& values,
 } // namespace
 
 double largest_on_grid(const SpaceTimeFunction& g, const ArrayXd& times, double final_time,
-                       const Place& place, const std::string& what) {
+                       const Place& place, const std::string& what, const std::string& exists) {
     const auto refuse = [&](double x, double t, double value, bool ends_there = true) {
         const std::string how =
             std::isfinite(value) ? " grows without bound towards" : " is not finite at";
         throw InputError(place,
                          what + how + " x = " + number_text(x) + ", t = " + number_text(t) +
-                             " (it is " + number_text(value) +
-                             "); write it so that it and its derivatives exist "
-                             "everywhere on [0, 1] x [0, " +
-                             number_text(final_time) + "]" +
+                             " (it is " + number_text(value) + "); write it so that " + exists +
+                             " everywhere on [0, 1] x [0, " + number_text(final_time) + "]" +
                              (ends_there && t > 0.0 ? ", or end the run before that time" : ""));
     };
     const ArrayXd x = sample_points(0.0, 1.0);
