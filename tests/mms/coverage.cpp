@@ -106,6 +106,26 @@ BOOST_AUTO_TEST_CASE(cases_of_contact_are_distinguishable) {
     check_unused(unstopped, "(8)", "a force at the stop g2", "there is no stop g2");
 }
 
+// Between the times of any grid, and of both stops.
+BOOST_AUTO_TEST_CASE(a_smooth_touch_is_one_without_a_force) {
+    const auto on = [](const std::string& u, double epsilon) {
+        return coverage(
+            parse_solution("theta = 'sin(pi*x)'\nu = '" + u + "'\nsigma = '0'\n", "touch.toml"),
+            {0.5, 0.1, 0.0, {-0.1, 0.1, epsilon}}, 1.0);
+    };
+    for (const double epsilon : {0.0, 0.05}) {
+        const auto one = on("g2*x^2*(1 - (t - 0.7003)^2)", epsilon);
+        check_unused(one, "(8)", "a force at the stop g2", "the tip touches g2 without a force");
+        check_unused(one, "(8)", "a force at the stop g1", "the tip never reaches g1");
+        const auto both = on("g2*x^2*sin(3*pi*(t + 0.01))", epsilon);
+        for (const std::string stop : {"g1", "g2"})
+            check_unused(both, "(8)", "a force at the stop " + stop,
+                         "the tip touches " + stop + " without a force");
+        const auto close = on("g2*x^2*(1 - 1e-6 - (t - 0.7003)^2)", epsilon);
+        check_unused(close, "(8)", "a force at the stop g2", "the tip never reaches g2");
+    }
+}
+
 // One hundredth of the run, in which everything happens.
 BOOST_AUTO_TEST_CASE(a_phase_is_seen_however_short_it_is) {
     const std::string shape = "(t - 10.05)^3*(10.25 - t)^3*1e6";
