@@ -4,6 +4,7 @@
 #include "mms/admissible/repair.hpp"
 #include "mms/admissible/sampled_rules.hpp"
 #include "mms/expression/algebra.hpp"
+#include "mms/expression/expression_parser.hpp"
 #include "mms/expression/symbols.hpp"
 #include "mms/expression/tape_compiler.hpp"
 #include "mms/text/error_text.hpp"
@@ -215,6 +216,8 @@ private:
                 return tape.evaluate(ArrayXd::Zero(1), in_time);
             };
             contact.u = source.u.begin();
+            contact.u_names_g1 = first_use(source.u, "g1").has_value();
+            contact.u_names_g2 = first_use(source.u, "g2").has_value();
             if (source.sigma) {
                 contact.sigma = source.sigma->begin();
                 contact.sigma_formula = source.sigma->text();

@@ -188,8 +188,11 @@ std::string ContactRules::repair_of_tip(bool below) const {
                " there; (3*x^2 - x^3)/2 is a deflection that is 1 at the tip";
     const double factor = std::min({1.0, least < 0.0 ? stops_.lower / least : 1.0,
                                     greatest > 0.0 ? stops_.upper / greatest : 1.0});
-    return text + "multiply u by " + number_text(rounded_in(factor)) + ", or move " + name +
-           " to " + number_text(rounded_out(extreme));
+    const bool moves_with_stop =
+        std::ranges::any_of(phases_, below ? &ContactPhase::u_names_g1 : &ContactPhase::u_names_g2);
+    return text + "multiply u by " + number_text(rounded_in(factor)) +
+           (moves_with_stop ? ""
+                            : ", or move " + name + " to " + number_text(rounded_out(extreme)));
 }
 
 void ContactRules::require_stress(const ContactPhase& phase, double t, double tip,

@@ -236,6 +236,20 @@ const std::vector<Repair> repairs = {
      "2:6: (6): u(1,t) is -0.05 at t = 0; it must be at least g1 = -0.02; it is least, -0.05, at t "
      "= 0: multiply u by 0.4, or move g1 to -0.05",
      solution("0", "x^2*(sin(pi*t/2)*0.15 - 0.05)"), Beam{0.017, 0.1, 0.0, {-0.05, 0.1}}},
+    // Moving a stop that u is written with moves u; the other one does not.
+    {solution("0", "g2*x^2*(1 + t)"), between_stops,
+     "2:6: (6): u(1,t) is 0.100781 at t = 0.0078125; it must be at most g2 = 0.1; it is greatest, "
+     "0.3, at t = 2: multiply u by 0.3333",
+     solution("0", "0.3333*g2*x^2*(1 + t)")},
+    {solution("0", "g1*x^2*(1 + 2*t)"), between_stops,
+     "2:6: (6): u(1,t) is -0.0203125 at t = 0.0078125; it must be at least g1 = -0.02; it is "
+     "least, "
+     "-0.1, at t = 2: multiply u by 0.2",
+     solution("0", "0.2*g1*x^2*(1 + 2*t)")},
+    {solution("0", "-g1*5*x^2*(1 + t)"), between_stops,
+     "2:6: (6): u(1,t) is 0.100781 at t = 0.0078125; it must be at most g2 = 0.1; it is greatest, "
+     "0.3, at t = 2: multiply u by 0.3333, or move g2 to 0.3",
+     solution("0", "-0.3333*g1*5*x^2*(1 + t)")},
     // Peaks between two of the 257 times, with widths of 1e-3, of 1e-9, and beside a broad one.
     {solution("0", "x^2*exp(-1e6*(t - 0.3333)^2)"), between_stops,
      "2:6: (6): u(1,t) is 1 at t = 0.3333; it must be at most g2 = 0.1; it is greatest, 1, at t = "
