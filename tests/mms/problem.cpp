@@ -426,6 +426,34 @@ BOOST_AUTO_TEST_CASE(given_data_that_break_a_rule_are_refused_at_their_place) {
     refused_at(deflected("x^(3/2)/100"), papers_beam, "scene.toml:3:7: u0'' is not finite");
 }
 
+// A run has theta_A and 0 at the ends from the first step on. What is left out begins at zero, and
+// is heated from the end.
+BOOST_AUTO_TEST_CASE(a_given_initial_temperature_has_the_end_values) {
+    const Beam heated = {0.017, 0.1, 0.7, {-0.02, 0.1}};
+    const auto refusal = [&](const std::string& theta) -> std::string {
+        GivenData data;
+        data.theta0 = SourceText(theta, {"scene.toml", 2, 11});
+        try {
+            given_problem(data, heated, 1.0);
+        } catch (const InputError& error) {
+            return error.what();
+        }
+        return "";
+    };
+    BOOST_TEST(refusal("1 + x") == "scene.toml:2:11: (10): theta0(0) is 1; it must be 0.7 = "
+                                   "theta_A: subtract 3/10 - 3*x/10 from theta0");
+    BOOST_TEST(refusal("1 + x - (3/10 - 3*x/10)") ==
+               "scene.toml:2:11: (10): theta0(1) is 2; it must be 0: subtract 2*x from theta0");
+    BOOST_TEST(refusal("1 + x - (3/10 - 3*x/10) - 2*x") == "");
+    BOOST_TEST(refusal("sin(pi*x)").find("theta0(0) is 0; it must be 0.7 = theta_A") !=
+               std::string::npos);
+    BOOST_TEST(refusal("(theta_A + 1e-10)*(1 - x)")
+                   .find("theta0(0) is 0.7000000001; it must be "
+                         "0.7 = theta_A") != std::string::npos);
+    BOOST_TEST(refusal("theta_A*cos(pi*x/2) + 2*sin(pi*x)") == "");
+    BOOST_CHECK_NO_THROW(given_problem(GivenData(), heated, 1.0));
+}
+
 // Between the points of the grid, none of which a pole need hit.
 BOOST_AUTO_TEST_CASE(given_data_with_a_pole_between_samples_are_refused) {
     const auto refusal = [](const GivenData& data) -> std::string {
