@@ -181,7 +181,7 @@ void require_end_temperatures(const ex& theta, const SourceText& source, const B
         const std::string what = "theta0(" + std::to_string(end) + ")";
         throw InputError(source.begin(),
                          "(10): " + what + " is " + number_text_beside(here, wanted) +
-                             "; it must be " + number_text(wanted) + name + ": " +
+                             "; it must be " + exact_text(wanted) + name + ": " +
                              subtraction((at_end - exact_rational(wanted)) * shape,
                                          "what it is too large by, times " + formula_text(shape),
                                          "theta0"));

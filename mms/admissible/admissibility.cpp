@@ -171,7 +171,7 @@ private:
         require_formula(i, u_x, 0.0, scales_.u_x, source.u, "(5): u_x(0,t)",
                         clamped + subtraction(u_x * x, "u_x(0,t)*x", "u") + or_factor);
         require_formula(i, theta_0, beam_.theta_A, scales_.theta, source.theta, "(10): theta(0,t)",
-                        number_text(beam_.theta_A) + " = theta_A: " +
+                        exact_text(beam_.theta_A) + " = theta_A: " +
                             (theta_0.is_zero()
                                  ? "add theta_A*(1 - x) to theta"
                                  : subtraction((theta_0 - theta_A) * (1 - x),

@@ -107,7 +107,7 @@ void require_value(const ArrayXd& differences, const ArrayXd& times, double valu
     const auto broken = std::find_if(differences.begin(), differences.end(),
                                      [tolerance](double d) { return !(std::abs(d) <= tolerance); });
     if (broken != differences.end())
-        throw InputError(place, what + " is " + number_text(value + *broken) +
+        throw InputError(place, what + " is " + number_text_beside(value + *broken, value) +
                                     " at t = " + number_text(times(broken - differences.begin())) +
                                     "; it must be " + rule);
 }

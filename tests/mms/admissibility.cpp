@@ -350,6 +350,27 @@ std::vector<std::string> shipped() {
 } // namespace
 
 // Penalised stops, ε = 1/10, and a tip of 3/20 at most: the law makes −1/2 of it.
+BOOST_AUTO_TEST_CASE(a_value_is_told_apart_from_what_it_must_be) {
+    const auto refusal = [](const std::string& text, const Beam& beam) -> std::string {
+        try {
+            law_distance(parse_solution(text, "my.toml"), beam, 1.0);
+        } catch (const InputError& error) {
+            return error.what();
+        }
+        return "";
+    };
+    const std::string off_law = refusal("theta = 0\nu = '1.2*g2*(3*x^2-x^3)/2'\n"
+                                        "sigma = '-2-1e-9*t'\n",
+                                        {0.017, 0.1, 0.0, {-0.1, 0.1, 0.01}});
+    BOOST_TEST(off_law.find("sigma(1,t) is -2.0000000000") != std::string::npos, off_law);
+    BOOST_TEST(off_law.find("/epsilon = -2:") != std::string::npos, off_law);
+    const std::string off_end = refusal("theta = '(theta_A + 1e-10)*(1 - x)'\nu = 0\n",
+                                        {0.017, 0.1, 0.123456789, {-0.1, 0.1}});
+    BOOST_TEST(off_end.find("theta(0,t) is 0.1234567891 at t = 0; it must be 0.123456789 = ") !=
+                   std::string::npos,
+               off_end);
+}
+
 BOOST_AUTO_TEST_CASE(a_penalised_solution_obeys_the_law_of_its_stops) {
     const Beam beam{0.017, 0.1, 0.0, {-0.02, 0.1, 0.1}};
     const std::string u = "x^2*3/20*t/2";
