@@ -50,7 +50,15 @@ std::optional<double> unbounded_between(const std::function<ArrayXd(const ArrayX
     return is_bounded ? std::nullopt : std::optional(std::midpoint(look.begin, look.end));
 }
 
-/// The same next to a local maximum of |g| on a grid.
+/// The first time at which values are not all finite, as they are at `begin` and not at `end`.
+double end_of_finite(const std::function<ArrayXd(double t)>& values, double begin, double end) {
+    for (double middle = std::midpoint(begin, end); begin < middle && middle < end;
+         middle = std::midpoint(begin, end))
+        (values(middle).isFinite().all() ? begin : end) = middle;
+    return end;
+}
+
+/// What unbounded_between finds next to a local maximum of |g| on a grid.
 std::optional<double> unbounded_on(const ArrayXd& grid, const ArrayXd& values,
                                    const std::function<ArrayXd(const ArrayXd&)>& g) {
     const ArrayXd sizes = values.abs();
@@ -83,9 +91,15 @@ double largest_on_grid(const SpaceTimeFunction& g, const ArrayXd& times, double 
     ArrayXXd values(x.size(), times.size());
     for (Index j = 0; j < times.size(); ++j) {
         values.col(j) = g(x, times(j));
+        if (values.col(j).isFinite().all())
+            continue;
+        const double end =
+            j == 0 ? times(0)
+                   : end_of_finite([&](double t) { return g(x, t); }, times(j - 1), times(j));
+        const ArrayXd there = g(x, end);
         for (Index k = 0; k < x.size(); ++k)
-            if (!std::isfinite(values(k, j)))
-                refuse(x(k), times(j), values(k, j));
+            if (!std::isfinite(there(k)))
+                refuse(x(k), end, there(k));
     }
     Index row = 0;
     Index column = 0;

@@ -18,9 +18,9 @@ inline constexpr double relative_tolerance = 1e-12;
 inline constexpr Eigen::Index time_points = 257; ///< for what depends on time only
 
 /// The largest |g(x, t)| on the grid: grid_points in [0, 1], the times given. Throws InputError
-/// where g is not finite, or grows without bound next to a local maximum of |g| at the time, or in
-/// the place, of the largest, as at a pole; final_time is that of the whole run. exists: what is
-/// asked of g everywhere.
+/// where g is not finite, with the time from which on it is not, or grows without bound next to a
+/// local maximum of |g| at the time, or in the place, of the largest, as at a pole; final_time is
+/// that of the whole run. exists: what is asked of g everywhere.
 double largest_on_grid(const SpaceTimeFunction& g, const Eigen::ArrayXd& times, double final_time,
                        const Place& place, const std::string& what,
                        const std::string& exists = "it and its derivatives exist");
