@@ -21,11 +21,11 @@ namespace {
 constexpr double nothing = 1e-9; ///< of the greatest size of a thing
 constexpr int highest_power = 6;
 
-/// A formula in t and its derivatives, the highest one of the order highest_power.
-void append_with_derivatives(std::vector<ex>& rows, ex formula) {
-    for (int order = 0; order <= highest_power; ++order) {
+/// A formula in t and its derivatives up to an order.
+void append_with_derivatives(std::vector<ex>& rows, ex formula, int highest) {
+    for (int order = 0; order <= highest; ++order) {
         rows.push_back(formula);
-        if (order < highest_power)
+        if (order < highest)
             formula = derivative(formula, model_symbols().t);
     }
 }
@@ -34,20 +34,25 @@ enum class Contact { none, rest, force };
 
 class History {
 public:
-    History(const DerivedSolution& solution, const Stops& stops, double final_time)
-        : stops_(stops), tape_(solution, [](const DerivedPhase& phase) {
-              std::vector<ex> rows;
-              append_with_derivatives(rows, substituted(phase.u, {{model_symbols().x, 1}}));
-              append_with_derivatives(rows, phase.contact_stress);
-              return rows;
-          }) {
+    /// highest: of the derivatives in time.
+    History(const DerivedSolution& solution, const Stops& stops, double final_time, int highest)
+        : stops_(stops),
+          tape_(solution,
+                [highest](const DerivedPhase& phase) {
+                    std::vector<ex> rows;
+                    append_with_derivatives(rows, substituted(phase.u, {{model_symbols().x, 1}}),
+                                            highest);
+                    append_with_derivatives(rows, phase.contact_stress, highest);
+                    return rows;
+                }),
+          force_row_(highest + 1) {
         for (const PhaseExpressions& phase : solution.phases)
             if (phase.begin_value < final_time)
                 phases_.push_back({phase.begin_value, std::min(phase.end_value, final_time)});
         for (const Interval& phase : phases_)
             for (const double t : samples(phase)) {
                 tip_size_ = std::max(tip_size_, std::abs(tip(phase, t)));
-                force_size_ = std::max(force_size_, std::abs(value(phase, t, force_row)));
+                force_size_ = std::max(force_size_, std::abs(value(phase, t, force_row_)));
             }
     }
 
@@ -62,16 +67,26 @@ public:
             if (i > 0 && contacts_[i] == Contact::force && contacts_[i - 1] != Contact::force)
                 result_.onsets.push_back(
                     {phases_[i].begin, power(phases_[i - 1], phases_[i].begin, 0, 1, tip_size_),
-                     power(phases_[i], phases_[i].begin, force_row, 0, force_size_)});
+                     power(phases_[i], phases_[i].begin, force_row_, 0, force_size_)});
         }
         return result_;
+    }
+
+    [[nodiscard]] ReachedStops reached() const {
+        ReachedStops result;
+        for (const Interval& phase : phases_) {
+            result.lower = result.lower ||
+                           reaches(phase, [&](double t) { return tip(phase, t) - stops_.lower; });
+            result.upper = result.upper ||
+                           reaches(phase, [&](double t) { return stops_.upper - tip(phase, t); });
+        }
+        return result;
     }
 
 private:
     struct Interval {
         double begin, end;
     };
-    static constexpr Index force_row = highest_power + 1;
 
     static ArrayXd samples(const Interval& phase) {
         return ArrayXd::LinSpaced(time_points, phase.begin, phase.end);
@@ -95,7 +110,7 @@ private:
     [[nodiscard]] Contact contact_of(const Interval& phase) const {
         const ArrayXd times = samples(phase);
         const auto presses = [&](double t) {
-            return std::abs(value(phase, t, force_row)) > nothing * force_size_;
+            return std::abs(value(phase, t, force_row_)) > nothing * force_size_;
         };
         if (std::any_of(times.begin(), times.end(), presses))
             return Contact::force;
@@ -120,6 +135,33 @@ private:
             result_.touch = touch_inside(phase);
     }
 
+    /// Where a gap that falls and rises again is least.
+    template <typename Gap>
+    static double least_between(const Gap& gap, double left, double right) {
+        constexpr int thirds = 80;
+        for (int step = 0; step < thirds; ++step) {
+            const double third = (right - left) / 3.0;
+            if (gap(left + third) < gap(right - third))
+                right -= third;
+            else
+                left += third;
+        }
+        return 0.5 * (left + right);
+    }
+
+    /// Whether a gap is nothing, or less, at a time of a phase.
+    template <typename Gap>
+    [[nodiscard]] bool reaches(const Interval& phase, const Gap& gap) const {
+        const ArrayXd times = samples(phase);
+        const ArrayXd gaps = times.unaryExpr(gap);
+        Index least = 0;
+        if (gaps.minCoeff(&least) <= nothing * tip_size_)
+            return true;
+        const double nearest = least_between(gap, times(std::max<Index>(least - 1, 0)),
+                                             times(std::min(least + 1, times.size() - 1)));
+        return gap(nearest) <= nothing * tip_size_;
+    }
+
     /// Where the gap has a minimum that is nothing; next to an end on a stop it belongs to that
     /// end.
     [[nodiscard]] std::optional<double> touch_inside(const Interval& phase) const {
@@ -133,17 +175,8 @@ private:
             const Index behind = std::min(k + 1, last);
             if (gaps(k) > gaps(before) || gaps(k) > gaps(behind))
                 continue;
-            double left = times(before);
-            double right = times(behind);
-            constexpr int thirds = 80;
-            for (int step = 0; step < thirds; ++step) {
-                const double third = (right - left) / 3.0;
-                if (gap(phase, left + third) < gap(phase, right - third))
-                    right -= third;
-                else
-                    left += third;
-            }
-            const double nearest = 0.5 * (left + right);
+            const double nearest = least_between([&](double t) { return gap(phase, t); },
+                                                 times(before), times(behind));
             if (is_on_stop(phase, nearest) && nearest > begin && nearest < end)
                 return nearest;
         }
@@ -167,6 +200,7 @@ private:
 
     Stops stops_;
     PiecewiseTape tape_;
+    Index force_row_;
     std::vector<Interval> phases_;
     std::vector<Contact> contacts_;
     double tip_size_ = 0.0;
@@ -178,7 +212,11 @@ private:
 
 ContactHistory contact_history(const DerivedSolution& solution, const Stops& stops,
                                double final_time) {
-    return History(solution, stops, final_time).run();
+    return History(solution, stops, final_time, highest_power).run();
+}
+
+ReachedStops reached_stops(const DerivedSolution& solution, const Stops& stops, double final_time) {
+    return History(solution, stops, final_time, 0).reached();
 }
 
 } // namespace tvbeam

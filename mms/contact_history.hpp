@@ -31,4 +31,13 @@ struct ContactHistory {
 ContactHistory contact_history(const DerivedSolution& solution, const Stops& stops,
                                double final_time);
 
+/// The stops that the tip is on, or beyond, at some time.
+struct ReachedStops {
+    bool lower = false;
+    bool upper = false;
+};
+
+/// Looked for as contact_history does; the stops may be penalised.
+ReachedStops reached_stops(const DerivedSolution& solution, const Stops& stops, double final_time);
+
 } // namespace tvbeam

@@ -13,8 +13,9 @@ namespace tvbeam {
 struct TermUse {
     std::string equation; ///< "(1)" … "(10)", or "t = 0"
     std::string term;     ///< e.g. "alpha*u_xxt", "a force at the stop g1"
-    double largest = 0.0; ///< its largest absolute value on a grid of [0,1] × [0, final_time]
-    std::string why_not;  ///< of a term of size zero
+    double largest =
+        0.0; ///< its largest absolute value on [0,1] × [0, final_time] (largest_size.hpp)
+    std::string why_not; ///< of a term of size zero
 
     [[nodiscard]] bool is_exercised() const { return largest > 0.0; }
 };

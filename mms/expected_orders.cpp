@@ -54,8 +54,11 @@ std::vector<Switch> switches(const DerivedSolution& derived, double final_time) 
     // A jump is one beside what the rate is at any time: beside its own terms at the switch, which
     // may cancel there, round-off would be one.
     ArrayXd sizes = ArrayXd::Zero(2);
-    for (const double t : sample_points(0.0, final_time))
-        sizes = sizes.max(tape.at(x, t).abs().rowwise().maxCoeff());
+    for (const PhaseExpressions& phase : derived.phases)
+        if (phase.begin_value < final_time)
+            for (const double t :
+                 sample_points(phase.begin_value, std::min(phase.end_value, final_time)))
+                sizes = sizes.max(tape.at(x, t).abs().rowwise().maxCoeff());
     std::vector<Switch> result;
     for (const PhaseExpressions& phase : derived.phases) {
         if (!(phase.end_value < final_time))
@@ -84,7 +87,7 @@ void seek_farthest_tip(const DerivedSolution& derived, const Stops& stops, doubl
     double size = 0.0;
     double farthest = -std::numeric_limits<double>::infinity();
     double farthest_at = 0.0;
-    for (const double t : ArrayXd::LinSpaced(time_points, 0.0, final_time)) {
+    const auto see = [&](double t) {
         const double tip = tape.at(ArrayXd::Ones(1), t)(0, 0);
         const double beyond = std::max(tip - stops.upper, stops.lower - tip);
         size = std::max(size, std::abs(tip));
@@ -92,7 +95,12 @@ void seek_farthest_tip(const DerivedSolution& derived, const Stops& stops, doubl
             farthest = beyond;
             farthest_at = t;
         }
-    }
+    };
+    for (const PhaseExpressions& phase : derived.phases)
+        if (phase.begin_value < final_time)
+            for (const double t : ArrayXd::LinSpaced(time_points, phase.begin_value,
+                                                     std::min(phase.end_value, final_time)))
+                see(t);
     result.is_in_stops = farthest > jump_tolerance * size;
     if (std::abs(farthest) <= jump_tolerance * size)
         result.contact.touch = farthest_at;

@@ -3,15 +3,17 @@
 #include "core/space/resolution.hpp"
 #include "core/space/tail_moment.hpp"
 #include "mms/admissible/admissibility.hpp"
+#include "mms/admissible/repair.hpp"
+#include "mms/admissible/sampled_rules.hpp"
 #include "mms/derivation.hpp"
 #include "mms/expression/algebra.hpp"
 #include "mms/expression/expression_parser.hpp"
 #include "mms/expression/number_expression.hpp"
+#include "mms/expression/printing.hpp"
 #include "mms/expression/symbols.hpp"
 #include "mms/expression/tape_compiler.hpp"
 #include "mms/plain_solution.hpp"
 #include "mms/problem_builder.hpp"
-#include "mms/sample_points.hpp"
 #include "mms/sampled_fields.hpp"
 #include "mms/separation.hpp"
 #include "mms/text/error_text.hpp"
@@ -140,20 +142,16 @@ Given given(const std::optional<SourceText>& source, const Names& names, const B
 
 void require_finite(const Names& names, const std::vector<ex>& formulas, const SourceText& source,
                     double final_time, const std::string& what) {
-    const ArrayXd x = sample_points(0.0, 1.0);
     for (std::size_t i = 0; i < formulas.size(); ++i) {
         const auto [begin, end] = names.phases[i];
         if (!(begin < final_time))
             break;
         const Tape tape = located(source, what, [&] { return compile_tape({formulas[i]}); });
-        for (const double t : sample_points(begin, std::min(end, final_time))) {
-            const ArrayXd sampled = tape.evaluate(x, ArrayXd::Constant(1, t)).row(0);
-            for (Index k = 0; k < x.size(); ++k)
-                if (!std::isfinite(sampled(k)))
-                    throw InputError(source.begin(),
-                                     what + " is not finite at x = " + number_text(x(k)) +
-                                         ", t = " + number_text(t));
-        }
+        const auto values = [&](const ArrayXd& x, double t) -> ArrayXd {
+            return tape.evaluate(x, ArrayXd::Constant(1, t)).row(0);
+        };
+        largest_on_grid(values, sample_points(begin, std::min(end, final_time)), final_time,
+                        source.begin(), what, "it exists");
     }
 }
 
@@ -168,6 +166,28 @@ void require_clamped(const ex& u, const ex& u_x, const SourceText& source) {
         throw InputError(source.begin(), "(5): the slope of u0 at x = 0 is " +
                                              number_text(slope(0)) +
                                              "; it must be 0; a factor x^2 makes it so");
+}
+
+/// (10) at t = 0: a run takes the values at the ends from (10), whatever theta0 is there.
+void require_end_temperatures(const ex& theta, const SourceText& source, const Beam& beam) {
+    const GiNaC::realsymbol& x = model_symbols().x;
+    const double tolerance =
+        relative_tolerance * values(theta, sample_points(0.0, 1.0), 0.0).abs().maxCoeff();
+    const auto require = [&](int end, double wanted, const std::string& name, const ex& shape) {
+        const ex at_end = located(source, "theta0", [&] { return substituted(theta, {{x, end}}); });
+        const double here = values(at_end, ArrayXd::Zero(1), 0.0)(0);
+        if (std::abs(here - wanted) <= tolerance)
+            return;
+        const std::string what = "theta0(" + std::to_string(end) + ")";
+        throw InputError(source.begin(),
+                         "(10): " + what + " is " + number_text_beside(here, wanted) +
+                             "; it must be " + exact_text(wanted) + name + ": " +
+                             subtraction((at_end - exact_rational(wanted)) * shape,
+                                         "what it is too large by, times " + formula_text(shape),
+                                         "theta0"));
+    };
+    require(0, beam.theta_A, " = theta_A", 1 - x);
+    require(1, 0.0, "", x);
 }
 
 /// Where stops are rigid g1 ≤ u(1) ≤ g2 (6); penalised ones yield.
@@ -316,6 +336,8 @@ ProblemData problem_with(const GivenData& data, const Names& names, const Beam& 
     const GiNaC::realsymbol& x = model_symbols().x;
     const auto slope = [&](const ex& formula) { return derivative(formula, x); };
     const auto curvature = u.each([&](const ex& formula) { return slope(slope(formula)); });
+    if (theta && !defect)
+        require_end_temperatures(theta.formulas.front(), *data.theta0, beam);
     if (u) {
         const auto u_x = u.each(slope);
         require_finite(names, u_x, *data.u0, final_time, "u0'");

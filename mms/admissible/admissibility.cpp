@@ -4,6 +4,7 @@
 #include "mms/admissible/repair.hpp"
 #include "mms/admissible/sampled_rules.hpp"
 #include "mms/expression/algebra.hpp"
+#include "mms/expression/expression_parser.hpp"
 #include "mms/expression/symbols.hpp"
 #include "mms/expression/tape_compiler.hpp"
 #include "mms/text/error_text.hpp"
@@ -170,7 +171,7 @@ private:
         require_formula(i, u_x, 0.0, scales_.u_x, source.u, "(5): u_x(0,t)",
                         clamped + subtraction(u_x * x, "u_x(0,t)*x", "u") + or_factor);
         require_formula(i, theta_0, beam_.theta_A, scales_.theta, source.theta, "(10): theta(0,t)",
-                        number_text(beam_.theta_A) + " = theta_A: " +
+                        exact_text(beam_.theta_A) + " = theta_A: " +
                             (theta_0.is_zero()
                                  ? "add theta_A*(1 - x) to theta"
                                  : subtraction((theta_0 - theta_A) * (1 - x),
@@ -215,6 +216,8 @@ private:
                 return tape.evaluate(ArrayXd::Zero(1), in_time);
             };
             contact.u = source.u.begin();
+            contact.u_names_g1 = first_use(source.u, "g1").has_value();
+            contact.u_names_g2 = first_use(source.u, "g2").has_value();
             if (source.sigma) {
                 contact.sigma = source.sigma->begin();
                 contact.sigma_formula = source.sigma->text();

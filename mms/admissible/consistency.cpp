@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 namespace tvbeam {
@@ -66,14 +67,23 @@ void finish(std::vector<Residual>& residuals, const std::vector<Sizes>& sizes) {
     }
 }
 
-/// The two residuals in space at one time.
+/// The two residuals in space at one time; late: of the phase that begins there.
 Residual space_residual(const PiecewiseTape& tape, const Beam& beam, const Mesh& mesh,
-                        ThermalMass mass, double t) {
+                        ThermalMass mass, double t, bool late) {
+    // All of them are integrated with the same points.
+    ArrayXd points;
+    Eigen::ArrayXXd values;
     const auto row = [&](Row which) -> SpaceFunction {
-        return [&tape, which, t](const ArrayXd& x) -> ArrayXd { return tape.at(x, t).row(which); };
+        return [&, which](const ArrayXd& x) -> ArrayXd {
+            if (points.size() != x.size() || (points != x).any()) {
+                points = x;
+                values = tape.at(x, t, late);
+            }
+            return values.row(which);
+        };
     };
     const Index s = mesh.elements();
-    const Eigen::ArrayXXd nodal = tape.at(mesh.nodes, t);
+    const Eigen::ArrayXXd nodal = tape.at(mesh.nodes, t, late);
     const VectorXd homogeneous =
         (nodal.row(theta).transpose() - beam.theta_A * (1.0 - mesh.nodes)).matrix();
     const VectorXd rate = nodal.row(theta_t).transpose().matrix();
@@ -95,6 +105,32 @@ Residual space_residual(const PiecewiseTape& tape, const Beam& beam, const Mesh&
             .beam = std::sqrt(inner_product(mesh, balance, balance)),
             .heat_order = std::nullopt,
             .beam_order = std::nullopt};
+}
+
+/// The largest residuals in space over one phase, looked at ever more closely next to the largest
+/// of the times given.
+template <typename ResidualAt>
+Residual largest_residual(const CloseLook& phase, const ArrayXd& times, const ResidualAt& at) {
+    std::vector<Residual> sampled;
+    std::transform(times.begin(), times.end(), std::back_inserter(sampled), at);
+    Residual largest = sampled.front();
+    for (const auto size : {&Residual::heat, &Residual::beam}) {
+        const auto greatest = std::ranges::max_element(sampled, {}, size);
+        double best = times(greatest - sampled.begin());
+        largest.*size = (*greatest).*size;
+        constexpr double least_growth = 1e-3;
+        bool grows = true;
+        for (double distance = times(1) - times(0); grows; distance *= 0.25) {
+            const double before = largest.*size;
+            for (const double t : phase.next_to(best, distance).samples())
+                if (const double here = at(t).*size; here > largest.*size) {
+                    largest.*size = here;
+                    best = t;
+                }
+            grows = largest.*size > (1.0 + least_growth) * before;
+        }
+    }
+    return largest;
 }
 
 double level_time(double final_time, double level, std::int64_t steps) {
@@ -166,10 +202,19 @@ std::vector<Residual> space_residuals(const Solution& solution, const Beam& beam
     const ArrayXd grid = sample_points(0.0, 1.0);
     std::vector<Residual> result(elements.size());
     std::vector<Sizes> terms(elements.size());
-    for (const double t : ArrayXd::LinSpaced(time_samples, 0.0, final_time)) {
-        const ArrayXd sizes = tape.at(grid, t).abs().rowwise().maxCoeff();
+    for (const PhaseExpressions& phase : derived.phases) {
+        if (!(phase.begin_value < final_time))
+            break;
+        const CloseLook span{phase.begin_value, std::min(phase.end_value, final_time)};
+        const ArrayXd times = ArrayXd::LinSpaced(time_samples, span.begin, span.end);
+        ArrayXd sizes = ArrayXd::Zero(stress + 1);
+        for (const double t : times)
+            sizes = sizes.max(tape.at(grid, t, t == span.begin).abs().rowwise().maxCoeff());
         for (std::size_t i = 0; i < elements.size(); ++i) {
-            const Residual here = space_residual(tape, beam, Mesh::uniform(elements[i]), mass, t);
+            const Mesh mesh = Mesh::uniform(elements[i]);
+            const Residual here = largest_residual(span, times, [&](double t) {
+                return space_residual(tape, beam, mesh, mass, t, t == span.begin);
+            });
             // K has entries of the size s, and the norm multiplies by s once more.
             const auto s = static_cast<double>(elements[i]);
             terms[i].heat =

@@ -35,7 +35,7 @@ inline constexpr std::array<std::int64_t, 4> shown_steps{64, 128, 256, 512};
 ///     M Iθ̃_t + K Iθ̃ − α (Πu_xxt, χ) − (f, χ)     in the norm (rᵀ M_l⁻¹ r)^½ of its L²
 ///     representative, Πu_xx + ζ Πu_xxt + α Iθ̃ + Πμ − σ̃(1,t) (1 − x),
 ///
-/// the largest over 17 times in [0, final_time].
+/// the largest over 17 times of each phase up to final_time and, ever closer, next to the largest.
 std::vector<Residual> space_residuals(const Solution& solution, const Beam& beam, double final_time,
                                       ThermalMass mass, const std::vector<std::int64_t>& elements);
 

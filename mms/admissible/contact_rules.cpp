@@ -101,14 +101,16 @@ void ContactRules::require_law(const ContactPhase& phase) const {
             continue;
         const bool above = tip > stops_.upper;
         const bool below = tip < stops_.lower;
+        const double law = contact_stress(stops_, tip, 0.0);
         throw InputError(phase.sigma.value_or(phase.u),
-                         "(7)(8) of penalised stops: sigma(1,t) is " + number_text(stress) +
+                         "(7)(8) of penalised stops: sigma(1,t) is " +
+                             number_text_beside(stress, law) +
                              " at t = " + number_text(phase.times(k)) + ", where u(1,t) is " +
                              number_text(tip) + "; it must be " +
                              (above   ? "-(u(1,t) - g2)/epsilon = "
                               : below ? "(g1 - u(1,t))/epsilon = "
                                       : "0 between the stops, ") +
-                             number_text(contact_stress(stops_, tip, 0.0)) +
+                             number_text_beside(law, stress) +
                              ": leave sigma out, and it is what the law makes of u(1,t)");
     }
 }
@@ -131,8 +133,8 @@ void ContactRules::require_between_stops(const ContactPhase& phase, double t, do
     const double stop = below ? stops_.lower : stops_.upper;
     throw InputError(phase.u, "(6): u(1,t) is " + number_text_beside(tip, stop) +
                                   " at t = " + number_text(t) + "; it must be at " +
-                                  (below ? "least g1 = " : "most g2 = ") + number_text(stop) +
-                                  "; " + repair_of_tip(below));
+                                  (below ? "least g1 = " : "most g2 = ") + exact_text(stop) + "; " +
+                                  repair_of_tip(below));
 }
 
 /// What brings the tip back between the stops: measured where it is farthest out.
@@ -188,8 +190,11 @@ std::string ContactRules::repair_of_tip(bool below) const {
                " there; (3*x^2 - x^3)/2 is a deflection that is 1 at the tip";
     const double factor = std::min({1.0, least < 0.0 ? stops_.lower / least : 1.0,
                                     greatest > 0.0 ? stops_.upper / greatest : 1.0});
-    return text + "multiply u by " + number_text(rounded_in(factor)) + ", or move " + name +
-           " to " + number_text(rounded_out(extreme));
+    const bool moves_with_stop =
+        std::ranges::any_of(phases_, below ? &ContactPhase::u_names_g1 : &ContactPhase::u_names_g2);
+    return text + "multiply u by " + number_text(rounded_in(factor)) +
+           (moves_with_stop ? ""
+                            : ", or move " + name + " to " + number_text(rounded_out(extreme)));
 }
 
 void ContactRules::require_stress(const ContactPhase& phase, double t, double tip,

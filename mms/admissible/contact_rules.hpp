@@ -23,6 +23,8 @@ struct ContactPhase {
     EnclosedFunction tip;        ///< u(1,t); none: nothing is known of it between two times
     std::int64_t most_parts = 0; ///< into which greatest_value may take it apart
     Place u;
+    bool u_names_g1 = false; ///< moving the stop moves what is wrong with it
+    bool u_names_g2 = false;
     std::optional<Place> sigma; ///< none: σ̃ is not given, and zero
     std::string sigma_formula;  ///< for the repair of its sign; may be empty
 };

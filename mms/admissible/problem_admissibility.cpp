@@ -85,7 +85,7 @@ private:
         require_at(0.0, exact_.u_x, 0.0, u_x_scale_, "(5): u_x(0,t)",
                    clamped + "subtract u_x(0,t)*x from u" + or_factor);
         require_at(0.0, exact_.theta, beam_.theta_A, theta_scale_, "(10): theta(0,t)",
-                   number_text(beam_.theta_A) +
+                   exact_text(beam_.theta_A) +
                        " = theta_A: subtract (theta(0,t) - theta_A)*(1 - x) from theta");
         require_at(1.0, exact_.theta, 0.0, theta_scale_, "(10): theta(1,t)",
                    "0: subtract theta(1,t)*x from theta");

@@ -23,7 +23,6 @@ namespace {
 /// @param largest |g| at a point between them
 std::optional<double> unbounded_between(const std::function<ArrayXd(const ArrayXd&)>& g,
                                         double begin, double end, double largest) {
-    constexpr Index points = 9;
     constexpr double level = 1.4;    // |s - a|^(-1/4) grows as much in a fourth of the width
     constexpr int least_growths = 6; // of some 22; noise has set its records before
     constexpr double least_growth = 1e3;
@@ -31,10 +30,11 @@ std::optional<double> unbounded_between(const std::function<ArrayXd(const ArrayX
     const double width = narrowest * std::max({std::abs(begin), std::abs(end), end - begin});
     const double first = largest;
     int growths = 0;
-    while (end - begin > width) {
-        const ArrayXd s = ArrayXd::LinSpaced(points, begin, end);
+    CloseLook look{begin, end};
+    while (look.end - look.begin > width) {
+        const ArrayXd s = look.samples();
         const ArrayXd sizes = g(s).abs();
-        for (Index k = 0; k < points; ++k)
+        for (Index k = 0; k < s.size(); ++k)
             if (!std::isfinite(sizes(k)))
                 return s(k);
         Index at = 0;
@@ -44,14 +44,21 @@ std::optional<double> unbounded_between(const std::function<ArrayXd(const ArrayX
             return std::nullopt;
         growths += grows ? 1 : 0;
         largest = std::max(largest, greatest);
-        begin = s(std::max<Index>(at - 1, 0));
-        end = s(std::min<Index>(at + 1, points - 1));
+        look = look.next_to(s(at), look.spacing());
     }
     const bool is_bounded = growths < least_growths || largest < least_growth * first;
-    return is_bounded ? std::nullopt : std::optional(std::midpoint(begin, end));
+    return is_bounded ? std::nullopt : std::optional(std::midpoint(look.begin, look.end));
 }
 
-/// The same next to a local maximum of |g| on a grid.
+/// The first time at which values are not all finite, as they are at `begin` and not at `end`.
+double end_of_finite(const std::function<ArrayXd(double t)>& values, double begin, double end) {
+    for (double middle = std::midpoint(begin, end); begin < middle && middle < end;
+         middle = std::midpoint(begin, end))
+        (values(middle).isFinite().all() ? begin : end) = middle;
+    return end;
+}
+
+/// What unbounded_between finds next to a local maximum of |g| on a grid.
 std::optional<double> unbounded_on(const ArrayXd& grid, const ArrayXd& values,
                                    const std::function<ArrayXd(const ArrayXd&)>& g) {
     const ArrayXd sizes = values.abs();
@@ -70,25 +77,29 @@ std::optional<double> unbounded_on(const ArrayXd& grid, const ArrayXd& values,
 } // namespace
 
 double largest_on_grid(const SpaceTimeFunction& g, const ArrayXd& times, double final_time,
-                       const Place& place, const std::string& what) {
+                       const Place& place, const std::string& what, const std::string& exists) {
     const auto refuse = [&](double x, double t, double value, bool ends_there = true) {
         const std::string how =
             std::isfinite(value) ? " grows without bound towards" : " is not finite at";
         throw InputError(place,
                          what + how + " x = " + number_text(x) + ", t = " + number_text(t) +
-                             " (it is " + number_text(value) +
-                             "); write it so that it and its derivatives exist "
-                             "everywhere on [0, 1] x [0, " +
-                             number_text(final_time) + "]" +
+                             " (it is " + number_text(value) + "); write it so that " + exists +
+                             " everywhere on [0, 1] x [0, " + number_text(final_time) + "]" +
                              (ends_there && t > 0.0 ? ", or end the run before that time" : ""));
     };
     const ArrayXd x = sample_points(0.0, 1.0);
     ArrayXXd values(x.size(), times.size());
     for (Index j = 0; j < times.size(); ++j) {
         values.col(j) = g(x, times(j));
+        if (values.col(j).isFinite().all())
+            continue;
+        const double end =
+            j == 0 ? times(0)
+                   : end_of_finite([&](double t) { return g(x, t); }, times(j - 1), times(j));
+        const ArrayXd there = g(x, end);
         for (Index k = 0; k < x.size(); ++k)
-            if (!std::isfinite(values(k, j)))
-                refuse(x(k), times(j), values(k, j));
+            if (!std::isfinite(there(k)))
+                refuse(x(k), end, there(k));
     }
     Index row = 0;
     Index column = 0;
@@ -110,7 +121,7 @@ void require_value(const ArrayXd& differences, const ArrayXd& times, double valu
     const auto broken = std::find_if(differences.begin(), differences.end(),
                                      [tolerance](double d) { return !(std::abs(d) <= tolerance); });
     if (broken != differences.end())
-        throw InputError(place, what + " is " + number_text(value + *broken) +
+        throw InputError(place, what + " is " + number_text_beside(value + *broken, value) +
                                     " at t = " + number_text(times(broken - differences.begin())) +
                                     "; it must be " + rule);
 }

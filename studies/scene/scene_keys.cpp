@@ -65,7 +65,7 @@ Entries of_the_beam() {
          "from 0 to 1, increasing; every mesh has these, and divides each interval evenly"},
         {"data", KeyType::table, "a solution", "a problem without exact solution"},
         {"data.theta0", KeyType::expression, "0",
-         "temperature at t = 0, in x; theta_A at x = 0, 0 at x = 1"},
+         "temperature at t = 0, in x; if given, theta_A at x = 0 and 0 at x = 1"},
         {"data.u0", KeyType::expression, "0", "deflection at t = 0, in x"},
         {"data.heat_source", KeyType::expression, "0", "f(x, t)"},
         {"data.body_force", KeyType::expression, "0", "q(x, t) in sigma_x = q"},

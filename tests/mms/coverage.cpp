@@ -98,9 +98,91 @@ BOOST_AUTO_TEST_CASE(cases_of_contact_are_distinguishable) {
     BOOST_TEST(use(pressed, "(8)", "a force at the stop g1").largest == 3.0); // 1 + t
     const auto released = on("released-from-g2", coupled);
     BOOST_TEST(use(released, "(8)", "a force at the stop g2").largest == 0.5625); // (3/4)²
+    const auto still = coverage(parse_solution("theta = 'sin(pi*x)'\nu = '0'\n", "still.toml"),
+                                {0.4, 0.15, 0.0, {-0.02, 0.1}}, 2.0);
+    check_unused(still, "(6)(7)", "a free tip between stops", "u(1,t) is zero");
     const auto unstopped = on("free-oscillation", {0.4, 0.15, 0.0, {}});
     check_unused(unstopped, "(6)(7)", "a free tip between stops", "the beam has no stops");
     check_unused(unstopped, "(8)", "a force at the stop g2", "there is no stop g2");
+}
+
+// Between the times of any grid, and of both stops.
+BOOST_AUTO_TEST_CASE(a_smooth_touch_is_one_without_a_force) {
+    const auto on = [](const std::string& u, double epsilon) {
+        return coverage(
+            parse_solution("theta = 'sin(pi*x)'\nu = '" + u + "'\nsigma = '0'\n", "touch.toml"),
+            {0.5, 0.1, 0.0, {-0.1, 0.1, epsilon}}, 1.0);
+    };
+    for (const double epsilon : {0.0, 0.05}) {
+        const auto one = on("g2*x^2*(1 - (t - 0.7003)^2)", epsilon);
+        check_unused(one, "(8)", "a force at the stop g2", "the tip touches g2 without a force");
+        check_unused(one, "(8)", "a force at the stop g1", "the tip never reaches g1");
+        const auto both = on("g2*x^2*sin(3*pi*(t + 0.01))", epsilon);
+        for (const std::string stop : {"g1", "g2"})
+            check_unused(both, "(8)", "a force at the stop " + stop,
+                         "the tip touches " + stop + " without a force");
+        const auto close = on("g2*x^2*(1 - 1e-6 - (t - 0.7003)^2)", epsilon);
+        check_unused(close, "(8)", "a force at the stop g2", "the tip never reaches g2");
+    }
+}
+
+// One hundredth of the run, in which everything happens.
+BOOST_AUTO_TEST_CASE(a_phase_is_seen_however_short_it_is) {
+    const std::string shape = "(t - 10.05)^3*(10.25 - t)^3*1e6";
+    const std::string still = "theta = '0'\nu = '0'\n";
+    const Solution solution = parse_solution(
+        "[[phase]]\nuntil = 10.05\n" + still + "[[phase]]\nuntil = 10.25\ntheta = 'sin(pi*x)*" +
+            shape + "'\nu = 'x^5*" + shape + "'\n[[phase]]\n" + still,
+        "my.toml");
+    const Beam beam{0.5, 0.1, 0.0, {-2.0, 1.0}};
+    const auto terms = coverage(solution, beam, 20.0);
+    for (const std::string term : {"theta_t", "theta_xx", "alpha*u_xxt", "a heat source f"})
+        BOOST_TEST(use(terms, "(1)", term).is_exercised(), term);
+    // With s = 10 (t - 10.15): 1e6 times the shape is (1 - s²)³, and its slope is largest at
+    // s² = 1/5.
+    const auto close = boost::test_tools::tolerance(1e-4);
+    BOOST_TEST(use(terms, "(1)", "theta_t").largest == 60.0 * std::sqrt(0.2) * 0.64, close);
+    BOOST_TEST(use(terms, "(1)", "theta_xx").largest == std::pow(std::acos(-1.0), 2.0), close);
+    BOOST_TEST(use(terms, "(3)", "u_xxx").largest == 60.0, close);
+    check_unused(terms, "(8)", "a force at the stop g2", "the tip touches g2 without a force");
+    check_unused(terms, "(8)", "a force at the stop g1", "the tip never reaches g1");
+    const auto residuals = space_residuals(solution, beam, 20.0, ThermalMass::consistent, {32, 64});
+    BOOST_TEST(std::abs(residuals.back().heat_order.value_or(0.0) - 2.0) < 0.03);
+    BOOST_TEST(std::abs(residuals.back().beam_order.value_or(0.0) - 2.0) < 0.03);
+}
+
+// θ̃_t = x (1 − x) 2 k² (x − t) e^(−k² (x − t)²), which is largest beside the line x = t, at a
+// distance of 1/(√2 k).
+BOOST_DATA_TEST_CASE(a_narrow_peak_is_seen_at_its_height, data::make({50.0, 200.0, 1000.0}), k) {
+    const std::string peak = "x*(1 - x)*exp(-(" + std::to_string(k) + "*(x - t))^2)";
+    for (const std::string beside : {"", " + sin(pi*x)*t"}) {
+        const Solution solution =
+            parse_solution("theta = '" + peak + beside + "'\nu = 'x^2*t/100'\n", "my.toml");
+        const auto terms = coverage(solution, {0.4, 0.15, 0.0, {}}, 1.0);
+        const double height = 0.25 * k * std::sqrt(2.0 / std::exp(1.0));
+        BOOST_TEST(use(terms, "(1)", "theta_t").largest == height + (beside.empty() ? 0.0 : 1.0),
+                   boost::test_tools::tolerance(0.03));
+        BOOST_TEST(use(terms, "(1)", "theta_xx").largest == 0.5 * k * k,
+                   boost::test_tools::tolerance(0.03));
+    }
+}
+
+// A peak in time alone, by a stop that the tip stays away from, and in the force on it.
+BOOST_AUTO_TEST_CASE(a_narrow_peak_of_the_force_is_seen_at_its_height) {
+    const Solution solution = parse_solution("theta = 'sin(pi*x)'\nu = 'g2*(3*x^2 - x^3)/2'\n"
+                                             "sigma = '-1 - 4*exp(-(700*(t - 0.4567))^2)'\n",
+                                             "my.toml");
+    const auto terms = coverage(solution, {0.4, 0.15, 0.0, {-0.1, 0.1}}, 1.0);
+    BOOST_TEST(use(terms, "(8)", "a force at the stop g2").largest == 5.0,
+               boost::test_tools::tolerance(1e-3));
+}
+
+// What is not zero by its formula is not said to be zero, but to be so where it was looked at.
+BOOST_AUTO_TEST_CASE(a_term_that_was_not_seen_is_not_said_to_be_zero) {
+    const Solution solution = parse_solution(
+        "theta = 'sin(pi*x)*exp(-(1e7*(t - 0.4567))^2)'\nu = 'x^2*t/100'\n", "my.toml");
+    check_unused(coverage(solution, {0.4, 0.15, 0.0, {}}, 1.0), "(1)", "theta_t",
+                 "theta is steady, as far as was seen");
 }
 
 // The shipped solutions together leave nothing untested.

@@ -426,6 +426,67 @@ BOOST_AUTO_TEST_CASE(given_data_that_break_a_rule_are_refused_at_their_place) {
     refused_at(deflected("x^(3/2)/100"), papers_beam, "scene.toml:3:7: u0'' is not finite");
 }
 
+// A run has theta_A and 0 at the ends from the first step on. What is left out begins at zero, and
+// is heated from the end.
+BOOST_AUTO_TEST_CASE(a_given_initial_temperature_has_the_end_values) {
+    const Beam heated = {0.017, 0.1, 0.7, {-0.02, 0.1}};
+    const auto refusal = [&](const std::string& theta) -> std::string {
+        GivenData data;
+        data.theta0 = SourceText(theta, {"scene.toml", 2, 11});
+        try {
+            given_problem(data, heated, 1.0);
+        } catch (const InputError& error) {
+            return error.what();
+        }
+        return "";
+    };
+    BOOST_TEST(refusal("1 + x") == "scene.toml:2:11: (10): theta0(0) is 1; it must be 0.7 = "
+                                   "theta_A: subtract 3/10 - 3*x/10 from theta0");
+    BOOST_TEST(refusal("1 + x - (3/10 - 3*x/10)") ==
+               "scene.toml:2:11: (10): theta0(1) is 2; it must be 0: subtract 2*x from theta0");
+    BOOST_TEST(refusal("1 + x - (3/10 - 3*x/10) - 2*x") == "");
+    BOOST_TEST(refusal("sin(pi*x)").find("theta0(0) is 0; it must be 0.7 = theta_A") !=
+               std::string::npos);
+    BOOST_TEST(refusal("(theta_A + 1e-10)*(1 - x)")
+                   .find("theta0(0) is 0.7000000001; it must be "
+                         "0.7 = theta_A") != std::string::npos);
+    BOOST_TEST(refusal("theta_A*cos(pi*x/2) + 2*sin(pi*x)") == "");
+    BOOST_CHECK_NO_THROW(given_problem(GivenData(), heated, 1.0));
+}
+
+// Between the points of the grid, none of which a pole need hit.
+BOOST_AUTO_TEST_CASE(given_data_with_a_pole_between_samples_are_refused) {
+    const auto refusal = [](const GivenData& data) -> std::string {
+        try {
+            given_problem(data, papers_beam, 1.0);
+        } catch (const InputError& error) {
+            return error.what();
+        }
+        return "";
+    };
+    const auto heated = [](const std::string& source) {
+        GivenData data;
+        data.heat_source = SourceText(source, {"scene.toml", 4, 16});
+        return data;
+    };
+    const std::string unbounded = " grows without bound towards x = ";
+    for (const std::string pole : {"1/(x-0.3127)", "1/(x-0.3127)^2", "1 + t/(x-0.3127)^2"})
+        BOOST_TEST(refusal(heated(pole))
+                       .starts_with("scene.toml:4:16: heat_source" + unbounded + "0.3127, t = "),
+                   refusal(heated(pole)));
+    BOOST_TEST(refusal(heated("1/(t-0.505)")).find("t = 0.505 ") != std::string::npos);
+    BOOST_TEST(refusal(given("sin(pi*x)/(t-0.505)"))
+                   .starts_with("scene.toml:5:15: body_force" + unbounded));
+    GivenData start;
+    start.theta0 = SourceText("theta_A*(1-x) + sin(pi*x)/(x-0.3127)", {"scene.toml", 2, 11});
+    BOOST_TEST(refusal(start).starts_with("scene.toml:2:11: theta0" + unbounded));
+    start.theta0.reset();
+    start.u0 = SourceText("x^2*((x-0.3127)^2)^(3/4)/1e3", {"scene.toml", 3, 7});
+    BOOST_TEST(refusal(start).starts_with("scene.toml:3:7: u0''" + unbounded));
+    // Steep, and bounded.
+    BOOST_TEST(refusal(heated("exp(-((x-0.3127)*1e4)^2) + tanh(1e4*(t-0.505))")) == "");
+}
+
 // From text to compiled problem, whatever the formulas: a problem or an InputError, in reasonable
 // time. Factors in front make most of them admissible. Fixed seeds.
 BOOST_AUTO_TEST_CASE(any_formulas_are_a_problem_or_an_input_error) {

@@ -1,0 +1,147 @@
+#include "mms/largest_size.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace tvbeam {
+
+using Eigen::ArrayXd;
+using Eigen::Index;
+
+namespace {
+
+struct Sample {
+    double x, t, size;
+};
+
+/// Points in space and time.
+struct Points {
+    std::vector<double> x, t;
+
+    void add(double at_x, double at_t) {
+        x.push_back(at_x);
+        t.push_back(at_t);
+    }
+};
+
+ArrayXd points_of(const CloseLook& span) {
+    return span.begin < span.end ? sample_points(span.begin, span.end)
+                                 : ArrayXd::Constant(1, span.begin);
+}
+
+/// Those of points_of, and towards both ends ever closer ones.
+std::vector<double> times_of(const CloseLook& span) {
+    const ArrayXd even = points_of(span);
+    std::vector<double> times(even.begin(), even.end());
+    constexpr int closer = 6;
+    double distance = (span.end - span.begin) / static_cast<double>(grid_points - 1);
+    for (int k = 0; k < closer && distance > 0.0; ++k) {
+        distance *= 0.25;
+        times.push_back(span.begin + distance);
+        times.push_back(span.end - distance);
+    }
+    return times;
+}
+
+Points scattered(const CloseLook& x, const CloseLook& t) {
+    Points points;
+    for (const double at_t : times_of(t))
+        for (const double at_x : points_of(x))
+            points.add(at_x, at_t);
+    // The fractional parts of the multiples of the golden ratio stay apart from one another.
+    constexpr int count = 2048;
+    constexpr double golden_ratio = 0.6180339887498949;
+    for (int k = 0; k < count; ++k)
+        points.add(x.begin + std::fmod((k + 0.5) * golden_ratio, 1.0) * (x.end - x.begin),
+                   t.begin + (k + 0.5) / count * (t.end - t.begin));
+    return points;
+}
+
+class LargestSize {
+public:
+    LargestSize(const PointFunction& g, const CloseLook& x, const CloseLook& t)
+        : g_(g), x_(x), t_(t) {}
+
+    [[nodiscard]] double value() const {
+        constexpr std::size_t looked_at = 8;
+        constexpr int fewest_looks = 4; // the last of them between the times of any two points
+        constexpr int most_looks = 20;
+        constexpr double least_growth = 1e-6;
+        std::vector<Sample> samples = largest_of_parts();
+        std::ranges::sort(samples, std::greater{}, &Sample::size);
+        samples.resize(std::min(samples.size(), looked_at));
+        double largest = 0.0;
+        double distance_x = spacing(x_);
+        double distance_t = spacing(t_);
+        bool grows = true;
+        for (int look = 0; look < fewest_looks || (grows && look < most_looks); ++look) {
+            const double before = largest;
+            for (Sample& sample : samples) {
+                look_closer(sample, distance_x, distance_t);
+                largest = std::max(largest, sample.size);
+            }
+            grows = largest > (1.0 + least_growth) * before;
+            distance_x *= 0.25;
+            distance_t *= 0.25;
+        }
+        return largest;
+    }
+
+private:
+    [[nodiscard]] ArrayXd sizes(const ArrayXd& x, const ArrayXd& t) const {
+        const ArrayXd values = g_(x, t);
+        return values.isFinite().select(values.abs(), 0.0);
+    }
+
+    /// In each of several parts of the region the point that has the largest |g|, if it is not
+    /// zero.
+    [[nodiscard]] std::vector<Sample> largest_of_parts() const {
+        constexpr int parts = 8; // in space and in time
+        const auto part = [](const CloseLook& span, double at) {
+            const double length = span.end - span.begin;
+            return length > 0.0
+                       ? std::min(parts - 1, static_cast<int>(parts * (at - span.begin) / length))
+                       : 0;
+        };
+        const Points points = scattered(x_, t_);
+        const auto count = static_cast<Index>(points.x.size());
+        const ArrayXd found = sizes(Eigen::Map<const ArrayXd>(points.x.data(), count),
+                                    Eigen::Map<const ArrayXd>(points.t.data(), count));
+        std::vector<Sample> largest(parts * parts, {0.0, 0.0, 0.0});
+        for (std::size_t k = 0; k < points.x.size(); ++k) {
+            Sample& known = largest[static_cast<std::size_t>(parts * part(x_, points.x[k]) +
+                                                             part(t_, points.t[k]))];
+            if (const double size = found(static_cast<Index>(k)); size > known.size)
+                known = {points.x[k], points.t[k], size};
+        }
+        std::erase_if(largest, [](const Sample& sample) { return sample.size == 0.0; });
+        return largest;
+    }
+
+    static double spacing(const CloseLook& span) {
+        return (span.end - span.begin) / static_cast<double>(grid_points - 1);
+    }
+
+    /// Moves to the largest |g| no further away than that.
+    void look_closer(Sample& best, double distance_x, double distance_t) const {
+        const ArrayXd x = x_.next_to(best.x, distance_x).samples();
+        const ArrayXd t = t_.next_to(best.t, distance_t).samples();
+        const ArrayXd found =
+            sizes(x.replicate(t.size(), 1), t.transpose().replicate(x.size(), 1).reshaped());
+        Index at = 0;
+        if (const double size = found.maxCoeff(&at); size > best.size)
+            best = {x(at % x.size()), t(at / x.size()), size};
+    }
+
+    const PointFunction& g_;
+    CloseLook x_, t_;
+};
+
+} // namespace
+
+double largest_size(const PointFunction& g, const CloseLook& x, const CloseLook& t) {
+    return LargestSize(g, x, t).value();
+}
+
+} // namespace tvbeam
