@@ -383,7 +383,7 @@ BOOST_AUTO_TEST_CASE(a_script_asks_for_the_heaviest_shard) {
     // 2e5 x 5e4 steps of elements of the reference, 100 s: ten times that and one minute more.
     const std::string reference =
         "title = \"of a reference\"\n[beam]\nalpha = 0.1\nzeta = 0.1\nstops = [-1.0, 1.0]\n"
-        "[data]\ntheta0 = \"x\"\n[ladder]\nfinal_time = 0.1\nelements = [4, 8]\n"
+        "[data]\ntheta0 = \"x*(1 - x)\"\n[ladder]\nfinal_time = 0.1\nelements = [4, 8]\n"
         "dt = [0.01, 0.01]\nnorms = [\"theta_L2L2\"]\n"
         "[reference]\nelements = 200000\ndt = 2e-6\n";
     for (const int shards : {1, 2})

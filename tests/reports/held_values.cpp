@@ -2,6 +2,8 @@
 // may change them, and no further.
 
 #include "reports/files/held_values.hpp"
+#include "reports/files/said_result.hpp"
+#include "studies/study.hpp"
 
 #include <boost/test/unit_test.hpp>
 #include <nlohmann/json.hpp>
@@ -163,6 +165,14 @@ BOOST_AUTO_TEST_CASE(runs_of_one_name_are_held_one_by_one) {
     BOOST_TEST(same(runs(1.0, 2.0), runs(1.0, 2.0)));
     BOOST_TEST(!same(runs(1.0, 2.0), runs(1.5, 2.0)));
     BOOST_TEST(!same(runs(1.0, 2.0), runs(1.0, 2.5)));
+}
+
+// By which runs are taken for those of another basis: of one, they count the same.
+BOOST_AUTO_TEST_CASE(what_a_result_says_names_the_basis_that_it_was_asked_for) {
+    for (const std::string basis : {"automatic", "nodal"}) {
+        const auto result = run_study(read_scene("cubic-deflection", {"scheme.basis=" + basis}));
+        BOOST_TEST(said_by(result, {}).at("basis") == basis);
+    }
 }
 
 BOOST_AUTO_TEST_SUITE_END()

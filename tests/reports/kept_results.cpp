@@ -10,6 +10,7 @@
 
 #include <cmath>
 #include <csignal>
+#include <filesystem>
 #include <limits>
 #include <utility>
 #include <vector>
@@ -170,6 +171,28 @@ BOOST_AUTO_TEST_CASE(results_that_cannot_be_kept_do_not_end_the_study) {
     FinishedWork again(scene, {});
     BOOST_TEST(again.read(directory.path() / "unfinished.jsonl").count == 1U);
     BOOST_TEST(again.found() == 0U);
+}
+
+// An attempt that was cut short behind its last run leaves nothing to add, and nothing to stay.
+BOOST_AUTO_TEST_CASE(the_file_goes_with_the_end_of_a_study_that_made_no_run_of_its_own) {
+    const TemporaryDirectory directory;
+    const auto file = directory.path() / "unfinished.jsonl";
+    const Scene scene = read_scene("table1");
+    {
+        FinishedWork kept(scene, {});
+        kept.keep_in(file);
+        const Series ladder = scene.series().front();
+        RungResult first = run();
+        first.rung = ladder.rungs.front();
+        kept.add(ladder, 0, first);
+        kept.write();
+    }
+    FinishedWork again(scene, {});
+    again.read(file);
+    BOOST_TEST(again.found() == 1U);
+    again.keep_in(file);
+    again.remove();
+    BOOST_TEST(!std::filesystem::exists(file));
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -15,12 +15,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
 #include <set>
 #include <sstream>
 #include <tuple>
+#include <vector>
 
 using namespace tvbeam;
 
@@ -253,6 +255,24 @@ BOOST_AUTO_TEST_CASE(the_two_parameters_that_decide_the_outcome_are_the_axes) {
     BOOST_TEST(cases == 112.0);
     for (const auto& row : block(blocks, "refused"))
         BOOST_TEST((row[0] >= 1.0 && row[1] >= 1.0)); // decimal logarithms
+}
+
+// As large as each other, to half: none is hardly to be seen.
+BOOST_AUTO_TEST_CASE(the_marks_of_all_outcomes_are_of_like_size) {
+    StudyResult result = paper();
+    result.records.set(StressResult{});
+    for (const Outcome outcome :
+         {Outcome::certified, Outcome::refused, Outcome::stopped, Outcome::failed})
+        for (const double alpha : {1.0, 2.0})
+            result.get<StressResult>()->cases.add(stress_case(alpha, 1.0, alpha, outcome));
+    const std::string script = script_of(stress_plots(result).at(0));
+    std::vector<double> sizes;
+    for (auto at = script.find(" ps "); at != std::string::npos; at = script.find(" ps ", at + 1))
+        sizes.push_back(std::stod(script.substr(at + 4)));
+    BOOST_REQUIRE(sizes.size() >= 4U);
+    const auto [least, greatest] = std::minmax_element(sizes.begin(), sizes.end());
+    BOOST_TEST(*least > 0.0);
+    BOOST_TEST(*greatest <= 2.0 * *least);
 }
 
 BOOST_AUTO_TEST_CASE(zero_and_no_stops_have_places_of_their_own_on_a_logarithmic_axis) {
