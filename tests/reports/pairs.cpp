@@ -120,8 +120,9 @@ struct Base {
     std::string text;
 };
 
-const std::string data_block = "[data]\ntheta0 = 'sin(pi*x) + theta_A*(1 - x)'\nu0 = '0.02*x^2*(3 - x)'\n"
-                               "body_force = 'sin(9*t)'\n";
+const std::string data_block =
+    "[data]\ntheta0 = 'sin(pi*x) + theta_A*(1 - x)'\nu0 = '0.02*x^2*(3 - x)'\n"
+    "body_force = 'sin(9*t)'\n";
 const std::vector<Base> bases{
     {"solution", {"ladder"}, "solution = 'pressed-on-g1'\n" + beam},
     {"data", {"ladder without norms"}, data_block + beam},
