@@ -29,8 +29,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t most_commands = 100;
-constexpr double longest_command = 60.0; // s
-constexpr std::size_t most_shown = 600;
+constexpr double longest_command = 60.0;     // s
 constexpr std::size_t most_examined = 16384; // of a longer text, its checksum
 
 /// Set for a command of a scene: the scenes that it checks run no commands of theirs.
@@ -106,10 +105,6 @@ std::string files_in(const fs::path& directory) {
     return boost::algorithm::join(files, "\n");
 }
 
-std::string shown(const std::string& text) {
-    return text.size() <= most_shown ? text : text.substr(0, most_shown) + "…";
-}
-
 std::string examined(const std::string& text) {
     if (text.size() <= most_examined)
         return text;
@@ -123,14 +118,14 @@ void add_checks(const AskedCommand& command, const Ended& ended, const std::stri
     const std::string wanted = "exit " + std::to_string(command.exit);
     checked.push_back({.what = command.what,
                        .expected = wanted,
-                       .found = ended.exit + ": " + shown(ended.said),
+                       .found = ended.exit + ": " + beginning_of(ended.said),
                        .place = command.place_of_exit,
                        .holds = ended.exit == wanted,
                        .examined = ended.exit + "\n" + examined(ended.said) + files});
     for (const auto& words : command.says)
         checked.push_back({.what = command.what + ".says",
                            .expected = "\"" + words + "\"",
-                           .found = shown(ended.said),
+                           .found = beginning_of(ended.said),
                            .place = command.place_of_says,
                            .holds = ended.said.find(words) != std::string::npos});
 }

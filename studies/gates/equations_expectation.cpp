@@ -68,18 +68,12 @@ Said said_of(const AskedSystem& asked) {
     }
 }
 
-/// So much of a text as a line shows.
-std::string shown(const std::string& text) {
-    constexpr std::size_t most = 400;
-    return text.size() <= most ? text : text.substr(0, most) + "…";
-}
-
 CheckedExpectation holds_words(const Said& said, const std::string& wanted, bool refused) {
     const bool fits = said.refused.empty() != refused;
     const std::string& text = said.refused.empty() ? said.text : said.refused;
     return {.what = {},
             .expected = (refused ? "refused with \"" : "\"") + wanted + "\"",
-            .found = (said.refused.empty() ? "" : "refused: ") + shown(text),
+            .found = (said.refused.empty() ? "" : "refused: ") + beginning_of(text),
             .place = {},
             .holds = fits && text.find(wanted) != std::string::npos};
 }

@@ -102,6 +102,11 @@ std::string metric_text(double value) {
     return text.str();
 }
 
+std::string beginning_of(const std::string& text) {
+    constexpr std::size_t most = 600;
+    return text.size() <= most ? text : text.substr(0, most) + "…";
+}
+
 std::optional<double> error_of(const RungResult& run, std::size_t k) {
     return run.errors.empty() ? std::nullopt : std::optional(run.errors[k]);
 }

@@ -128,4 +128,7 @@ std::optional<double> error_of(const RungResult& run, std::size_t k);
 /// A number as messages of gates show it.
 std::string metric_text(double value);
 
+/// So much of a text as they show.
+std::string beginning_of(const std::string& text);
+
 } // namespace tvbeam
