@@ -140,7 +140,8 @@ private:
         const double tip_size = largest([](double u, double /*stress*/) { return u; });
         const double near = tolerance * tip_size;
         const double small = tolerance * largest([](double /*u*/, double force) { return force; });
-        const auto [lower, upper, epsilon] = beam_.stops;
+        const double lower = beam_.stops.lower;
+        const double upper = beam_.stops.upper;
         const auto is_low = [&](double u) { return u <= lower + near; };
         const auto is_high = [&](double u) { return u >= upper - near; };
         const bool stops = beam_.stops.exist();

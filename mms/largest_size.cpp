@@ -97,12 +97,13 @@ private:
     /// In each of several parts of the region the point that has the largest |g|, if it is not
     /// zero.
     [[nodiscard]] std::vector<Sample> largest_of_parts() const {
-        constexpr int parts = 8; // in space and in time
+        constexpr std::size_t parts = 8; // in space and in time
         const auto part = [](const CloseLook& span, double at) {
             const double length = span.end - span.begin;
             return length > 0.0
-                       ? std::min(parts - 1, static_cast<int>(parts * (at - span.begin) / length))
-                       : 0;
+                       ? std::min(parts - 1, static_cast<std::size_t>(static_cast<double>(parts) *
+                                                                      (at - span.begin) / length))
+                       : std::size_t{0};
         };
         const Points points = scattered(x_, t_);
         const auto count = static_cast<Index>(points.x.size());
@@ -110,8 +111,7 @@ private:
                                     Eigen::Map<const ArrayXd>(points.t.data(), count));
         std::vector<Sample> largest(parts * parts, {0.0, 0.0, 0.0});
         for (std::size_t k = 0; k < points.x.size(); ++k) {
-            Sample& known = largest[static_cast<std::size_t>(parts * part(x_, points.x[k]) +
-                                                             part(t_, points.t[k]))];
+            Sample& known = largest[parts * part(x_, points.x[k]) + part(t_, points.t[k])];
             if (const double size = found(static_cast<Index>(k)); size > known.size)
                 known = {points.x[k], points.t[k], size};
         }

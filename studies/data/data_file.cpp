@@ -345,27 +345,38 @@ void require_one_meaning_each(const Names& names, const std::vector<Use>& uses) 
                                                   "error, a value or a deviation, once");
 }
 
-/// Sizes by a name that is not known count something where all are whole and from 2 on: widths are
-/// hardly ever that.
+/// Whether the errors of the first column that has any are less where the number is the greatest.
+bool errors_fall_with(const std::vector<double>& numbers, const DataFile& data) {
+    const auto [least, greatest] = std::minmax_element(numbers.begin(), numbers.end());
+    return *least < *greatest && std::ranges::any_of(data.errors, [&](const DataColumn& column) {
+        return column.numbers[static_cast<std::size_t>(greatest - numbers.begin())] <
+               column.numbers[static_cast<std::size_t>(least - numbers.begin())];
+    });
+}
+
+/// Sizes by a name that is not known count something where all are whole and from 2 on, and errors
+/// fall as they grow.
 void take_whole_sizes_for_counts(const Names& names, const DataChoice& choice, DataFile& data) {
     for (const auto& size : choice.sizes) {
-        const auto width =
-            std::ranges::find_if(data.widths, [&](const auto& one) { return one.name == size; });
-        if (width == data.widths.end() || is_width(size) || !names.find(size))
-            continue;
-        const auto& numbers = width->numbers;
-        const bool is_refined =
-            std::ranges::any_of(numbers, [&](double number) { return number != numbers.front(); });
-        if (!is_refined || !std::ranges::all_of(numbers, [](double number) {
+        const auto named = [&](const std::string& name) {
+            return std::ranges::find_if(data.widths,
+                                        [&](const auto& one) { return one.name == name; });
+        };
+        const auto width = named(size);
+        if (width == data.widths.end() || is_width(size) || !names.find(size) ||
+            !errors_fall_with(width->numbers, data) ||
+            !std::ranges::all_of(width->numbers, [](double number) {
                 return number >= 2.0 && std::floor(number) == number;
             }))
             continue;
         for (double& number : width->numbers)
             number = 1.0 / number;
-        width->name = data.widths.size() == 1 ? "h" : "h_" + size;
-        data.remarks.push_back("h = 1/" + size +
+        const std::string name = choice.sizes.size() == 1 ? "h" : "h_" + size;
+        if (named(name) == data.widths.end())
+            width->name = name;
+        data.remarks.push_back(width->name + " = 1/" + size +
                                ", as its numbers are whole: dimension 1 was assumed; --dimension D "
-                               "says another");
+                               "says another, a name as h or dx that they are widths");
     }
 }
 

@@ -52,7 +52,9 @@ std::vector<double> printed_units(const std::vector<double>& numbers,
             most = std::max(most, digits[i].significant);
             finest = std::min(finest, digits[i].last_place);
         }
-    if (most == 0 || most >= digits_of_a_double)
+    // 0 is how any format prints a zero that is one; 0.00 is what is less than 0.005.
+    const bool tells_nothing = most == 0 && finest >= 0;
+    if (tells_nothing || most >= digits_of_a_double)
         return {};
     std::vector<double> units;
     units.reserve(numbers.size());

@@ -2,7 +2,6 @@
 
 #include "mms/text/toml_reader.hpp"
 #include "studies/external/process.hpp"
-#include "studies/scene/scene.hpp"
 
 #include <boost/algorithm/string/join.hpp>
 #include <boost/algorithm/string/trim.hpp>
@@ -66,8 +65,10 @@ std::string without_seconds(const std::string& line, bool& in_table) {
 Ended run(const AskedCommand& command, const std::string& program, const Keeper& keeper) {
     for (const auto& [name, text] : command.files) {
         const fs::path file = keeper.directory() / name;
-        fs::create_directories(file.parent_path());
-        std::ofstream(file, std::ios::binary) << text;
+        std::error_code error;
+        fs::create_directories(file.parent_path(), error);
+        if (error || !(std::ofstream(file, std::ios::binary) << text << std::flush))
+            return {"nothing run: cannot write " + name, ""};
     }
     // The shell makes one of the two streams.
     ProcessTask task{.program = "/bin/sh",
@@ -77,6 +78,9 @@ Ended run(const AskedCommand& command, const std::string& program, const Keeper&
                      .timeout = longest_command,
                      .line = {},
                      .go_on = [] { return true; }};
+    // What is named from where this program runs is elsewhere from there.
+    if (const char* data = std::getenv("TVBEAM_DATA"); data != nullptr && *data != '\0')
+        task.environment["TVBEAM_DATA"] = fs::absolute(data).string();
     task.arguments.insert(task.arguments.end(), command.words.begin(), command.words.end());
     Ended ended;
     bool in_table = false;
@@ -113,6 +117,12 @@ std::string examined(const std::string& text) {
     return fmt::format("{:08x} of {} bytes\n", sum.checksum(), text.size());
 }
 
+/// Where lines break depends on the words before.
+std::string in_one_line(const std::string& text) {
+    static const std::regex blanks("\\s+");
+    return std::regex_replace(text, blanks, " ");
+}
+
 void add_checks(const AskedCommand& command, const Ended& ended, const std::string& files,
                 std::vector<CheckedExpectation>& checked) {
     const std::string wanted = "exit " + std::to_string(command.exit);
@@ -122,12 +132,13 @@ void add_checks(const AskedCommand& command, const Ended& ended, const std::stri
                        .place = command.place_of_exit,
                        .holds = ended.exit == wanted,
                        .examined = ended.exit + "\n" + examined(ended.said) + files});
+    const std::string said = in_one_line(ended.said);
     for (const auto& words : command.says)
         checked.push_back({.what = command.what + ".says",
                            .expected = "\"" + words + "\"",
                            .found = beginning_of(ended.said),
                            .place = command.place_of_says,
-                           .holds = ended.said.find(words) != std::string::npos});
+                           .holds = said.find(in_one_line(words)) != std::string::npos});
 }
 
 AskedCommand read_command(TableReader& table) {
@@ -138,6 +149,10 @@ AskedCommand read_command(TableReader& table) {
                          .what = what_of(table, ""),
                          .place_of_exit = table.place("run"),
                          .place_of_says = table.place("says")};
+    constexpr std::int64_t greatest_exit = 255;
+    if (command.exit < 0 || command.exit > greatest_exit)
+        throw table.error("exit", " is " + std::to_string(command.exit) +
+                                      "; a command ends with a code from 0 to 255");
     if (command.words.empty())
         throw table.error("run", " must be the words that follow tvbeam");
     for (std::size_t i = 0; i < command.says.size(); ++i)
@@ -147,9 +162,10 @@ AskedCommand read_command(TableReader& table) {
     if (auto files = table.table("files"))
         for (const auto& name : files->unread()) {
             const auto within = fs::path(name).lexically_normal();
-            if (within.is_absolute() || *within.begin() == "..")
+            if (!within.has_filename() || within.is_absolute() || within == "." ||
+                *within.begin() == "..")
                 throw table.error("files",
-                                  " names '" + name + "', which is not within the directory");
+                                  " names '" + name + "', which is no file within the directory");
             command.files[name] = files->text(name).value_or("");
         }
     table.finish();
@@ -158,7 +174,7 @@ AskedCommand read_command(TableReader& table) {
 
 } // namespace
 
-void expect_commands(TableReader& expect, const Scene& scene, const std::string& program,
+void expect_commands(TableReader& expect, const std::string& program,
                      std::vector<Expectation>& expectations) {
     auto tables = expect.tables("commands");
     if (tables.empty())
@@ -168,10 +184,10 @@ void expect_commands(TableReader& expect, const Scene& scene, const std::string&
                                            " of them; at most " + std::to_string(most_commands) +
                                            " are run");
     std::vector<AskedCommand> commands;
+    commands.reserve(tables.size());
     for (auto& table : tables)
         commands.push_back(read_command(table));
-    expectations.push_back([commands, program, folder = fs::path(scene.file).parent_path()](
-                               const StudyResult& /*result*/) {
+    expectations.push_back([commands, program](const StudyResult& /*result*/) {
         std::vector<CheckedExpectation> checked;
         const bool within = std::getenv(within_a_command) != nullptr;
         if (program.empty() || within) {

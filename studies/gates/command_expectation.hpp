@@ -7,15 +7,13 @@
 
 namespace tvbeam {
 
-struct Scene;
-
 /// Reads [[expect.commands]]: tvbeam with the words `run`, in a directory that is empty at first
 /// and that all commands of the scene share, after the texts `files` were written there; it ends
 /// with `exit` (0 where it is left out), and what it writes to standard output and error holds all
 /// of `says`. program: tvbeam's own file; empty: none can be run, and no expectation holds. What is
 /// examined is what it wrote, without columns of seconds, and which files stand there then, with
 /// the number of their lines. Throws InputError as the other tables do.
-void expect_commands(TableReader& expect, const Scene& scene, const std::string& program,
+void expect_commands(TableReader& expect, const std::string& program,
                      std::vector<Expectation>& expectations);
 
 } // namespace tvbeam

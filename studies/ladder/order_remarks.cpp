@@ -164,7 +164,7 @@ std::string from_model(const Measure& norm, std::span<const Refinement> roots,
     const LadderForecast view = forecast(model, roots);
     if (model.a == 0.0 || model.b == 0.0)
         return {};
-    if (const std::string stays = from_what_stays(norm, roots, model); !stays.empty())
+    if (std::string stays = from_what_stays(norm, roots, model); !stays.empty())
         return stays;
     // A term that hardly shrinks was not seen by the fit, whatever it calls its order.
     if (view.asymptotic_order < 0.25 || !refines_evenly(roots))

@@ -167,6 +167,14 @@ bool is_significant(const Rows& levels) {
     return !(std::abs(fine.value - coarse.value) <= deviations * sigma);
 }
 
+/// Whether all steps together are more than rounding to the digits printed makes, if none of them
+/// is.
+bool goes_further_than_digits(const Rows& levels) {
+    constexpr double units = 4;
+    return levels.back().unit > 0 &&
+           std::abs(levels.back().value - levels.front().value) >= units * levels.back().unit;
+}
+
 /// Do the values go one way, or to and fro throughout, and the steps between levels, each over the
 /// logarithm of its ratio, grow towards the finest, which is the greatest of all? Those of h^p
 /// shrink for every p > 0, so that there is no limit.
@@ -276,7 +284,7 @@ LimitEstimate estimate_limit(std::span<const ValueRow> rows, const LimitTuning& 
     result.finest_step = coarsely_printed_step(given, tuning.units_of_exact_steps);
     if (result.finest_step)
         add_rounding(given);
-    if (is_significant(given) && runs_apart(given)) {
+    if ((is_significant(given) || goes_further_than_digits(given)) && runs_apart(given)) {
         result.limit.status = result.order.status = "the values run apart";
         return result;
     }

@@ -46,8 +46,10 @@ std::optional<double> order_of_finest(std::span<const ValueRow> levels) {
     return high;
 }
 
+/// Below this, steps stay the same but for rounding.
+constexpr double no_order = 1e-3;
+
 std::optional<MethodLimit> gci_of(std::span<const ValueRow> levels) {
-    constexpr double no_order = 1e-3; // steps that stay the same, but for rounding
     const auto order = order_of_finest(levels);
     if (!order || *order < no_order)
         return std::nullopt;
@@ -92,7 +94,7 @@ std::optional<MethodLimit> celik_of(std::span<const ValueRow> levels) {
         double p = std::abs(std::log(std::abs(e32 / e21))) / std::log(r21);
         for (int k = 0; k < 400 && std::isfinite(p); ++k)
             p += part * (next(p) - p);
-        const bool solves = p > 0 && std::abs(next(p) - p) <= 1e-9 * std::max(1.0, p);
+        const bool solves = p >= no_order && std::abs(next(p) - p) <= 1e-9 * std::max(1.0, p);
         return solves ? std::optional(p) : std::nullopt;
     };
     const auto whole = solved(1.0);
@@ -100,7 +102,7 @@ std::optional<MethodLimit> celik_of(std::span<const ValueRow> levels) {
     if (!order)
         return std::nullopt;
     const double p = *order;
-    const double gain = std::pow(r21, p) - 1;
+    const double gain = std::expm1(p * std::log(r21));
     return MethodLimit{fine.value - e21 / gain, 1.25 * std::abs(e21) / gain, p,
                        sign < 0 ? "oscillatory" : "f0 + C h^p"};
 }

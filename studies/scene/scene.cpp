@@ -267,7 +267,7 @@ void read_expectations(Scene& scene, TableReader expect, const Reading& reading)
     expect_refused(expect, scene, reading, scene.expectations);
     expect_analysed(expect, scene, scene.expectations);
     expect_equations(expect, scene, scene.expectations);
-    expect_commands(expect, scene, reading.program, scene.expectations);
+    expect_commands(expect, reading.program, scene.expectations);
     expect_words(expect, "left_out", scene.expectations, [](const StudyResult& result) {
         std::vector<std::string> parts;
         for (const auto& sentence : result.left_out)

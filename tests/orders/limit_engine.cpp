@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <random>
 #include <vector>
@@ -167,6 +168,24 @@ BOOST_AUTO_TEST_CASE(an_order_of_celik_solves_his_equation_or_is_none) {
         BOOST_TEST(std::abs(std::abs(rest) / std::log(r21) - *p) < 1e-7 * std::max(1.0, *p));
     }
     BOOST_TEST(known > 200);
+}
+
+// 1.3, 1.2, 1.1 go on by the same steps: of the order zero, which extrapolates nowhere.
+BOOST_AUTO_TEST_CASE(of_equal_steps_celik_has_no_limit) {
+    BOOST_TEST(!celik_of(std::vector<ValueRow>{{0.4, 1.3}, {0.2, 1.2}, {0.1, 1.1}}).has_value());
+    BOOST_TEST(!celik_of(std::vector<ValueRow>{{0.4, 0.7}, {0.2, 0.8}, {0.1, 0.9}}).has_value());
+}
+
+// Steps of one unit each, five of them: together no rounding. Two may be those of 1.26, 1.18, 1.14.
+BOOST_AUTO_TEST_CASE(values_that_go_on_by_units_run_apart) {
+    const auto limit_of = [](int levels) {
+        std::vector<ValueRow> rows;
+        for (int k = 0; k < levels; ++k)
+            rows.push_back({std::exp2(-k), 1.0 + k, std::numeric_limits<double>::quiet_NaN(), 1.0});
+        return estimate_limit(rows).limit;
+    };
+    BOOST_TEST(limit_of(6).status == "the values run apart");
+    BOOST_TEST(limit_of(3).status != "the values run apart");
 }
 
 // f = 7 + 10 h + r with r = −6, 15, −12, 3 on h = 8, 4, 2, 1. With the weights 1/h, r is orthogonal

@@ -68,6 +68,11 @@ const std::vector<Claim> claims{
     {command("echo kept > a") + command("cat a", "says = ['kept']"), {}},
     {command("ls; cat b/c", "says = ['deep']\n[expect.commands.files]\n'b/c' = 'deep'"), {}},
     {command("cat a", "exit = 1"), {}},
+    // Wherever a line breaks.
+    {command("echo one; echo two", "says = ['one two']"), {}},
+    // What cannot be written is said of the command.
+    {command("true", "[expect.commands.files]\na = ''\n'a/b' = ''"),
+     {"commands.0: expected exit 0, found nothing run: cannot write a/b: "}},
 };
 
 } // namespace
@@ -111,8 +116,11 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_asked_for_is_refused_at_its_place) {
     refused("[[expect.commands]]\n", "s.toml:11:1: expect.commands.0.run must be the words");
     refused("[[expect.commands]]\nrun = []\n", "expect.commands.0.run must be the words");
     refused(command("echo", "says = ['.']"), "s.toml:13:9: expect.commands.0.says must hold words");
-    refused(command("echo", "[expect.commands.files]\n'../a' = ''"), "'../a', which is not within");
-    refused(command("echo", "[expect.commands.files]\n'/a' = ''"), "'/a', which is not within");
+    refused(command("echo", "[expect.commands.files]\n'../a' = ''"),
+            "'../a', which is no file within");
+    refused(command("echo", "[expect.commands.files]\n'/a' = ''"), "'/a', which is no file within");
+    refused(command("echo", "[expect.commands.files]\n'a/' = ''"), "'a/', which is no file within");
+    refused(command("echo", "exit = 256"), "a code from 0 to 255");
     refused(command("echo", "end = 2"), "unknown key 'expect.commands.0.end'");
 }
 

@@ -295,7 +295,9 @@ BOOST_AUTO_TEST_CASE(sizes_of_an_unknown_name_that_are_whole_count_something) {
     const auto both = data_of("nx,ny,error\n10,10,1\n20,20,0.25\n", {.sizes = {"nx", "ny"}});
     BOOST_TEST(both.widths[1].name == "h_ny");
     BOOST_TEST(both.widths[1].numbers[0] == 0.1);
-    for (const std::string rows : {"4,1\n2.5,0.25\n", "2,1\n1,0.25\n", "2,1\n2,0.25\n"}) {
+    // Widths in metres: the error falls with them.
+    for (const std::string rows :
+         {"4,1\n2.5,0.25\n", "2,1\n1,0.25\n", "2,1\n2,0.25\n", "800,0.64\n400,0.16\n"}) {
         const auto widths = data_of("ne,error\n" + rows, {.sizes = {"ne"}});
         BOOST_TEST(widths.widths[0].name == "ne");
         BOOST_TEST(widths.remarks.empty());
