@@ -345,13 +345,16 @@ void require_one_meaning_each(const Names& names, const std::vector<Use>& uses) 
                                                   "error, a value or a deviation, once");
 }
 
-/// Whether the errors of the first column that has any are less where the number is the greatest.
+/// Whether the errors of some column are less where the number is the greatest than where it is the
+/// least.
 bool errors_fall_with(const std::vector<double>& numbers, const DataFile& data) {
-    const auto [least, greatest] = std::minmax_element(numbers.begin(), numbers.end());
-    return *least < *greatest && std::ranges::any_of(data.errors, [&](const DataColumn& column) {
-        return column.numbers[static_cast<std::size_t>(greatest - numbers.begin())] <
-               column.numbers[static_cast<std::size_t>(least - numbers.begin())];
-    });
+    const auto ends = std::minmax_element(numbers.begin(), numbers.end());
+    const auto coarsest = static_cast<std::size_t>(ends.first - numbers.begin());
+    const auto finest = static_cast<std::size_t>(ends.second - numbers.begin());
+    return numbers[coarsest] < numbers[finest] &&
+           std::ranges::any_of(data.errors, [&](const DataColumn& column) {
+               return column.numbers[finest] < column.numbers[coarsest];
+           });
 }
 
 /// Sizes by a name that is not known count something where all are whole and from 2 on, and errors
