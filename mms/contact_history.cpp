@@ -154,12 +154,16 @@ private:
     [[nodiscard]] bool reaches(const Interval& phase, const Gap& gap) const {
         const ArrayXd times = samples(phase);
         const ArrayXd gaps = times.unaryExpr(gap);
-        Index least = 0;
-        if (gaps.minCoeff(&least) <= nothing * tip_size_)
-            return true;
-        const double nearest = least_between(gap, times(std::max<Index>(least - 1, 0)),
-                                             times(std::min(least + 1, times.size() - 1)));
-        return gap(nearest) <= nothing * tip_size_;
+        const Index last = times.size() - 1;
+        for (Index k = 0; k <= last; ++k) {
+            const Index before = std::max<Index>(k - 1, 0);
+            const Index behind = std::min(k + 1, last);
+            // Of equal gaps side by side the last one: what lies between them is looked at with it.
+            if (gaps(k) <= gaps(before) && (gaps(k) < gaps(behind) || k == last) &&
+                gap(least_between(gap, times(before), times(behind))) <= nothing * tip_size_)
+                return true;
+        }
+        return false;
     }
 
     /// Where the gap has a minimum that is nothing; next to an end on a stop it belongs to that

@@ -195,8 +195,8 @@ std::string without_time(const SchemeRuns& scheme, std::size_t norm, double erro
         return " does not, as far as measured";
     if (is_above)
         return " does, but not from one row to the next: one between has failed or has the error "
-               "0, "
-               "or a finer one is above it again";
+               "0, or "
+               "a finer one is above it again";
     return fmt::format(" has less in every row{}, after {} s in the quickest",
                        has_failed ? " that did not fail" : "", scientific(soonest, 2));
 }

@@ -46,16 +46,15 @@ void SolverRuns::read_line(const KeptLine& line) {
 }
 
 std::optional<RungResult> SolverRuns::find(const Series& series, std::size_t index) {
-    auto result = kept(series, index);
-    const std::string identity = result ? identities_.of(series, index) : std::string();
+    const std::string identity = identities_.of(series, index);
     const std::scoped_lock lock(mutex_);
+    auto result = kept(series, index, identity);
     used_ += result && !runs_[identity].is_new ? 1 : 0;
     return result;
 }
 
-std::optional<RungResult> SolverRuns::kept(const Series& series, std::size_t index) const {
-    const std::string identity = identities_.of(series, index);
-    const std::scoped_lock lock(mutex_);
+std::optional<RungResult> SolverRuns::kept(const Series& series, std::size_t index,
+                                           const std::string& identity) const {
     const auto found = runs_.find(identity);
     if (found == runs_.end())
         return std::nullopt;
@@ -105,11 +104,12 @@ void SolverRuns::add_part(const std::string& /*study*/, std::size_t /*index*/,
                           const std::any& /*result*/) {}
 
 std::size_t SolverRuns::found() {
+    const std::scoped_lock lock(mutex_);
     std::size_t count = 0;
     if (!runs_.empty())
         for (const auto& series : scene_.series())
             for (std::size_t i = 0; i < series.rungs.size(); ++i)
-                count += kept(series, i) ? 1 : 0;
+                count += kept(series, i, identities_.of(series, i)) ? 1 : 0;
     return count;
 }
 

@@ -54,7 +54,8 @@ private:
         bool is_new = false;                   ///< made by this command
     };
     void read_line(const KeptLine& line);
-    std::optional<RungResult> kept(const Series& series, std::size_t index) const;
+    std::optional<RungResult> kept(const Series& series, std::size_t index,
+                                   const std::string& identity) const;
 
     const Scene& scene_;
     RunIdentities identities_;

@@ -345,31 +345,39 @@ void require_one_meaning_each(const Names& names, const std::vector<Use>& uses) 
                                                   "error, a value or a deviation, once");
 }
 
-/// Whether the errors of some column are less where the number is the greatest than where it is the
-/// least.
-bool errors_fall_with(const std::vector<double>& numbers, const DataFile& data) {
-    const auto ends = std::minmax_element(numbers.begin(), numbers.end());
-    const auto coarsest = static_cast<std::size_t>(ends.first - numbers.begin());
-    const auto finest = static_cast<std::size_t>(ends.second - numbers.begin());
-    return numbers[coarsest] < numbers[finest] &&
-           std::ranges::any_of(data.errors, [&](const DataColumn& column) {
-               return column.numbers[finest] < column.numbers[coarsest];
-           });
+/// Whether an error is less where the number is the greatest than where it is the least, of the
+/// rows that have one.
+bool falls_with(const DataColumn& errors, const std::vector<double>& numbers) {
+    std::optional<std::size_t> coarsest;
+    std::optional<std::size_t> finest;
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+        if (!std::isfinite(errors.numbers[i]))
+            continue;
+        coarsest = !coarsest || numbers[i] < numbers[*coarsest] ? i : *coarsest;
+        finest = !finest || numbers[i] > numbers[*finest] ? i : *finest;
+    }
+    return coarsest && numbers[*coarsest] < numbers[*finest] &&
+           errors.numbers[*finest] < errors.numbers[*coarsest];
 }
 
 /// Sizes by a name that is not known count something where all are whole and from 2 on, and errors
-/// fall as they grow.
-void take_whole_sizes_for_counts(const Names& names, const DataChoice& choice, DataFile& data) {
+/// fall as they grow. Of values nobody can tell: they stay what they were taken for, which is said.
+void take_whole_sizes_for_counts(const DataChoice& choice, DataFile& data) {
+    const auto named = [&](const std::string& name) {
+        return std::ranges::find_if(data.widths, [&](const auto& one) { return one.name == name; });
+    };
     for (const auto& size : choice.sizes) {
-        const auto named = [&](const std::string& name) {
-            return std::ranges::find_if(data.widths,
-                                        [&](const auto& one) { return one.name == name; });
-        };
         const auto width = named(size);
-        if (width == data.widths.end() || is_width(size) || !names.find(size) ||
-            !errors_fall_with(width->numbers, data) ||
+        if (width == data.widths.end() || is_width(size) ||
             !std::ranges::all_of(width->numbers, [](double number) {
                 return number >= 2.0 && std::floor(number) == number;
+            }))
+            continue;
+        if (data.errors.empty())
+            data.remarks.push_back(size + " was taken for a width; --dimension D says that it "
+                                          "counts what fills a domain");
+        if (std::ranges::none_of(data.errors, [&](const DataColumn& errors) {
+                return falls_with(errors, width->numbers);
             }))
             continue;
         for (double& number : width->numbers)
@@ -544,7 +552,7 @@ DataFile read_data(const std::string& file, const DataChoice& choice) {
     }
     if (data.widths.front().numbers.empty())
         throw InputError({data.name}, "has no records below its line of names");
-    take_whole_sizes_for_counts(names, choice, data);
+    take_whole_sizes_for_counts(choice, data);
     require_squares_of(data);
     for (const auto& use : uses)
         if (use.is_figure())

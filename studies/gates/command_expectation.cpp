@@ -18,6 +18,7 @@
 #include <regex>
 #include <set>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -29,6 +30,7 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t most_commands = 100;
 constexpr double longest_command = 60.0;     // s
+constexpr std::size_t most_said = 1 << 24;   // bytes; what comes behind is passed over
 constexpr std::size_t most_examined = 16384; // of a longer text, its checksum
 
 /// Set for a command of a scene: the scenes that it checks run no commands of theirs.
@@ -85,7 +87,8 @@ Ended run(const AskedCommand& command, const std::string& program, const Keeper&
     Ended ended;
     bool in_table = false;
     task.line = [&](const std::string& line) {
-        ended.said += without_seconds(line, in_table) + "\n";
+        if (ended.said.size() < most_said)
+            ended.said += without_seconds(line, in_table) + "\n";
     };
     const ProcessResult result = run_process(task, keeper);
     ended.exit = result.failure.empty() ? "exit 0" : result.failure;
@@ -119,8 +122,13 @@ std::string examined(const std::string& text) {
 
 /// Where lines break depends on the words before.
 std::string in_one_line(const std::string& text) {
-    static const std::regex blanks("\\s+");
-    return std::regex_replace(text, blanks, " ");
+    std::string line;
+    for (const char c : text) {
+        const bool is_blank = std::isspace(static_cast<unsigned char>(c)) != 0;
+        if (!is_blank || !line.ends_with(' '))
+            line += is_blank ? ' ' : c;
+    }
+    return line;
 }
 
 void add_checks(const AskedCommand& command, const Ended& ended, const std::string& files,
@@ -189,18 +197,23 @@ void expect_commands(TableReader& expect, const std::string& program,
         commands.push_back(read_command(table));
     expectations.push_back([commands, program](const StudyResult& /*result*/) {
         std::vector<CheckedExpectation> checked;
-        const bool within = std::getenv(within_a_command) != nullptr;
-        if (program.empty() || within) {
-            const std::string why = within ? "nothing: a command of another scene checks this one"
-                                           : "nothing: no program is known to run";
-            add_checks(commands.front(), {why, ""}, "", checked);
-            return checked;
-        }
-        const Keeper keeper;
-        for (const auto& command : commands) {
-            const Ended ended = run(command, program, keeper);
-            add_checks(command, ended, files_in(keeper.directory()), checked);
-        }
+        const auto none_is_run = [&](const std::string& why) {
+            add_checks(commands.front(), {"nothing: " + why, ""}, "", checked);
+        };
+        if (std::getenv(within_a_command) != nullptr)
+            none_is_run("a command of another scene checks this one");
+        else if (program.empty())
+            none_is_run("no program is known to run");
+        else
+            try {
+                const Keeper keeper;
+                for (const auto& command : commands) {
+                    const Ended ended = run(command, program, keeper);
+                    add_checks(command, ended, files_in(keeper.directory()), checked);
+                }
+            } catch (const std::system_error& error) { // no directory, no process
+                none_is_run(error.what());
+            }
         return checked;
     });
 }

@@ -168,11 +168,12 @@ bool is_significant(const Rows& levels) {
 }
 
 /// Whether all steps together are more than rounding to the digits printed makes, if none of them
-/// is.
+/// is. Of scatter that is more than rounding each step must be.
 bool goes_further_than_digits(const Rows& levels) {
     constexpr double units = 4;
-    return levels.back().unit > 0 &&
-           std::abs(levels.back().value - levels.front().value) >= units * levels.back().unit;
+    const double unit = levels.back().unit;
+    return unit > 0 && levels.front().sigma <= unit && levels.back().sigma <= unit &&
+           std::abs(levels.back().value - levels.front().value) >= units * unit;
 }
 
 /// Do the values go one way, or to and fro throughout, and the steps between levels, each over the
@@ -286,6 +287,7 @@ LimitEstimate estimate_limit(std::span<const ValueRow> rows, const LimitTuning& 
         add_rounding(given);
     if ((is_significant(given) || goes_further_than_digits(given)) && runs_apart(given)) {
         result.limit.status = result.order.status = "the values run apart";
+        result.finest_step.reset(); // no digits make them do that
         return result;
     }
     const auto [levels, origin, scale] = scaled(given);

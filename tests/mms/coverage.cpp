@@ -121,6 +121,9 @@ BOOST_AUTO_TEST_CASE(a_smooth_touch_is_one_without_a_force) {
         for (const std::string stop : {"g1", "g2"})
             check_unused(both, "(8)", "a force at the stop " + stop,
                          "the tip touches " + stop + " without a force");
+        // A sample at t = 0.5 is nearer to g2, by 2e-8 of it, than any beside the touch.
+        const auto beside = on("g2*x^2*(1 - 2*(t - 0.7003)^2*((t - 0.5)^2 + 2.5e-7))", epsilon);
+        check_unused(beside, "(8)", "a force at the stop g2", "the tip touches g2 without a force");
         const auto close = on("g2*x^2*(1 - 1e-6 - (t - 0.7003)^2)", epsilon);
         check_unused(close, "(8)", "a force at the stop g2", "the tip never reaches g2");
     }

@@ -10,6 +10,7 @@
 #include <limits>
 #include <optional>
 #include <random>
+#include <utility>
 #include <vector>
 
 using namespace tvbeam;
@@ -186,6 +187,15 @@ BOOST_AUTO_TEST_CASE(values_that_go_on_by_units_run_apart) {
     };
     BOOST_TEST(limit_of(6).status == "the values run apart");
     BOOST_TEST(limit_of(3).status != "the values run apart");
+}
+
+// Replicates that scatter by 30 units: 100, 102 and 105 apart are no motion, whatever a unit is.
+BOOST_AUTO_TEST_CASE(values_of_much_scatter_are_not_said_to_run_apart_by_their_digits) {
+    std::vector<ValueRow> rows;
+    for (const auto& [h, mean] : {std::pair{1.0, 100.0}, {0.5, 102.0}, {0.25, 105.0}})
+        for (const double off : {-30.0, 30.0, 0.0})
+            rows.push_back({h, mean + off, std::numeric_limits<double>::quiet_NaN(), 1.0});
+    BOOST_TEST(estimate_limit(rows).limit.status != "the values run apart");
 }
 
 // f = 7 + 10 h + r with r = −6, 15, −12, 3 on h = 8, 4, 2, 1. With the weights 1/h, r is orthogonal

@@ -70,6 +70,8 @@ const std::vector<Claim> claims{
     {command("cat a", "exit = 1"), {}},
     // Wherever a line breaks.
     {command("echo one; echo two", "says = ['one two']"), {}},
+    {command("echo one; head -c 300000 /dev/zero | tr \\\\0 \\\\n; echo two", "says = ['one two']"),
+     {}},
     // What cannot be written is said of the command.
     {command("true", "[expect.commands.files]\na = ''\n'a/b' = ''"),
      {"commands.0: expected exit 0, found nothing run: cannot write a/b: "}},

@@ -303,6 +303,13 @@ BOOST_AUTO_TEST_CASE(sizes_of_an_unknown_name_that_are_whole_count_something) {
         BOOST_TEST(widths.remarks.empty());
     }
     BOOST_TEST(data_of("dx,error\n4,1\n2,1\n", {.sizes = {"dx"}}).widths[0].numbers[0] == 4.0);
+    // A row that failed says nothing of either.
+    const auto failed = data_of("ne,error\n10,nan\n20,1\n40,0.25\n", {.sizes = {"ne"}});
+    BOOST_TEST(failed.widths[0].numbers[2] == 0.025);
+    // Of values it is not known: what was assumed is said.
+    const auto values = data_of("ne,drag\n10,1\n20,0.25\n", {.sizes = {"ne"}, .values = {"drag"}});
+    BOOST_TEST(values.widths[0].numbers[1] == 20.0);
+    BOOST_TEST(values.remarks.at(0).starts_with("ne was taken for a width; --dimension D"));
 }
 
 BOOST_AUTO_TEST_CASE(an_empty_or_nan_error_is_a_failed_run) {
