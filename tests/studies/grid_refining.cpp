@@ -7,6 +7,7 @@
 #include "studies/grid/next_line.hpp"
 #include "studies/predicted_work.hpp"
 #include "studies/scene/scene.hpp"
+#include "studies/scene/until.hpp"
 #include "studies/shards/shard.hpp"
 #include "studies/shards/work_group.hpp"
 #include "tests/studies/draw.hpp"
@@ -311,6 +312,25 @@ BOOST_AUTO_TEST_CASE(nothing_is_known_of_fewer_than_four_meshes_and_four_steps) 
         BOOST_TEST(grid.runs[i].rung.elements == all[i].elements);
         BOOST_TEST(grid.runs[i].rung.dt == all[i].dt);
     }
+}
+
+// 1.00 ± 0.05 beside 1.04 ± 0.05, and beside intervals above it, below it and without an end.
+BOOST_AUTO_TEST_CASE(a_narrow_interval_is_known_if_the_one_before_holds_its_middle) {
+    const auto interval = [](double low, double high) {
+        return OrderInterval{
+            .value = (low + high) / 2.0, .low = low, .high = high, .determined = true};
+    };
+    const double wanted = 0.0500001;
+    const OrderInterval found = interval(0.95, 1.05);
+    BOOST_TEST(is_known(wanted, found, interval(0.99, 1.09)));
+    BOOST_TEST(is_known(wanted, found, interval(0.5, 1.5)));
+    BOOST_TEST(!is_known(wanted, found, interval(1.01, 1.05)));
+    BOOST_TEST(!is_known(wanted, found, interval(0.95, 0.99)));
+    BOOST_TEST(!is_known(wanted, found, OrderInterval{}));
+    BOOST_TEST(!is_known(0.04, found, interval(0.99, 1.09)));
+    OrderInterval open = found;
+    open.determined = false;
+    BOOST_TEST(!is_known(wanted, open, interval(0.99, 1.09)));
 }
 
 BOOST_AUTO_TEST_CASE(a_line_is_chosen_by_what_it_narrows) {

@@ -1,0 +1,48 @@
+/// What the columns of a table mean (data_file.hpp): which are widths, numbers of things, errors,
+/// values and deviations.
+#pragma once
+
+#include "mms/text/input_error.hpp"
+#include "studies/data/data_file.hpp"
+#include "studies/data/printed_digits.hpp"
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace tvbeam {
+
+/// The names of all columns.
+struct ColumnNames {
+    std::vector<std::string> all;
+    Place place; ///< of their line
+
+    /// As it is written, or else in other cases of letters. Throws InputError where two are meant.
+    [[nodiscard]] std::optional<std::size_t> find(const std::string& name) const;
+    /// Throws InputError where there is none; option: by which another would be chosen.
+    [[nodiscard]] std::size_t need(const std::string& name, const std::string& option) const;
+};
+
+/// How a column is read.
+struct ColumnUse {
+    std::size_t column = 0;
+    bool is_width = false;
+    double power = 1; ///< the width is the number to this power
+    DataColumn* target = nullptr;
+    std::vector<double>* plain = nullptr;    ///< in place of it, of deviations
+    std::vector<PrintedDigits> printed = {}; ///< of an error or a value, one a record
+
+    [[nodiscard]] bool is_figure() const { return !is_width && plain == nullptr; }
+};
+
+/// The columns that a choice names, or those that need no name; adds them, empty, and what was
+/// assumed to the data, which the result points into. Throws InputError at the line of names.
+std::vector<ColumnUse> choose_columns(const ColumnNames& names, const DataChoice& choice,
+                                      DataFile& data);
+
+/// Sizes by a name that is not known count something where all are whole and from 2 on, and errors
+/// fall as they grow: h = 1/n then. Of values nobody can tell: they stay widths, which is said.
+void take_whole_sizes_for_counts(const DataChoice& choice, DataFile& data);
+
+} // namespace tvbeam
