@@ -57,22 +57,33 @@ std::optional<double> relative_difference(const Json& a, const Json& b) {
     return size == 0.0 ? 0.0 : std::abs(second - first) / size;
 }
 
+/// A number that differs by this part, with the digits that show it and two more.
+std::string number_text(double value, double relative) {
+    constexpr double fewest = 6.0;
+    constexpr double all = 17.0;
+    const double digits = relative > 0.0 ? 3.0 - std::floor(std::log10(relative)) : all;
+    return fmt::format("{:.{}g}", value, static_cast<int>(std::clamp(digits, fewest, all)));
+}
+
 std::vector<ResultDifference> differences(const JsonValues& first, const JsonValues& second,
                                           double tolerance, std::size_t& equal) {
     std::vector<ResultDifference> found;
-    const auto text = [](const Json& value) {
-        return value.dump(-1, ' ', false, Json::error_handler_t::replace);
+    const auto text = [](const Json& value, std::optional<double> relative = std::nullopt) {
+        return relative && value.is_number_float()
+                   ? number_text(value, *relative)
+                   : value.dump(-1, ' ', false, Json::error_handler_t::replace);
     };
     for (const auto& [what, value] : first) {
         const auto other = second.find(what);
-        if (other == second.end())
+        if (other == second.end()) {
             found.push_back({what, text(value), std::nullopt, std::nullopt});
-        else if (other->second == value ||
-                 relative_difference(value, other->second).value_or(2.0) <= tolerance)
+            continue;
+        }
+        const auto relative = relative_difference(value, other->second);
+        if (other->second == value || relative.value_or(2.0) <= tolerance)
             ++equal;
         else
-            found.push_back({what, text(value), text(other->second),
-                             relative_difference(value, other->second)});
+            found.push_back({what, text(value, relative), text(other->second, relative), relative});
     }
     for (const auto& [what, value] : second)
         if (!first.contains(what))

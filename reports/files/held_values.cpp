@@ -120,6 +120,17 @@ double slack_in_cells(const PrintedNumber& first, const PrintedNumber& second, d
                      least(second)});
 }
 
+/// Where a line is broken follows the digits of the numbers in it: one blank is as good as the end
+/// of a line and the next line's indentation. Steps behind both.
+bool steps_over_broken_line(const std::string& before, std::size_t& i, const std::string& now,
+                            std::size_t& j) {
+    if (!(before[i] == ' ' && now[j] == '\n') && !(before[i] == '\n' && now[j] == ' '))
+        return false;
+    i = std::min(before.find_first_not_of(" \n", i), before.size());
+    j = std::min(now.find_first_not_of(" \n", j), now.size());
+    return true;
+}
+
 bool same_words(const std::string& before, const std::string& now, bool is_row) {
     const double part =
         is_row && (has_round_off(before) || has_round_off(now)) ? of_round_off_cells : of_cells;
@@ -129,6 +140,8 @@ bool same_words(const std::string& before, const std::string& now, bool is_row) 
         const auto first = number_at(before, i);
         const auto second = number_at(now, j);
         if (!first || !second) {
+            if (steps_over_broken_line(before, i, now, j))
+                continue;
             if (before[i++] != now[j++])
                 return false;
             continue;

@@ -46,6 +46,12 @@ BOOST_AUTO_TEST_CASE(words_are_the_same_to_the_letter) {
     // Whole numbers count something, and a letter before digits makes a name of them.
     BOOST_TEST(!words("of 1000 cases", "of 1001 cases"));
     BOOST_TEST(!words("theta_L2.5", "theta_L2.5001"));
+    // A line is broken where its digits leave no room: elsewhere with other round-off.
+    BOOST_TEST(words("0.20000001 against\n      0.3, by a part", "0.2 against 0.3, by a part"));
+    BOOST_TEST(words("0.2 against 0.3, by a part", "0.20000001 against\n      0.3, by a part"));
+    BOOST_TEST(!words("0.2 against 0.3", "0.2 against  0.3"));
+    BOOST_TEST(!words("0.2 against\n  0.3", "0.2 against\n    0.3"));
+    BOOST_TEST(!words("0.2 against 0.3", "0.2 against\n      "));
 }
 
 BOOST_AUTO_TEST_CASE(numbers_of_sentences_are_those_of_printed_figures) {
