@@ -1,10 +1,12 @@
 #include "mms/expected_orders.hpp"
 
 #include "mms/admissible/admissibility.hpp"
+#include "mms/admissible/jumps.hpp"
 #include "mms/admissible/sampled_rules.hpp"
 #include "mms/expression/algebra.hpp"
 #include "mms/expression/piecewise_tape.hpp"
 #include "mms/expression/symbols.hpp"
+#include "mms/expression/tape_compiler.hpp"
 #include "mms/sample_points.hpp"
 #include "mms/text/error_text.hpp"
 
@@ -176,7 +178,12 @@ private:
         const bool through_theta = coupled_ && !known_.theta_is_exact;
         if (known_.u_is_exact && !through_theta)
             return no_error;
-        return exactly(through_theta ? 2.0 : alone);
+        const double smooth = through_theta ? 2.0 : alone;
+        if (!known_.kink)
+            return exactly(smooth);
+        // Within one element the projection of u_xx misses it by the jump, or by h times it.
+        const double beside_kink = alone - 3.5 + static_cast<double>(known_.kink->derivative);
+        return between(std::min(smooth, beside_kink), smooth);
     }
 
     /// Of what has jumps of its own, `own`, or through the coupling, up to the time `until`.
@@ -260,6 +267,24 @@ private:
     bool coupled_;
 };
 
+/// A jump within a phase, where a formula has one: sqrt((x - a)^2).
+std::optional<Kink> kink_in(const DerivedSolution& derived, double final_time) {
+    constexpr double least_jump = 1e-6;
+    for (std::size_t i = 0; i < derived.phases.size(); ++i) {
+        const PhaseExpressions& phase = derived.phases[i];
+        if (phase.begin_value >= final_time)
+            break;
+        const Tape tape = compile_tape({derived.derived[i].u_xx, derived.derived[i].u_xxx});
+        const double end = std::min(phase.end_value, final_time);
+        const ArrayXd t =
+            ArrayXd::Constant(1, phase.begin_value + 0.4321 * (end - phase.begin_value));
+        const auto in_x = [&](const ArrayXd& x) { return tape.evaluate(x, t); };
+        if (const auto jump = find_jump(in_x, uneven_grid(0.0, 1.0), least_jump))
+            return Kink{jump->at, 2 + static_cast<int>(jump->row)};
+    }
+    return std::nullopt;
+}
+
 std::string power_text(const std::string& base, std::optional<int> power) {
     if (!power)
         return "flatter than any power of " + base;
@@ -312,6 +337,10 @@ std::vector<std::string> reasons(const ExpectedOrders& known, const Beam& beam) 
                                        ? "what order in h is visible in u comes from theta, "
                                          "through alpha."
                                        : "no order in h is visible in any norm of u."));
+    if (known.kink)
+        text.push_back(words_of(*known.kink) +
+                       ": where that is within an element, not between two, errors of u fall more "
+                       "slowly in h.");
     if (!coupled)
         text.emplace_back("alpha = 0: heat and bending do not see each other's errors, and u has "
                           "higher orders in the weaker norms.");
@@ -361,6 +390,11 @@ std::string words_of(const Forecast& forecast) {
                : text(forecast.least) + " to " + text(forecast.greatest);
 }
 
+std::string words_of(const Kink& kink) {
+    return std::string(kink.derivative == 2 ? "u_xx" : "u_xxx") +
+           " jumps at x = " + number_text(kink.x);
+}
+
 std::optional<Forecast> forecast_of(const std::string& words) {
     if (words == "-")
         return no_error;
@@ -397,6 +431,7 @@ ExpectedOrders expected_orders(const Solution& solution, const Beam& beam, doubl
         result.theta_is_exact = vanishes(derived, &DerivedPhase::theta_x, s.x, 1);
         result.u_is_exact = vanishes(derived, &DerivedPhase::u_xx, s.x, 2);
         result.switches = switches(derived, final_time);
+        result.kink = kink_in(derived, final_time);
         result.law_distance = law_distance;
         if (beam.stops.epsilon > 0.0)
             seek_farthest_tip(derived, beam.stops, final_time, result);

@@ -18,6 +18,15 @@ struct Switch {
     double u_xxt_jump = 0.0;   ///< largest over x
 };
 
+/// A place at which a derivative of u in x jumps within a phase.
+struct Kink {
+    double x = 0.0;
+    int derivative = 2; ///< 2 or 3: u_xx, or u_xxx alone
+};
+
+/// "u_xx jumps at x = 0.3".
+std::string words_of(const Kink& kink);
+
 /// The order of one error, as far as theory says it.
 struct Forecast {
     enum class Kind {
@@ -55,9 +64,10 @@ struct ExpectedOrders {
     bool is_quadratic =
         false; ///< in t, what is differenced: BDF2 differs from it by its start alone
     std::vector<Switch> switches; ///< those before final_time
-    ContactHistory contact;       ///< at rigid stops; at penalised ones touch alone
-    double law_distance = 0.0;    ///< ExactSolution::law_distance
-    bool is_in_stops = false;     ///< penalised stops: the tip passes one
+    std::optional<Kink> kink;
+    ContactHistory contact;    ///< at rigid stops; at penalised ones touch alone
+    double law_distance = 0.0; ///< ExactSolution::law_distance
+    bool is_in_stops = false;  ///< penalised stops: the tip passes one
     std::vector<ExpectedOrder> orders;
     std::vector<std::string> reasons; ///< in sentences, why an order is not 2 in h, 1 or 2 in dt
 };
@@ -67,7 +77,9 @@ struct ExpectedOrders {
 /// - in h: 2 for θ̃ in L² and for u in H² (u_xx is projected on P1disc), 1 for θ̃ in H¹. The coupling
 ///   brings the error of α θ̃ into u_xx, so that u has 2 in every norm; with α = 0, or a linear θ̃,
 ///   it has 3 in H¹ and 4 in L². A linear θ̃ has no error in h, and neither has a cubic u if α = 0
-///   or θ̃ is linear, too: what is left is a part of the time error that changes with h.
+///   or θ̃ is linear, too: what is left is a part of the time error that changes with h. Where u_xx,
+///   or u_xxx alone, jumps within an element, u has 1/2, or 3/2, in H², one more in H¹ and two more
+///   in L² at most.
 /// - in dt: that of the scheme; none where what is differenced is linear in time, for every scheme
 ///   is exact then: θ̃ and u_xx in the heat equation, where α = 0 θ̃ alone; in the beam equation
 ///   u_xx, and where ζ = 0 nothing. The coupling passes the errors on. Where θ̃_t or u_xxt jumps

@@ -3,6 +3,7 @@
 #include "core/space/resolution.hpp"
 #include "core/space/tail_moment.hpp"
 #include "mms/admissible/admissibility.hpp"
+#include "mms/admissible/jumps.hpp"
 #include "mms/admissible/repair.hpp"
 #include "mms/admissible/sampled_rules.hpp"
 #include "mms/derivation.hpp"
@@ -166,6 +167,18 @@ void require_clamped(const ex& u, const ex& u_x, const SourceText& source) {
         throw InputError(source.begin(), "(5): the slope of u0 at x = 0 is " +
                                              number_text(slope(0)) +
                                              "; it must be 0; a factor x^2 makes it so");
+}
+
+/// Where the slope jumps, the formula of u0'' lacks a delta function.
+void require_no_kink(const ex& u, const ex& u_x, const SourceText& source) {
+    constexpr double least_jump = 1e-6;
+    const Tape tape = located(source, "u0", [&] { return compile_tape({u, u_x}); });
+    const auto in_x = [&](const ArrayXd& x) { return tape.evaluate(x, ArrayXd::Zero(1)); };
+    if (const auto jump = find_jump(in_x, uneven_grid(0.0, 1.0), least_jump))
+        throw InputError(source.begin(),
+                         std::string(jump->row == 0 ? "u0" : "the slope of u0") + " jumps by " +
+                             number_text(jump->size) + " at x = " + number_text(jump->at) +
+                             "; it must be continuous: the beam has no hinge there");
 }
 
 /// (10) at t = 0: a run takes the values at the ends from (10), whatever theta0 is there.
@@ -345,6 +358,7 @@ ProblemData problem_with(const GivenData& data, const Names& names, const Beam& 
         texts.require(u, 0, "u0", u.formulas);
         texts.require(u, 1, "u0'", u_x);
         require_clamped(u.formulas.front(), u_x.front(), *data.u0);
+        require_no_kink(u.formulas.front(), u_x.front(), *data.u0);
         if (!defect)
             require_between_stops(u.formulas.front(), *data.u0, beam);
     }

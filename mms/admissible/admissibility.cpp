@@ -1,6 +1,7 @@
 #include "mms/admissible/admissibility.hpp"
 
 #include "mms/admissible/contact_rules.hpp"
+#include "mms/admissible/jumps.hpp"
 #include "mms/admissible/repair.hpp"
 #include "mms/admissible/sampled_rules.hpp"
 #include "mms/expression/algebra.hpp"
@@ -10,6 +11,7 @@
 #include "mms/text/error_text.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <optional>
@@ -26,6 +28,9 @@ namespace {
 
 /// Of single operations, to prove that the tip stays between the stops: a few tenths of a second.
 constexpr std::int64_t most_enclosures = 1'000'000;
+
+/// Of a jump within a phase, to the largest value.
+constexpr double least_jump = 1e-6;
 
 /// The largest sizes of the solution's parts over all phases; tolerances are relative to them.
 struct Scales {
@@ -45,8 +50,10 @@ public:
 
     Admissible run() {
         // Finite first: no comparison below can be trusted with a NaN.
-        for (std::size_t i = 0; i < phase_count(); ++i)
+        for (std::size_t i = 0; i < phase_count(); ++i) {
             require_finite(i);
+            require_no_jump_within(i);
+        }
         ContactRules contact = contact_rules();
         for (std::size_t i = 0; i < phase_count(); ++i) {
             require_end_values(i);
@@ -126,6 +133,45 @@ private:
                             const std::string& what, std::optional<double> only_x = {}) const {
         const ArrayXd values = tape.evaluate(plain_.x(i), plain_.t(i)).row(row);
         plain_.require(i, quantity, what, ComputedValues::of(values), only_x);
+    }
+
+    // Continuity within a phase: what a formula lacks of a derivative where it jumps.
+
+    void require_no_jump_within(std::size_t i) const {
+        const DerivedPhase& phase = derived_.derived[i];
+        const SolutionPhase& source = solution_.phases[i];
+        constexpr std::array names{"theta", "theta_x", "u", "u_x", "u_xx"};
+        const Tape tape = located(source.theta, "theta", [&] {
+            return compile_tape({phase.theta, phase.theta_x, phase.u, phase.u_x, phase.u_xx});
+        });
+        const auto refuse = [&](std::size_t row, double jump, double x, double t,
+                                const std::string& derivative) {
+            throw InputError((row < 2 ? source.theta : source.u).begin(),
+                             jump_text(names.at(row), jump, t, x) + "the formula of its " +
+                                 derivative + " lacks a delta function there, and the " +
+                                 (row < 2 ? "heat source" : "load") + " with it");
+        };
+        const double begin = derived_.phases[i].begin_value;
+        const double end = std::min(derived_.phases[i].end_value, final_time_);
+        constexpr std::array<std::size_t, 4> in_x{0, 1, 2, 3};
+        constexpr std::array<std::size_t, 2> in_t{0, 4};
+        // A jump is one nearly always and everywhere.
+        for (const double part : {0.1234567, 0.4321, 0.8765}) {
+            const ArrayXd t = ArrayXd::Constant(1, begin + part * (end - begin));
+            const auto in_space = [&](const ArrayXd& x) -> Eigen::ArrayXXd {
+                return tape.evaluate(x, t)(in_x, Eigen::all);
+            };
+            if (const auto jump = find_jump(in_space, uneven_grid(0.0, 1.0), least_jump))
+                refuse(in_x.at(static_cast<std::size_t>(jump->row)), jump->size, jump->at, t(0),
+                       "derivative in x");
+            const ArrayXd x = ArrayXd::Constant(1, part);
+            const auto in_time = [&](const ArrayXd& s) -> Eigen::ArrayXXd {
+                return tape.evaluate(x, s)(in_t, Eigen::all);
+            };
+            if (const auto jump = find_jump(in_time, uneven_grid(begin, end), least_jump))
+                refuse(in_t.at(static_cast<std::size_t>(jump->row)), jump->size, part, jump->at,
+                       "rate");
+        }
     }
 
     // End values (5), (10).

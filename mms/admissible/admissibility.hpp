@@ -25,7 +25,9 @@ struct Admissible {
 /// with penalised stops, in place of (6)–(8), either their law (contact_rules.hpp) or, as the
 /// solution of rigid stops that they approach, (6)–(8) as they stand;
 ///
-/// further that θ̃, u and u_xx do not jump between phases, and that θ̃, u, σ̃ and what is derived from
+/// further that θ̃, u and u_xx do not jump between phases, nor θ̃, θ̃_x, u and u_x in x and θ̃ and u_xx
+/// in t within one, where what is derived by formulas would lack a delta function (jumps.hpp); and
+/// that θ̃, u, σ̃ and what is derived from
 /// them are finite on a grid of [0,1] × [0, final_time]. An equality holds if it does symbolically,
 /// or else at every sampled time to 1e-12 of the largest value of θ̃ (or u, or σ̃) on the grid;
 /// inequalities are sampled, with the same tolerance. (6) is proven for all times of a text's

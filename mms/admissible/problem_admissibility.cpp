@@ -1,6 +1,7 @@
 #include "mms/admissible/admissibility.hpp"
 
 #include "mms/admissible/contact_rules.hpp"
+#include "mms/admissible/jumps.hpp"
 #include "mms/admissible/sampled_rules.hpp"
 #include "mms/text/error_text.hpp"
 
@@ -27,7 +28,7 @@ public:
         theta_scale_ = largest(exact_.theta, "theta");
         u_scale_ = largest(exact_.u, "u");
         u_x_scale_ = largest(exact_.u_x, "u_x");
-        u_xx_scale_ = largest(exact_.u_xx, "u_xx");
+        largest(exact_.u_xx, "u_xx");
         // Where q is not zero, the stress at the tip is a difference.
         sigma_scale_ =
             std::max(largest(stress(), "sigma(1,t)"), largest(problem_.body_force, "q of (2)"));
@@ -38,9 +39,9 @@ public:
         require_end_values();
         ContactRules rules(beam_, {contact()}, u_scale_, sigma_scale_);
         rules.require(0);
-        require_continuity(exact_.theta, theta_scale_, "(1): theta");
+        require_continuity(exact_.theta, "(1): theta");
         // As u(0,t) = u_x(0,t) = 0, no jump of u is without one of u_xx.
-        require_continuity(exact_.u_xx, u_xx_scale_, "(3): u_xx");
+        require_continuity(exact_.u_xx, "(3): u_xx");
         return {rules.law_distance(), rules.tip_is_sampled()};
     }
 
@@ -117,48 +118,20 @@ private:
 
     // Continuity in time.
 
-    /// Looks for a jump in every interval between two sampled times, by halving it: the distance of
-    /// the middle from the mean of both ends falls with the length to the power of two, at a kink
-    /// to the power of one, and at a jump it stays.
-    void require_continuity(const Field& field, double scale, const std::string& what) const {
+    void require_continuity(const Field& field, const std::string& what) const {
         constexpr double least_distance = 1e-9;
         const SpaceTimeFunction g = function(field);
         // A jump is one nearly everywhere; these are no nodes of a sine.
         const ArrayXd x = ArrayXd::LinSpaced(5, 0.11, 0.97);
-        const auto sampled = [&](double begin, const ArrayXd& before, double end,
-                                 const ArrayXd& after) {
-            Interval interval{begin, end, before, after, g(x, 0.5 * (begin + end)), 0.0};
-            interval.distance = (interval.middle - 0.5 * (before + after)).abs().maxCoeff();
-            return interval;
+        const auto in_time = [&](const ArrayXd& s) {
+            Eigen::ArrayXXd rows(x.size(), s.size());
+            for (Index n = 0; n < s.size(); ++n)
+                rows.col(n) = g(x, s(n));
+            return rows;
         };
-        const ArrayXd in_time = times(time_points);
-        for (Index k = 0; k + 1 < in_time.size(); ++k) {
-            Interval here =
-                sampled(in_time(k), g(x, in_time(k)), in_time(k + 1), g(x, in_time(k + 1)));
-            while (here.distance > least_distance * scale) {
-                if (here.end - here.begin <= relative_tolerance * final_time_)
-                    refuse_jump(here.after - here.before, x, here.end, what);
-                const double centre = 0.5 * (here.begin + here.end);
-                Interval first = sampled(here.begin, here.before, centre, here.middle);
-                Interval second = sampled(centre, here.middle, here.end, here.after);
-                here = first.distance > second.distance ? std::move(first) : std::move(second);
-            }
-        }
-    }
-
-    /// A function of x at the ends and in the middle of an interval of time.
-    struct Interval {
-        double begin, end;
-        ArrayXd before, after, middle;
-        double distance; ///< of the middle from the mean of the ends
-    };
-
-    [[noreturn]] void refuse_jump(const ArrayXd& jump, const ArrayXd& x, double t,
-                                  const std::string& what) const {
-        Index largest = 0;
-        jump.abs().maxCoeff(&largest);
-        throw InputError(place_, jump_text(what, jump(largest), t, x(largest)) +
-                                     "let the phases meet there");
+        if (const auto jump = find_jump(in_time, times(time_points), least_distance))
+            throw InputError(place_, jump_text(what, jump->size, jump->at, x(jump->row)) +
+                                         "let the phases meet there");
     }
 
     const ProblemData& problem_;
@@ -169,7 +142,6 @@ private:
     double theta_scale_ = 0.0;
     double u_scale_ = 0.0;
     double u_x_scale_ = 0.0;
-    double u_xx_scale_ = 0.0;
     double sigma_scale_ = 0.0;
 };
 

@@ -213,6 +213,8 @@ std::string why_not(const ExpectedOrders& expected, const DerivedSolution& deriv
         return "the tip touches a stop at t = " + number_text(*expected.contact.touch);
     if (!expected.contact.onsets.empty())
         return "a contact begins at t = " + number_text(expected.contact.onsets.front().t);
+    if (expected.kink)
+        return words_of(*expected.kink);
     if (derived.phases.front().end_value < final_time)
         return "a phase ends at t = " + number_text(derived.phases.front().end_value);
     if (time_scheme == "bdf2" && expected.is_quadratic)

@@ -310,7 +310,7 @@ BOOST_AUTO_TEST_CASE(a_jump_between_phases_is_found_with_its_time) {
         return x * x * (t <= std::sqrt(2.0) ? t : t + 1e-3) / 100.0;
     };
     contains(refusal({"mine", sine, late, none}),
-             {"mine: (3): u_xx jumps by 2e-05 at t = 1.41421, x = ", "it must be continuous"});
+             {"mine: (3): u_xx jumps by 2.0000", " at t = 1.41421, x = "});
     const auto falling = [](const auto& x, const auto& t) {
         return sin(pi * x) * (t <= 0.123 ? 1.0 + t : 1.2 - t);
     };

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include <functional>
+#include <optional>
+
+namespace tvbeam {
+
+/// Functions of one variable; shape: one row a function, one column a point.
+using FunctionRows = std::function<Eigen::ArrayXXd(const Eigen::ArrayXd& s)>;
+
+/// A place where a function jumps.
+struct Jump {
+    Eigen::Index row; ///< which function
+    double at;
+    double size; ///< from before it to behind it
+};
+
+/// The ends, and points between them that no round number halves: of most formulas that jump there,
+/// a place has no value.
+Eigen::ArrayXd uneven_grid(double begin, double end);
+
+/// A jump, the largest at its place, of the functions on a grid, by halving the intervals in which
+/// they are furthest from linear: the distance of the middle from the mean of both ends falls with
+/// the length to the power of two, at a kink to the power of one, and at a jump it stays. A layer
+/// thinner than a hundred millionth of the grid is one. None is found below 2 `least_distance` of
+/// the largest value on the grid. Right at a jump a formula may have no value.
+std::optional<Jump> find_jump(const FunctionRows& functions, const Eigen::ArrayXd& grid,
+                              double least_distance);
+
+} // namespace tvbeam
