@@ -35,9 +35,11 @@ std::optional<double> ContactEvents::Levels::reaches(double target, double lowes
 ContactEvents::ContactEvents(const Stops& stops, double tip, double round_off)
     : stops_(stops), round_off_(round_off), tip_before_(tip) {
     free_.push(0.0, tip);
+    beyond_ = beyond(tip);
     // A start on a rigid stop is one, whichever side of it the state's round-off puts the tip.
-    if (stops.epsilon > 0.0 || !(starts_on(Stop::lower) || starts_on(Stop::upper)))
-        beyond_ = beyond(tip);
+    const double stop = tip > stops.upper ? stops.upper : stops.lower;
+    if (stops.epsilon == 0.0 && beyond_ <= round_off * std::abs(stop))
+        beyond_ = 0.0;
 }
 
 double ContactEvents::beyond(double tip) const {
@@ -50,7 +52,7 @@ bool ContactEvents::starts_on(Stop stop) const {
     const double gap =
         stop == Stop::lower ? stops_.lower - free_.value[0] : free_.value[0] - stops_.upper;
     const double scale = std::abs(stop == Stop::lower ? stops_.lower : stops_.upper);
-    return stops_.epsilon > 0.0 ? gap >= -round_off_ * scale : std::abs(gap) <= round_off_ * scale;
+    return gap >= -round_off_ * scale;
 }
 
 void ContactEvents::add(double t, double tip, double stress) {

@@ -40,7 +40,7 @@ std::string name_of(ContactEvent::Stop stop); ///< "g1", "g2"
 class ContactEvents {
 public:
     /// At the state of t = 0. round_off: of the tip there, relative; one as near to a stop starts
-    /// on it, and so does one that is in a penalised stop.
+    /// on it, and so does one beyond it.
     ContactEvents(const Stops& stops, double tip, double round_off = 1e-12);
 
     /// The level after those before; stress: λ, which says on which stop the tip is (8).

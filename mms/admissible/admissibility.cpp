@@ -216,12 +216,13 @@ private:
                         clamped + subtraction(u, "u(0,t)", "u") + or_factor);
         require_formula(i, u_x, 0.0, scales_.u_x, source.u, "(5): u_x(0,t)",
                         clamped + subtraction(u_x * x, "u_x(0,t)*x", "u") + or_factor);
-        require_formula(i, theta_0, beam_.theta_A, scales_.theta, source.theta, "(10): theta(0,t)",
-                        exact_text(beam_.theta_A) + " = theta_A: " +
-                            (theta_0.is_zero()
-                                 ? "add theta_A*(1 - x) to theta"
-                                 : subtraction((theta_0 - theta_A) * (1 - x),
-                                               "(theta(0,t) - theta_A)*(1 - x)", "theta")));
+        require_formula(
+            i, theta_0, beam_.theta_A, scales_.theta, source.theta, "(10): theta(0,t)",
+            exact_text(beam_.theta_A) + " = theta_A: " +
+                (theta_0.is_zero()
+                     ? "add theta_A*(1 - x) to theta"
+                     : subtraction((theta_0 - theta_A) * (1 - x) + theta_1 * x,
+                                   "(theta(0,t) - theta_A)*(1 - x) + theta(1,t)*x", "theta")));
         require_formula(i, theta_1, 0.0, scales_.theta, source.theta, "(10): theta(1,t)",
                         "0: " + subtraction(theta_1 * x, "theta(1,t)*x", "theta"));
     }

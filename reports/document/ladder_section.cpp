@@ -127,8 +127,8 @@ std::vector<std::string> empty_words(const LadderResult& ladder) {
             all_zero = all_zero && error == 0.0;
         }
     if (measured && all_zero)
-        sentences.emplace_back("Every error is zero: the solution is zero, or the scheme is exact "
-                               "for it. That tests nothing of its order.");
+        sentences.emplace_back("Every error is zero: what the norms measure is zero, or the scheme "
+                               "is exact for it. That tests nothing of its order.");
     return sentences;
 }
 

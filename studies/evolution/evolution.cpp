@@ -15,14 +15,24 @@ namespace tvbeam {
 
 namespace {
 
-/// The sample with the value that `before` puts first, of those that are numbers.
+/// The sample with the value that `before` puts first, of those that are numbers; of those that
+/// only round-off tells apart the earliest.
 template <typename Before>
 std::optional<std::size_t> extreme(const std::vector<double>& values, const Before& before) {
     std::optional<std::size_t> best;
     for (std::size_t i = 0; i < values.size(); ++i)
         if (!std::isnan(values[i]) && (!best || before(values[i], values[*best])))
             best = i;
-    return best;
+    constexpr double round_off = 1e-12;
+    double size = 0.0;
+    for (const double value : values)
+        size = std::max(size, std::isnan(value) ? 0.0 : std::abs(value));
+    if (!best || std::isinf(size))
+        return best;
+    const auto first = std::find_if(values.begin(), values.end(), [&](double value) {
+        return std::abs(value - values[*best]) <= round_off * size;
+    });
+    return static_cast<std::size_t>(first - values.begin());
 }
 
 /// What the model gives at an end: (5), (10).

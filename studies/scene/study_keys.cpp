@@ -180,13 +180,22 @@ std::map<std::string, std::vector<double>> read_by_measure(
     for (const auto& measure : wanted)
         if (named(known, measure.name) == nullptr)
             known.push_back(measure);
+    std::string unwanted;
     for (const auto& measure : known)
         if (const auto list = table.numbers(measure.name)) {
             check(measure.name, *list);
             if (named(wanted, measure.name) != nullptr)
                 lists[measure.name] = *list;
+            else
+                unwanted = measure.name;
         }
     table.finish();
+    if (lists.empty() && !unwanted.empty())
+        throw table.error(unwanted, " is not among the norms, and neither is another of " +
+                                        table.full("") +
+                                        ": none of it would be shown; name it in "
+                                        "norms, or --set " +
+                                        table.full("") + "={}");
     return lists;
 }
 

@@ -55,7 +55,7 @@ void read_values(TableReader& table, const SolverKeys& keys, std::vector<Measure
 
 /// A list of numbers for each measure that the table names. Lists may stand there for measures that
 /// are not wanted, e.g. after --set ladder.norms=…; `check` is told of every list, and those of the
-/// others are dropped.
+/// others are dropped. Throws InputError where that leaves none.
 std::map<std::string, std::vector<double>> read_by_measure(
     TableReader& table, const SolverKeys& keys, const std::vector<Measure>& wanted,
     const std::function<void(const std::string& name, const std::vector<double>&)>& check);
