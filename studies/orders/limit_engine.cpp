@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -13,9 +14,14 @@ namespace {
 /// An interval is no narrower than this many roundings of the finest value.
 constexpr double roundings = 8;
 
-const LimitModel limit_models[] = {{std::nullopt, false}, {1.0, false},
-                                   {2.0, false},          {1.0, true},
-                                   {std::nullopt, true},  {std::nullopt, false, true}};
+using Next = LimitModel::Next;
+const LimitModel limit_models[] = {{std::nullopt},
+                                   {1.0},
+                                   {2.0},
+                                   {1.0, Next::one_more},
+                                   {std::nullopt, Next::one_more},
+                                   {std::nullopt, Next::doubled},
+                                   {std::nullopt, Next::none, true}};
 
 using Rows = std::vector<ValueRow>;
 
@@ -135,9 +141,10 @@ void weigh(const Rows& levels, const LimitModel& model, std::vector<Weighed>& li
         const std::span<const ValueRow> before(levels.data() + (n - 1 - shorter), shorter);
         if (const auto coarser = fit_limit_model(before, weights_of(before), model)) {
             const double ratio = levels[n - 2].h / levels[n - 1].h;
-            // A limit with the wrong order goes on like h^½ at worst, one with the right order like
-            // the next term.
-            const double rate = model.order ? std::sqrt(ratio) : ratio;
+            // A limit with the wrong order goes on like h^½ at worst, one with the right order p
+            // like the next term: h^p more, as of powers of one width, where p is below 1.
+            const double rate =
+                model.order ? std::sqrt(ratio) : std::pow(ratio, std::min(fit->order, 1.0));
             change = std::abs(coarser->limit - fit->limit) / (rate - 1);
             compared = true;
         }
@@ -147,6 +154,20 @@ void weigh(const Rows& levels, const LimitModel& model, std::vector<Weighed>& li
         if (!model.order)
             orders.push_back(fit->order);
     }
+}
+
+/// The deviation that the best of the models leaves, with Student's factor. Three levels do not
+/// show any.
+double scatter_of(const Rows& levels) {
+    double least = levels.size() > 3 ? infinity : 0.0;
+    for (const auto& model : limit_models) {
+        const int dof = static_cast<int>(levels.size()) - model.parameters();
+        if (dof < 1)
+            continue;
+        if (const auto fit = fit_limit_model(levels, weights_of(levels), model))
+            least = std::min(least, std::sqrt(fit->square / dof) * student_over_normal(dof));
+    }
+    return least;
 }
 
 /// Do the last three steps, or the two that there are, go to and fro?
@@ -272,6 +293,24 @@ OrderInterval order_of_differences(const Rows& given, double from_models) {
     return order;
 }
 
+Rows with_scatter(Rows levels, double scatter) {
+    for (auto& level : levels)
+        if (std::isnan(level.sigma))
+            level.sigma = scatter;
+    return levels;
+}
+
+/// What both say; the first that is not determined, if one is not.
+OrderInterval hull(const OrderInterval& one, const OrderInterval& other) {
+    if (!one.determined || !other.determined)
+        return one.determined ? other : one;
+    OrderInterval both = one;
+    both.low = std::min(one.low, other.low);
+    both.high = std::max(one.high, other.high);
+    both.value = std::midpoint(both.low, both.high);
+    return both;
+}
+
 } // namespace
 
 LimitEstimate estimate_limit(std::span<const ValueRow> rows, const LimitTuning& tuning) {
@@ -319,7 +358,10 @@ LimitEstimate estimate_limit(std::span<const ValueRow> rows, const LimitTuning& 
             weigh(levels, model, limits, orders);
     const double last_step = std::abs(levels[levels.size() - 2].value - levels.back().value);
     const auto spare = static_cast<double>(levels.size()) - 2;
-    const double factor = tuning.factor * (1 + tuning.few_levels / (spare * spare));
+    const double scatter = scatter_of(levels);
+    const bool is_scattered = last_step < tuning.exact_steps * scatter;
+    const double factor = (is_scattered ? tuning.scattered : tuning.factor) *
+                          (1 + tuning.few_levels / (spare * spare));
     // What the doubles of the values do not know, in units of the scale.
     const double unknown =
         std::max(rounding / scale, roundings * std::numeric_limits<double>::epsilon());
@@ -341,7 +383,12 @@ LimitEstimate estimate_limit(std::span<const ValueRow> rows, const LimitTuning& 
         result.limit.status = "no model fits";
     }
     std::sort(orders.begin(), orders.end());
-    result.order = order_of_differences(levels, orders.empty() ? 1.0 : orders[orders.size() / 2]);
+    const double first = orders.empty() ? 1.0 : orders[orders.size() / 2];
+    result.order = order_of_differences(levels, first);
+    // Of scatter that is not stated the differences show none: it would pass for their order.
+    if (is_scattered)
+        result.order =
+            hull(result.order, order_of_differences(with_scatter(levels, scatter), first));
     if (levels.size() < 4)
         result.order.status = "an order of values with an interval needs four widths";
     return result;

@@ -2,16 +2,21 @@
 /// answer with an interval, and what the methods that have names say, beside it.
 ///
 /// Models f(h) = f_0 + C h^p (p free, 1 or 2; where the steps go to and fro also with a C that
-/// does), f_0 + C h + D h² and f_0 + C h^p (1 + D h) are fitted to windows of consecutive levels. A
-/// fit is believed as far as its limit stays where it is when the window moves by one level, as its
-/// standard error allows, and as far as the change would still grow if the sequence went on (with δ
-/// from one window to the next, r their ratio of widths):
+/// does), f_0 + C h + D h², f_0 + C h^p (1 + D h) and f_0 + C h^p (1 + D h^p) are fitted to windows
+/// of consecutive levels. A fit is believed as far as its limit stays where it is when the window
+/// moves by one level, as its standard error allows, and as far as the change would still grow if
+/// the sequence went on (with δ from one window to the next, r their ratio of widths):
 ///
-///     u_m² = max(t_{dof} s_m / 1.96, σ_m)² + (δ_m / (r − 1))²        (√r for models with a given
-///     p),
+///     u_m² = max(t_{dof} s_m / 1.96, σ_m)² + (δ_m / (r' − 1))²,
+///
+/// r' = √r for models with a given p and r^min(p, 1) for others,
 ///
 /// with s_m from the residuals and σ_m from a stated deviation, that of replicates or that of
 /// rounding to the digits printed, where the finest step is so few of their units that it counts.
+///
+/// Where the finest step is no more than so many deviations from the best model, the values
+/// scatter: the interval is wider then, and an order is determined where it is with that scatter,
+/// too.
 ///
 /// The limit is the mean with weights 1 / u_m², its interval their spread, as in order_engine.hpp.
 #pragma once
@@ -28,6 +33,8 @@ namespace tvbeam {
 
 struct LimitTuning {
     double factor = 1.1;     ///< half of the interval over the spread
+    double scattered = 1.7;  ///< the same where the values scatter
+    double exact_steps = 30; ///< a finest step of fewer deviations is one of values that scatter
     double few_levels = 3.0; ///< … and this much more over the square of the levels less two
     double narrowest = 0.01; ///< of the distance from the finest value to the limit
     double agreement = 0.01; ///< added to u_m in the weights, of the last step between levels

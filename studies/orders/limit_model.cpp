@@ -20,7 +20,8 @@ double deviation_of(const LinearFit& fit, const Weights& weights) {
 LinearFit fit_at(std::span<const ValueRow> rows, const Weights& weights, double order,
                  const LimitModel& model) {
     const auto n = static_cast<Eigen::Index>(rows.size());
-    const int columns = model.next ? 3 : 2;
+    using Next = LimitModel::Next;
+    const int columns = model.next == Next::none ? 2 : 3;
     Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 64, 3> design(n, columns);
     Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 64, 1> right(n);
     const double unit = rows.front().h;
@@ -32,8 +33,8 @@ LinearFit fit_at(std::span<const ValueRow> rows, const Weights& weights, double 
         design(i, 1) = w * std::pow(x, order);
         if (model.alternating && i % 2 == 1)
             design(i, 1) = -design(i, 1);
-        if (model.next)
-            design(i, 2) = design(i, 1) * x;
+        if (model.next != Next::none)
+            design(i, 2) = design(i, 1) * (model.next == Next::doubled ? std::pow(x, order) : x);
         right[i] = w * (row.value - rows.back().value);
     }
     const Eigen::HouseholderQR<decltype(design)> qr(design);

@@ -26,9 +26,11 @@ inline constexpr double greatest_order = 8;
 /// A model of f: powers of h beside the constant. One that is free is searched for.
 struct LimitModel {
     std::optional<double> order; ///< none: free
-    bool next = false;           ///< a further term of one power more
-    bool alternating = false;    ///< C changes its sign from level to level
-    int parameters() const { return 2 + (order ? 0 : 1) + (next ? 1 : 0); }
+    /// A further term: of one power more, or of the double power, as of a series in h^p.
+    enum class Next { none, one_more, doubled };
+    Next next = Next::none;
+    bool alternating = false; ///< C changes its sign from level to level
+    int parameters() const { return 2 + (order ? 0 : 1) + (next == Next::none ? 0 : 1); }
 };
 
 struct LinearFit {

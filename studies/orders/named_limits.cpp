@@ -127,18 +127,18 @@ std::optional<Candidate> eca_hoekstra_fit(std::span<const ValueRow> levels,
             return std::nullopt;
         return Candidate{*fit, std::sqrt(fit->square * n / fit->dof), name};
     };
-    auto best = candidate({std::nullopt, false}, "f0 + C h^p");
+    auto best = candidate({std::nullopt}, "f0 + C h^p");
     const double order = best ? best->fit.order : 0;
     if (best && order >= 0.5 && order <= 2)
         return best;
-    best = candidate({1.0, false}, "f0 + C h");
+    best = candidate({1.0}, "f0 + C h");
     const auto prefer = [&](const std::optional<Candidate>& other) {
         if (other && (!best || other->deviation < best->deviation))
             best = other;
     };
-    prefer(candidate({2.0, false}, "f0 + C h^2"));
+    prefer(candidate({2.0}, "f0 + C h^2"));
     if (order < 0.5)
-        prefer(candidate({1.0, true}, "f0 + C h + D h^2"));
+        prefer(candidate({1.0, LimitModel::Next::one_more}, "f0 + C h + D h^2"));
     return best;
 }
 
