@@ -253,6 +253,14 @@ std::vector<const ReachedError*> compared_errors(const NormCosts& costs) {
     return errors;
 }
 
+/// A program of another counts none.
+bool counts_steps(const WorkPrecisionResult& result) {
+    return std::ranges::any_of(result.schemes, [](const SchemeRuns& scheme) {
+        return std::ranges::any_of(scheme.runs,
+                                   [](const RungResult& run) { return run.count("steps") > 0; });
+    });
+}
+
 } // namespace
 
 Section work_precision_section(const WorkPrecisionResult& result, const WorkPrecisionBlock& block) {
@@ -261,8 +269,10 @@ Section work_precision_section(const WorkPrecisionResult& result, const WorkPrec
         "Work and precision",
         {Paragraph{fmt::format(
             "Work and precision{}; timed runs a row: at most {}, in turns, one at a time, "
-            "without error norms{}",
+            "{}{}",
             has_end ? " up to T = " + shortest(block.final_time) : "", block.runs,
+            counts_steps(result) ? "without error norms"
+                                 : "whole processes, or as the program's own clock says",
             has_end ? "; node-steps: elements times steps" : "")}}};
     auto& blocks = section.blocks;
     const auto add = [&blocks](const std::vector<Block>& more) {

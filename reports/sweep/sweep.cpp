@@ -224,6 +224,18 @@ bool has_defect(const std::vector<StudyResult>& results) {
                        [](const auto& result) { return result.scene.defect.has_value(); });
 }
 
+/// What is said beside a table of one value and holds for its figures in any.
+std::vector<std::string> cautions(const StudyResult& result) {
+    std::vector<std::string> all = result.remarks;
+    if (const auto* ladder = result.get<LadderResult>();
+        ladder != nullptr && !ladder->reference_remark.empty())
+        all.push_back(ladder->reference_remark);
+    if (result.law_distance > 0.0)
+        all.emplace_back("The solution is one of rigid stops: errors at penalised ones do not fall "
+                         "to zero.");
+    return all;
+}
+
 /// Why a row is not whole: "beam.alpha = 1e3: the reason"; nothing where all are.
 std::vector<std::string> troubles(const Sweep& sweep, const std::vector<StudyResult>& results) {
     std::vector<std::string> all;
@@ -348,10 +360,10 @@ Reported reported(const Sweep& sweep, const std::vector<StudyResult>& results) {
         all.document.title = std::string(defect_words) + ": " + all.document.title;
     all.document.head = {sweep.key + " = " + values_text(sweep.values)};
     for (const auto& result : results)
-        for (const auto& remark : result.remarks)
-            if (std::find(all.document.head.begin(), all.document.head.end(), remark) ==
+        for (const auto& caution : cautions(result))
+            if (std::find(all.document.head.begin(), all.document.head.end(), caution) ==
                 all.document.head.end())
-                all.document.head.push_back(remark);
+                all.document.head.push_back(caution);
     if (!results.empty())
         all.document.sections.push_back({"Sweep", {table_of(sweep, results)}});
     for (const auto& trouble : troubles(sweep, results))

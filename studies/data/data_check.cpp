@@ -3,7 +3,9 @@
 #include "mms/text/nearest_name.hpp"
 #include "mms/text/toml_reader.hpp"
 
+#include <algorithm>
 #include <filesystem>
+#include <functional>
 #include <system_error>
 
 namespace tvbeam {
@@ -88,8 +90,18 @@ private:
                                                 column_.name + ".order." +
                                                 analysis_.widths.front().name +
                                                 std::string(key).substr(5));
-            hold_order(table_, "order", 0);
+            hold_order(table_, "order", refined_width());
         }
+    }
+
+    /// The first that is not the same in all rows.
+    [[nodiscard]] std::size_t refined_width() const {
+        for (std::size_t i = 0; i < analysis_.widths.size(); ++i) {
+            const auto& numbers = analysis_.widths[i].numbers;
+            if (std::ranges::adjacent_find(numbers, std::ranges::not_equal_to()) != numbers.end())
+                return i;
+        }
+        return 0;
     }
 
     void check_limit(const LimitEstimate& estimate) {

@@ -192,7 +192,7 @@ void take_whole_sizes_for_counts(const DataChoice& choice, DataFile& data) {
         const auto width = named(size);
         if (width == data.widths.end() || is_width(size) ||
             !std::ranges::all_of(width->numbers, [](double number) {
-                return number >= 2.0 && std::floor(number) == number;
+                return number >= 1.0 && std::floor(number) == number;
             }))
             continue;
         if (data.errors.empty())

@@ -147,7 +147,9 @@ std::string missing_remark(const ReferenceBlock& reference, const Rung& finest) 
         static_cast<double>(finest.elements) / static_cast<double>(reference.elements);
     const double in_dt = 1.0 / static_cast<double>(reference.steps_in(finest));
     constexpr double seen = 0.02; // less than this changes no order by more than 0.015
-    if (reference.richardson || std::max(in_h, in_dt) <= seen)
+    if (reference.richardson)
+        return {};
+    if (std::max(in_h, in_dt) <= seen)
         return {};
     const auto part = [](const char* width, double ratio) {
         return fmt::format("{:.2g} % of a first-order part in {} and {:.2g} % of a second-order "
@@ -163,6 +165,11 @@ std::string missing_remark(const ReferenceBlock& reference, const Rung& finest) 
                        finest.elements, finest.dt, parts);
 }
 
+bool changes_contact(const RungResult& run) {
+    const std::int64_t pressed = run.count("contact_steps");
+    return pressed > 0 && pressed < run.count("steps");
+}
+
 } // namespace
 
 std::string reference_remark(const ReferenceBlock& reference,
@@ -173,6 +180,12 @@ std::string reference_remark(const ReferenceBlock& reference,
         if (reference.is_close_to(run.rung))
             named += fmt::format("{}s = {} (dt = {:g})", close++ > 0 ? ", " : "", run.rung.elements,
                                  run.rung.dt);
+    if (reference.richardson && std::ranges::any_of(rungs, changes_contact))
+        return "The reference is extrapolated as that of a smooth solution, and a contact begins "
+               "or "
+               "ends: what error of its own that leaves is not known, and one that stands still "
+               "may "
+               "be the reference's.";
     if (close == 0)
         return rungs.empty() ? "" : missing_remark(reference, rungs.back().rung);
     return (close == 1 ? "The level " : "The levels ") + named +

@@ -41,7 +41,8 @@ std::vector<std::int64_t> kept_levels(const ReferenceBlock& reference,
                                       const std::vector<Series>& measured);
 
 /// A sentence about the rungs too close to the reference for their orders to mean anything, or else
-/// about the part of the finest error that the reference has as well; empty where that is small.
+/// about the part of the finest error that the reference has as well; empty where that is small. Of
+/// an extrapolated one about a contact that begins or ends.
 std::string reference_remark(const ReferenceBlock& reference, const std::vector<RungResult>& rungs);
 
 /// Reads the block. measured: what will be measured against the reference. Throws InputError where
