@@ -67,6 +67,20 @@ BOOST_AUTO_TEST_CASE(coordinates_are_the_errors_to_the_last_digit) {
         BOOST_TEST(text.find(part) != std::string::npos, part);
 }
 
+// How far it reaches to the right, and to the left; and a power of ten by itself.
+BOOST_AUTO_TEST_CASE(a_bar_reaches_from_its_lower_to_its_upper_end) {
+    Drawing drawing;
+    drawing.x = {.ticks = {{{1.0, "1e-3"}, {2.0, "2e-3"}}}};
+    const std::size_t block = drawing.add_block("bars", "4 1 3 6\n");
+    drawing.add_curve({.block = block, .third = 3, .fourth = 4},
+                      {.kind = CurveLook::Kind::bars, .point = 7, .size = 0.5});
+    const std::string text = pgfplots_text({"bars", "", drawing});
+    BOOST_TEST(text.find("(4,1) += (2,0) -= (1,0)") != std::string::npos, text);
+    BOOST_TEST(text.find("mark size=1.30pt") != std::string::npos, text);
+    BOOST_TEST(text.find("$10^{-3}$") != std::string::npos, text);
+    BOOST_TEST(text.find("$2\\times10^{-3}$") != std::string::npos, text);
+}
+
 // Ticks between 0 and a number would never end.
 BOOST_AUTO_TEST_CASE(what_a_logarithmic_axis_cannot_show_takes_no_part_in_its_ticks) {
     const auto text_of = [](const std::string& rows) {

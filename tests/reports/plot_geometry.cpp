@@ -1,6 +1,7 @@
 // Nothing in a picture stands on something else, and nothing beyond its edge: read from the SVG
 // that gnuplot draws.
 
+#include "reports/plots/free_space.hpp"
 #include "reports/plots/gnuplot.hpp"
 #include "reports/plots/plot.hpp"
 #include "reports/plots/readable_legend.hpp"
@@ -204,6 +205,56 @@ BOOST_DATA_TEST_CASE(a_legend_has_room_however_many_series_there_are,
         colours.insert(curve.look.colour);
     BOOST_TEST(colours.size() == (count > 12 ? static_cast<std::size_t>(count)
                                              : static_cast<std::size_t>(std::min(7, count))));
+}
+
+// From every side of what is there: within the frame, on nothing, and with the middle as near as a
+// place that is tried every four pixels, five from all that is there, can be.
+BOOST_AUTO_TEST_CASE(what_is_put_into_free_space_is_near_and_on_nothing) {
+    const PictureBox frame{0.0, 0.0, 200.0, 160.0};
+    const PictureBox there{80.0, 60.0, 120.0, 100.0};
+    FreeSpace space(frame);
+    space.occupy(there);
+    constexpr double width = 30.0;
+    constexpr double height = 20.0;
+    constexpr double apart = 5.0;
+    constexpr double step = 4.0;
+    const double middle_x = 100.0;
+    const double middle_y = 80.0;
+    for (const PicturePoint& near : {PicturePoint{there.right, middle_y},
+                                     {there.left, middle_y},
+                                     {middle_x, there.bottom},
+                                     {middle_x, there.top},
+                                     {frame.right, middle_y},
+                                     {middle_x, frame.bottom}}) {
+        const auto box = space.find(width, height, near);
+        BOOST_REQUIRE(box.has_value());
+        BOOST_TEST((box->right - box->left == width && box->bottom - box->top == height));
+        BOOST_TEST((box->left >= frame.left && box->right <= frame.right && box->top >= frame.top &&
+                    box->bottom <= frame.bottom));
+        const double beside = std::max({there.left - box->right, box->left - there.right,
+                                        there.top - box->bottom, box->top - there.bottom});
+        BOOST_TEST(beside >= apart);
+        const double from_x = std::abs((box->left + box->right) / 2.0 - near.x);
+        const double from_y = std::abs((box->top + box->bottom) / 2.0 - near.y);
+        const bool at_side = near.y == middle_y;
+        const bool at_edge = near.x == frame.right || near.y == frame.bottom;
+        const double least = (at_side ? width : height) / 2.0 + apart;
+        BOOST_TEST((at_side ? from_x : from_y) <= least + step);
+        BOOST_TEST((at_side ? from_y : from_x) <= step);
+        BOOST_TEST((at_edge || (at_side ? from_x : from_y) >= least));
+    }
+    // A line, and what is as large as a marker.
+    space.occupy({0.0, 30.0}, {200.0, 30.0});
+    space.occupy({30.0, 130.0}, 8.0);
+    for (const PicturePoint& near : {PicturePoint{100.0, 30.0}, {30.0, 130.0}}) {
+        const auto box = space.find(width, height, near);
+        BOOST_REQUIRE(box.has_value());
+        BOOST_TEST((box->bottom <= 30.0 - apart || box->top >= 30.0 + apart));
+        const double x = std::clamp(30.0, box->left, box->right);
+        const double y = std::clamp(130.0, box->top, box->bottom);
+        BOOST_TEST(std::hypot(x - 30.0, y - 130.0) >= 8.0 + apart);
+    }
+    BOOST_TEST(!space.find(200.0, 20.0, {100.0, 80.0}).has_value());
 }
 
 // The test sees what it looks for.

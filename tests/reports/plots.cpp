@@ -5,6 +5,7 @@
 #include "reports/plots/gnuplot_script.hpp"
 #include "reports/plots/plot.hpp"
 #include "reports/plots/plot_style.hpp"
+#include "reports/sweep/sweep.hpp"
 #include "studies/grid/grid.hpp"
 #include "studies/ladder/ladder.hpp"
 #include "studies/stress/stress.hpp"
@@ -127,6 +128,48 @@ BOOST_AUTO_TEST_CASE(the_axis_of_h_says_what_becomes_of_the_step) {
     };
     BOOST_TEST(has(script({0.1, 0.09, 0.08, 0.07, 0.05}), "(and Δt with it, from 0.1 to 0.05)"));
     BOOST_TEST(has(script({0.1, 0.1, 0.1, 0.1, 0.1}), "(Δt = 0.1)"));
+    // Meshes by their elements, at their widths; and the one mesh of a ladder in time.
+    BOOST_TEST(has(script({0.1, 0.1, 0.1, 0.1, 0.1}), "'1/20' 0.05"));
+    StudyResult in_time = paper();
+    for (auto& rung : in_time.get<LadderResult>()->rungs)
+        rung.rung.elements = 8;
+    BOOST_TEST(has(script_of(convergence_plots(in_time).at(0)), "time step Δt   (h = 1/8)"));
+}
+
+// Of errors those of the finest level, of a study without errors its figures; values that are far
+// apart stand on a logarithmic axis.
+BOOST_AUTO_TEST_CASE(a_sweep_s_figure_has_the_last_errors_over_the_values) {
+    const auto swept = [](const std::string& scene, const Sweep& sweep) {
+        std::vector<StudyResult> results;
+        for (const auto& value : sweep.values)
+            results.push_back(run_study(read_scene(scene, {"expect={}", sweep.key + "=" + value})));
+        return std::pair(reported(sweep, results).plots(), results);
+    };
+    const auto [plots, results] = swept("bent-later", {"beam.zeta", {"0.25", "0.5"}, {}});
+    BOOST_REQUIRE(plots.size() == 1U);
+    const Drawing& drawing = plots[0].drawing;
+    BOOST_TEST((!drawing.x.is_logarithmic && drawing.y.is_logarithmic));
+    const auto& norms = results[0].get<LadderResult>()->norms;
+    BOOST_REQUIRE(drawing.blocks().size() == norms.size());
+    for (std::size_t k = 0; k < norms.size(); ++k) {
+        const auto error = [&, &all = results](std::size_t i) {
+            return all[i].get<LadderResult>()->rungs.back().errors[k];
+        };
+        BOOST_TEST(drawing.blocks()[k].heading == norms[k].norm.words);
+        BOOST_TEST(drawing.blocks()[k].rows ==
+                   fmt::format("0.25 {}\n0.5 {}\n", error(0), error(1)));
+    }
+    const auto far = swept("bent-later", {"beam.zeta", {"0.01", "0.5"}, {}}).first;
+    BOOST_TEST(far.at(0).drawing.x.is_logarithmic);
+    BOOST_TEST(swept("bent-later", {"scheme.time", {"euler", "bdf2"}, {}}).first.empty());
+    const auto figures =
+        swept("contacts-at-their-limits", {"beam.theta_A", {"0.0", "0.5"}, {}}).first;
+    const auto& blocks = figures.at(0).drawing.blocks();
+    BOOST_TEST(!figures[0].drawing.y.is_logarithmic);
+    BOOST_TEST(std::ranges::any_of(blocks, [](const DataBlock& block) {
+        return block.heading == "onset.1" && block.rows.starts_with("0 1.66666666") &&
+               has(block.rows, "\n0.5 1.66666666");
+    }));
 }
 
 // A letter is 0.62 of its font wide; 90 of the 540 pixels are samples and margins.

@@ -1,8 +1,10 @@
 // One table, written as text, Markdown, LaTeX and HTML.
 
 #include "core/norms/norms.hpp"
+#include "reports/command_line/check_report.hpp"
 #include "reports/document/html_text.hpp"
 #include "reports/document/json_text.hpp"
+#include "reports/document/problem_formulas.hpp"
 #include "reports/document/raised_text.hpp"
 #include "reports/document/text_table.hpp"
 #include "reports/document/visible_text.hpp"
@@ -14,6 +16,7 @@
 #include "reports/studies/run_fields.hpp"
 #include "studies/text/number_text.hpp"
 #include "tests/comma_locale.hpp"
+#include "tests/temporary_directory.hpp"
 
 #include <boost/test/unit_test.hpp>
 #include <nlohmann/json.hpp>
@@ -223,6 +226,14 @@ BOOST_AUTO_TEST_CASE(junit_is_xml_whatever_a_scene_is_called) {
     BOOST_TEST(std::none_of(text.begin(), text.end(),
                             [](char c) { return c >= 0 && c < ' ' && c != '\n'; }),
                text);
+    // A run that fails is a case beside those of the expectations.
+    BOOST_TEST(has(text, "tests=\"2\" failures=\"1\" errors=\"1\""), text);
+    scene.error.clear();
+    BOOST_TEST(has(junit_report({scene}), "tests=\"1\" failures=\"1\" errors=\"0\""));
+    // In Markdown a row, the violations behind the table.
+    BOOST_TEST(has(check_markdown({scene, {"good", 0.0, "", {}}}), "| ok | good | 0 | 0 |"));
+    scene.name = "bad";
+    BOOST_TEST(has(check_markdown({scene}), "| FAIL | bad | 1 | 1 |"));
 }
 
 BOOST_AUTO_TEST_CASE(text_is_shown_and_never_taken_for_markup) {
@@ -233,6 +244,9 @@ BOOST_AUTO_TEST_CASE(text_is_shown_and_never_taken_for_markup) {
                "\\textasciicircum{}");
     BOOST_TEST(latex_text("a\x7f") == "a\\textbackslash{}x7F"); // pdflatex stops at it
     BOOST_TEST(latex_text("Fernández ± L∞ 中") == "Fernández $\\pm$ L$^\\infty$ ?");
+    BOOST_TEST(latex_text("t → ∞") == "t $\\to$ $\\infty$");
+    // A _ within a word is none of Markdown's marks.
+    BOOST_TEST(markdown_text("a_b _c d_") == "a_b \\_c d\\_");
 }
 
 BOOST_AUTO_TEST_CASE(formulas_are_set_with_raised_exponents_and_greek_letters) {
@@ -241,11 +255,63 @@ BOOST_AUTO_TEST_CASE(formulas_are_set_with_raised_exponents_and_greek_letters) {
     BOOST_TEST(html_formula("g2*x^2") == "<i>g</i><sub>2</sub>\u2009<i>x</i><sup>2</sup>");
     BOOST_TEST(html_formula("x^(-1/2)") == "<i>x</i><sup>−1/2</sup>");
     BOOST_TEST(html_formula("x^sin(t)*u") == "<i>x</i><sup>sin(<i>t</i>)</sup>\u2009<i>u</i>");
+    BOOST_TEST(
+        html_formula("x^2.5 - t^(a*(b + c))*k") ==
+        "<i>x</i><sup>2.5</sup> − <i>t</i><sup><i>a</i>\u2009(<i>b</i> + <i>c</i>)</sup>\u2009"
+        "<i>k</i>");
     BOOST_TEST(html_formula("theta_A <= 1") == "<i>θ</i><sub>A</sub> ≤ 1");
     BOOST_TEST(html_formula("a<b&c^") == "<i>a</i>&lt;<i>b</i>&amp;<i>c</i>^");
     // What is called is upright; what is not is slanted.
     BOOST_TEST(html_formula("cosh(k)") == "cosh(<i>k</i>)");
     BOOST_TEST(html_formula("sqrt(x + 1)").starts_with("√("), html_formula("sqrt(x + 1)"));
+}
+
+// The texts of a solution phase by phase, its parameters, then what is derived of them, f first; of
+// stops that yield their law, where sigma is not given.
+BOOST_AUTO_TEST_CASE(the_formulas_of_a_problem_are_its_texts_and_what_is_derived) {
+    const TemporaryDirectory directory;
+    directory.write("phases.toml", "theta = 'k*sin(pi*x)'\nparameters = {k = '1/2'}\n"
+                                   "[[phase]]\nuntil = '1/3'\nu = 'g1*x^2*t/2'\n"
+                                   "[[phase]]\nuntil = '1/2'\nu = 'g1*x^2*t'\n"
+                                   "[[phase]]\nu = 'g1*x^2*(1 - t)'\nsigma = '0'\n");
+    const auto formulas_of = [&](const std::string& problem, const std::string& contact) {
+        std::vector<std::string> texts;
+        const std::string scene = directory.write(
+            "scene.toml", problem + "[beam]\nalpha = 0.3\nzeta = 0.1\nstops = [-0.1, 0.1]\n" +
+                              contact +
+                              "[ladder]\nfinal_time = 1.0\nelements = [4]\ndt = [0.5]\n"
+                              "norms = ['theta_L2L2']\n[reference]\nelements = 8\ndt = 0.25\n");
+        for (const Formula& formula : problem_formulas(read_scene(scene)))
+            texts.push_back(formula.symbol + " | " + formula.interval + " | " + formula.text);
+        return texts;
+    };
+    const std::vector<std::string> given{"theta | t <= 1/3 | k*sin(pi*x)",
+                                         "u | t <= 1/3 | g1*x^2*t/2",
+                                         "theta | 1/3 < t <= 1/2 | k*sin(pi*x)",
+                                         "u | 1/3 < t <= 1/2 | g1*x^2*t",
+                                         "theta | t > 1/2 | k*sin(pi*x)",
+                                         "u | t > 1/2 | g1*x^2*(1 - t)",
+                                         "sigma | t > 1/2 | 0",
+                                         "k |  | 1/2"};
+    const auto laws = [](const std::vector<std::string>& texts) {
+        return std::count_if(texts.begin(), texts.end(), [](const std::string& text) {
+            return text.starts_with("sigma") && text.ends_with("/epsilon");
+        });
+    };
+    for (const std::string contact : {"", "contact = {law = 'penalty', epsilon = 0.01}\n"}) {
+        const auto texts = formulas_of("solution = './phases.toml'\n", contact);
+        BOOST_REQUIRE(texts.size() > given.size());
+        BOOST_TEST(std::vector(texts.begin(), texts.begin() + std::ssize(given)) == given,
+                   boost::test_tools::per_element());
+        BOOST_TEST(texts[given.size()].starts_with("f | 0 <= t <= 1/3 | "), texts[given.size()]);
+        BOOST_TEST(laws(texts) == (contact.empty() ? 0 : 2));
+    }
+    const std::vector<std::string> data{"theta0 | t = 0 | sin(pi*x)", "u0 | t = 0 | x^2/20",
+                                        "f |  | x*t", "q |  | x"};
+    BOOST_TEST(formulas_of("[data]\ntheta0 = 'sin(pi*x)'\nu0 = 'x^2/20'\nheat_source = 'x*t'\n"
+                           "body_force = 'x'\n",
+                           "") == data,
+               boost::test_tools::per_element());
 }
 
 BOOST_AUTO_TEST_CASE(every_norm_has_words_and_no_two_the_same) {
@@ -276,6 +342,7 @@ BOOST_AUTO_TEST_CASE(a_decimal_comma_changes_nothing) {
     const std::string before = all();
     const CommaLocale locale;
     BOOST_TEST(all() == before);
+    BOOST_TEST(significant(0.0, 3) + " " + significant(0.03125, 2) == "0 0.031");
 }
 
 // The figures and their legends have the words; a table has the name, and the list of norms both.
@@ -295,6 +362,8 @@ BOOST_AUTO_TEST_CASE(details_are_a_list_within_that_of_the_findings) {
         {"S", {Finding{"whole"}, Finding{"part 1", 4}, Finding{"part 2", 4}}});
     BOOST_TEST(has(html_report(page), "<li>whole\n<ul>\n<li>part 1</li>\n<li>part 2</li>\n</ul>\n"
                                       "</li>\n</ul>\n"));
+    page.document.sections.back().blocks.emplace_back(Finding{"another"});
+    BOOST_TEST(has(html_report(page), "<li>part 2</li>\n</ul>\n</li>\n<li>another</li>\n</ul>\n"));
 }
 
 BOOST_AUTO_TEST_CASE(a_page_that_shows_nothing_in_words_has_no_empty_box) {
