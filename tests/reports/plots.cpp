@@ -1,11 +1,13 @@
 // What the figures show: the numbers in their data, and what is chosen to be shown.
 
 #include "core/contraction.hpp"
+#include "reports/analysis/analysis_reports.hpp"
 #include "reports/formats/html_report.hpp"
 #include "reports/plots/gnuplot_script.hpp"
 #include "reports/plots/plot.hpp"
 #include "reports/plots/plot_style.hpp"
 #include "reports/sweep/sweep.hpp"
+#include "studies/data/data_analysis.hpp"
 #include "studies/grid/grid.hpp"
 #include "studies/ladder/ladder.hpp"
 #include "studies/stress/stress.hpp"
@@ -172,6 +174,25 @@ BOOST_AUTO_TEST_CASE(a_sweep_s_figure_has_the_last_errors_over_the_values) {
     }));
 }
 
+// e = h²: a line of the order 2 through the finest error; of two errors no order is known.
+BOOST_AUTO_TEST_CASE(the_figure_of_a_table_has_the_order_that_is_determined) {
+    const auto blocks = [](const std::vector<double>& widths) {
+        DataFile data;
+        data.widths = {{"h", widths}};
+        data.errors = {{"e", {}}};
+        for (const double h : widths)
+            data.errors[0].numbers.push_back(h * h);
+        return blocks_of(analysis_plots(analyse(data)).at(0));
+    };
+    const auto three = blocks({0.5, 0.25, 0.125});
+    const Rows& line = block(three, "e: its order");
+    BOOST_REQUIRE(line.size() == 2U);
+    BOOST_TEST((line[0][0] == 0.5 && line[1][0] == 0.125));
+    BOOST_TEST(line[0][1] == 0.25, boost::test_tools::tolerance(1e-6));
+    BOOST_TEST(line[1][1] == 0.015625);
+    BOOST_TEST(blocks({0.5, 0.25}).count("e: its order") == 0U);
+}
+
 // A letter is 0.62 of its font wide; 90 of the 540 pixels are samples and margins.
 BOOST_AUTO_TEST_CASE(a_legend_s_letters_are_as_large_as_its_longest_line_allows) {
     const auto font_of = [](std::size_t letters) {
@@ -331,6 +352,13 @@ BOOST_AUTO_TEST_CASE(zero_and_no_stops_have_places_of_their_own_on_a_logarithmic
     // A decade below 1e-2, a decade above 1.
     BOOST_TEST(has(script_of(plot), "('0' -3, '10^{-2}' -2"), script_of(plot));
     BOOST_TEST(has(script_of(plot), "'none' 1)"), script_of(plot));
+    // Where there is neither, there is no such place.
+    result.records.set(StressResult{});
+    for (const double alpha : {1e-2, 1.0})
+        for (const double dt : {1e-3, 1.0})
+            result.get<StressResult>()->cases.add(stress_case(alpha, 1.0, dt, Outcome::certified));
+    const std::string without = script_of(stress_plots(result).at(0));
+    BOOST_TEST((!has(without, "'0'") && !has(without, "'none'")), without);
 }
 
 BOOST_AUTO_TEST_CASE(the_lines_of_a_contraction_map_are_where_it_is_predicted) {
@@ -381,6 +409,17 @@ BOOST_AUTO_TEST_CASE(text_of_a_scene_cannot_leave_its_quotes_in_a_script) {
     // Nor the section of an SVG that gnuplot puts it in, nor XML altogether.
     BOOST_TEST(gnuplot_text("a]]>b]]]]>") == "'a]] >b]]]] >'");
     BOOST_TEST(gnuplot_text("\033[2J\xff") == "'\\x1B[2J\\xFF'");
+}
+
+BOOST_AUTO_TEST_CASE(the_colours_of_a_scale_go_from_0_to_1) {
+    Drawing drawing;
+    drawing.scale = "part";
+    const std::string script = gnuplot_script(drawing, "p");
+    const std::string first = "set palette defined (0 '";
+    const std::size_t begin = script.find(first);
+    BOOST_REQUIRE_MESSAGE(begin != std::string::npos, script);
+    const std::string palette = script.substr(begin, script.find(")\n", begin) - begin);
+    BOOST_TEST(palette.substr(palette.rfind(", ")).starts_with(", 1 '"), palette);
 }
 
 BOOST_AUTO_TEST_CASE(series_differ_in_more_than_colour) {

@@ -219,7 +219,7 @@ BOOST_AUTO_TEST_CASE(every_norm_has_a_figure_of_error_against_run_time) {
         Study made = study({"theta_L2L2", "u_LinfH2semi"});
         made.add("Euler", {{1e-2, 1.0}, {1e-4, 62.0}});
         if (has_target)
-            made.block.targets["theta_L2L2"] = {1e-3};
+            made.block.targets["theta_L2L2"] = {1e-3, 1e-9, 1e9};
         StudyResult result = run_study(read_scene("cubic-deflection"));
         result.scene.blocks.set(made.block);
         result.records.set(made.result);
@@ -227,6 +227,13 @@ BOOST_AUTO_TEST_CASE(every_norm_has_a_figure_of_error_against_run_time) {
         BOOST_REQUIRE(plots.size() == 2U);
         BOOST_TEST(plots[0].name == "run_time_theta_L2L2");
         BOOST_TEST(plots[1].name == "run_time_u_LinfH2semi");
+        // Of the errors to reach those between the errors of the runs.
+        std::vector<double> heights;
+        for (const auto& curve : plots[0].drawing.curves())
+            if (curve.data.height)
+                heights.push_back(*curve.data.height);
+        BOOST_TEST(heights == (has_target ? std::vector{1e-3} : std::vector<double>()),
+                   boost::test_tools::per_element());
     }
 }
 
