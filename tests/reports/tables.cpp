@@ -6,14 +6,19 @@
 #include "reports/document/json_text.hpp"
 #include "reports/document/problem_formulas.hpp"
 #include "reports/document/raised_text.hpp"
+#include "reports/document/result_document.hpp"
+#include "reports/document/text_document.hpp"
 #include "reports/document/text_table.hpp"
 #include "reports/document/visible_text.hpp"
 #include "reports/document/written_number.hpp"
+#include "reports/formats/csv_report.hpp"
 #include "reports/formats/html_report.hpp"
 #include "reports/formats/junit_report.hpp"
 #include "reports/formats/latex_report.hpp"
 #include "reports/formats/markdown_report.hpp"
 #include "reports/studies/run_fields.hpp"
+#include "studies/stress/stress.hpp"
+#include "studies/study.hpp"
 #include "studies/text/number_text.hpp"
 #include "tests/comma_locale.hpp"
 #include "tests/temporary_directory.hpp"
@@ -261,9 +266,56 @@ BOOST_AUTO_TEST_CASE(formulas_are_set_with_raised_exponents_and_greek_letters) {
         "<i>k</i>");
     BOOST_TEST(html_formula("theta_A <= 1") == "<i>θ</i><sub>A</sub> ≤ 1");
     BOOST_TEST(html_formula("a<b&c^") == "<i>a</i>&lt;<i>b</i>&amp;<i>c</i>^");
+    const std::string thin = "\u2009";
+    std::string letters;
+    for (const std::string letter :
+         {"α", "β", "γ", "δ", "ζ", "η", "κ", "λ", "μ", "ν", "ρ", "σ", "τ", "φ", "ψ", "ω"})
+        letters += (letters.empty() ? "" : thin) + "<i>" + letter + "</i>";
+    BOOST_TEST(html_formula("alpha*beta*gamma*delta*zeta*eta*kappa*lambda*mu*nu*rho*sigma*tau*phi*"
+                            "psi*omega") == letters);
     // What is called is upright; what is not is slanted.
     BOOST_TEST(html_formula("cosh(k)") == "cosh(<i>k</i>)");
     BOOST_TEST(html_formula("sqrt(x + 1)").starts_with("√("), html_formula("sqrt(x + 1)"));
+}
+
+// Of two residuals the worse; what a case has not is blank; a remark holds from its first row on.
+BOOST_AUTO_TEST_CASE(a_stress_study_has_what_was_measured_of_each_case) {
+    StudyResult result = run_study(read_scene("cubic-deflection"));
+    result.records.set(StressResult{});
+    auto& stress = *result.get<StressResult>();
+    StressCase certified;
+    certified.outcome = Outcome::certified;
+    certified.checks.emplace();
+    certified.checks->energy = 2e-13;
+    certified.checks->heat_residual = 3.5;
+    certified.checks->beam_residual = 1.5;
+    certified.checks->error = 0.75;
+    StressCase refused;
+    refused.outcome = Outcome::refused;
+    refused.reason = "no contraction";
+    stress.cases.add(certified);
+    stress.cases.add(refused);
+    RoundOffRow row;
+    row.moment.value = 1.234e-15;
+    row.hermite_predicted = 1e-13;
+    stress.roundoff.emplace();
+    for (const std::int64_t elements : {10, 20, 40}) {
+        row.elements = elements;
+        row.remark = elements > 10 ? "too much" : "";
+        stress.roundoff->rows.push_back(row);
+    }
+    const std::string text = text_document(result_document(result));
+    BOOST_TEST(has(text, " 2e-13    3.5\n"), text);
+    BOOST_TEST(has(text, "10 1.2e-15"), text);
+    BOOST_TEST(has(text, "from s = 20 on: too much"), text);
+    BOOST_TEST(!has(text, "from s = 40 on"), text);
+    const auto csvs = study_csvs(result);
+    const auto csv = std::find_if(csvs.begin(), csvs.end(),
+                                  [](const StudyCsv& one) { return one.name == "stress"; });
+    BOOST_REQUIRE((csv != csvs.end()));
+    const std::string rows = csv->text.whole();
+    BOOST_TEST(has(rows, "certified,2e-13,3.5,1.5,0,0,0,,0.75,,0,"), rows);
+    BOOST_TEST(has(rows, "refused,,,,,,,,,,0,no contraction\n"), rows);
 }
 
 // The texts of a solution phase by phase, its parameters, then what is derived of them, f first; of
