@@ -60,6 +60,8 @@ BOOST_AUTO_TEST_CASE(numbers_of_sentences_are_those_of_printed_figures) {
     };
     BOOST_TEST(words("past 2.0000e-3 at s = 8", "past 2.0018e-3 at s = 8"));
     BOOST_TEST(!words("past 2.0000e-3 at s = 8", "past 2.0030e-3 at s = 8"));
+    // A part of 0.001 and one in the last digit, which is 1e-7.
+    BOOST_TEST(words("past 2.0000e-3 at s = 8", "past 2.0020500e-3 at s = 8"));
     BOOST_TEST(words("order 1.933 ± 0.096", "order 1.932 ± 0.093"));
     BOOST_TEST(!words("order 1.933 ± 0.096", "order 1.928 ± 0.096"));
     BOOST_TEST(!words("order 1.933 ± 0.096", "order 1.933 ± 0.086"));
@@ -86,6 +88,7 @@ BOOST_AUTO_TEST_CASE(rows_of_tables_are_held_to_a_factor) {
     BOOST_TEST(!rows("8 | 0.0625 | 1.00e-3", "8 | 0.0625 | 1.35e-3"));
     BOOST_TEST(rows("8 | 3e-16 | 1.00e-3", "8 | 3e-16 | 3.30e-3"));
     BOOST_TEST(!rows("8 | 3e-16 | 1.00e-3", "8 | 3e-16 | 3.50e-3"));
+    BOOST_TEST(rows("3e-16 | 1.00e-3", "3e-16 | 3.30e-3"));
     BOOST_TEST(rows("8 | -1e-17 | 0.92", "8 | 0 | 0.80"));
     BOOST_TEST(!rows("8 | -1.00", "8 | 1.00"));
     BOOST_TEST(!rows("8 | 0.0625 | 1.00e-3", "16 | 0.0625 | 1.00e-3"));

@@ -122,6 +122,16 @@ BOOST_AUTO_TEST_CASE(a_run_that_the_scene_does_not_give_is_refused) {
 BOOST_AUTO_TEST_CASE(a_case_comes_back_bit_for_bit) {
     const StressCase after = kept_case(Json::parse(kept(judged()).dump()));
     BOOST_TEST(after.checks->energy == 1.0 / 3.0);
+    StressCase other = judged();
+    other.checks->path = {};
+    other.checks->path_skipped = "no path";
+    other.checks->error_skipped = "no error";
+    other.checks->order_defect = 0.1;
+    const StressCase again = kept_case(Json::parse(kept(other).dump()));
+    BOOST_TEST(!again.checks->path.has_value());
+    BOOST_TEST(again.checks->path_skipped == "no path");
+    BOOST_TEST(again.checks->error_skipped == "no error");
+    BOOST_TEST((again.checks->order_defect == 0.1));
     BOOST_TEST(std::isinf(after.checks->heat_residual));
     BOOST_TEST((after.checks->path == 0.1));
     BOOST_TEST(!after.checks->error.has_value());

@@ -290,6 +290,7 @@ BOOST_AUTO_TEST_CASE(a_stress_study_has_what_was_measured_of_each_case) {
     certified.checks->heat_residual = 3.5;
     certified.checks->beam_residual = 1.5;
     certified.checks->error = 0.75;
+    certified.checks->order_defect = 0.25;
     StressCase refused;
     refused.outcome = Outcome::refused;
     refused.reason = "no contraction";
@@ -297,6 +298,7 @@ BOOST_AUTO_TEST_CASE(a_stress_study_has_what_was_measured_of_each_case) {
     stress.cases.add(refused);
     RoundOffRow row;
     row.moment.value = 1.234e-15;
+    row.sine = 4.321e-16;
     row.hermite_predicted = 1e-13;
     stress.roundoff.emplace();
     for (const std::int64_t elements : {10, 20, 40}) {
@@ -306,7 +308,7 @@ BOOST_AUTO_TEST_CASE(a_stress_study_has_what_was_measured_of_each_case) {
     }
     const std::string text = text_document(result_document(result));
     BOOST_TEST(has(text, " 2e-13    3.5\n"), text);
-    BOOST_TEST(has(text, "10 1.2e-15"), text);
+    BOOST_TEST(has(text, "10 1.2e-15 4.3e-16"), text);
     BOOST_TEST(has(text, "from s = 20 on: too much"), text);
     BOOST_TEST(!has(text, "from s = 40 on"), text);
     const auto csvs = study_csvs(result);
@@ -314,7 +316,7 @@ BOOST_AUTO_TEST_CASE(a_stress_study_has_what_was_measured_of_each_case) {
                                   [](const StudyCsv& one) { return one.name == "stress"; });
     BOOST_REQUIRE((csv != csvs.end()));
     const std::string rows = csv->text.whole();
-    BOOST_TEST(has(rows, "certified,2e-13,3.5,1.5,0,0,0,,0.75,,0,"), rows);
+    BOOST_TEST(has(rows, "certified,2e-13,3.5,1.5,0,0,0,,0.75,0.25,0,"), rows);
     BOOST_TEST(has(rows, "refused,,,,,,,,,,0,no contraction\n"), rows);
 }
 
