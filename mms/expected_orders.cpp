@@ -274,13 +274,17 @@ std::optional<Kink> kink_in(const DerivedSolution& derived, double final_time) {
         const PhaseExpressions& phase = derived.phases[i];
         if (phase.begin_value >= final_time)
             break;
-        const Tape tape = compile_tape({derived.derived[i].u_xx, derived.derived[i].u_xxx});
         const double end = std::min(phase.end_value, final_time);
         const ArrayXd t =
             ArrayXd::Constant(1, phase.begin_value + 0.4321 * (end - phase.begin_value));
-        const auto in_x = [&](const ArrayXd& x) { return tape.evaluate(x, t); };
-        if (const auto jump = find_jump(in_x, uneven_grid(0.0, 1.0), least_jump))
-            return Kink{jump->at, 2 + static_cast<int>(jump->row)};
+        int derivative = 2;
+        for (const ex& formula : {derived.derived[i].u_xx, derived.derived[i].u_xxx}) {
+            const Tape tape = compile_tape({formula});
+            const auto in_x = [&](const ArrayXd& x) { return tape.evaluate(x, t); };
+            if (const auto jump = find_jump(in_x, uneven_grid(0.0, 1.0), least_jump))
+                return Kink{jump->at, derivative};
+            ++derivative;
+        }
     }
     return std::nullopt;
 }
