@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <string>
@@ -57,6 +58,31 @@ std::optional<double> relative_difference(const Json& a, const Json& b) {
     return size == 0.0 ? 0.0 : std::abs(second - first) / size;
 }
 
+/// Sentences whose words are the same to the letter, and whose numbers to the tolerance.
+bool same_sentence(const std::string& first, const std::string& second, double tolerance) {
+    std::size_t i = 0;
+    std::size_t j = 0;
+    const auto number = [](const std::string& text, std::size_t& at) {
+        double value = 0.0;
+        const char* end = text.data() + text.size();
+        at = static_cast<std::size_t>(std::from_chars(text.data() + at, end, value).ptr -
+                                      text.data());
+        return value;
+    };
+    const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
+    while (i < first.size() && j < second.size()) {
+        if (is_digit(first[i]) && is_digit(second[j])) {
+            const double a = number(first, i);
+            const double b = number(second, j);
+            if (!(std::abs(b - a) <= tolerance * std::max(a, b)))
+                return false;
+        } else if (first[i++] != second[j++]) {
+            return false;
+        }
+    }
+    return i == first.size() && j == second.size();
+}
+
 /// A number that differs by this part, with the digits that show it and two more.
 std::string number_text(double value, double relative) {
     constexpr double fewest = 6.0;
@@ -80,7 +106,9 @@ std::vector<ResultDifference> differences(const JsonValues& first, const JsonVal
             continue;
         }
         const auto relative = relative_difference(value, other->second);
-        if (other->second == value || relative.value_or(2.0) <= tolerance)
+        const bool is_sentence = value.is_string() && other->second.is_string();
+        if (other->second == value || relative.value_or(2.0) <= tolerance ||
+            (tolerance > 0.0 && is_sentence && same_sentence(value, other->second, tolerance)))
             ++equal;
         else
             found.push_back({what, text(value, relative), text(other->second, relative), relative});

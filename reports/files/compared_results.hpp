@@ -25,8 +25,8 @@ struct ComparedResults {
 
 /// Compares two files that `tvbeam run --json` or `--out` has written, or the directories that hold
 /// a result.json. Found numbers that differ by a part of at most `tolerance` of the greater are the
-/// same. Not compared: run times, where the results come from, and how many runs were found again.
-/// Throws InputError where one is not such a file.
+/// same, those in sentences too. Not compared: run times, where the results come from, and how many
+/// runs were found again. Throws InputError where one is not such a file.
 ComparedResults compare_results(const std::string& first, const std::string& second,
                                 double tolerance = 0.0);
 

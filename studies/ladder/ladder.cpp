@@ -142,9 +142,10 @@ LadderResult analyse_ladder(const LadderBlock& block, const Method& method,
         auto roots = root_records_of(remarked, k, norm);
         std::erase_if(roots, [](const Refinement& record) { return !record.is_resolved(); });
         LadderNorm& shown = result.norms.back();
+        auto remark = solver.remark ? solver.remark(series, result.rungs, k) : "";
         if (!norm.is_value)
             shown.remarks = order_remarks(norm, roots, fit != nullptr ? &fit->model : nullptr,
-                                          solver.has_defect);
+                                          solver.has_defect || !remark.empty());
         if (result.analysis) {
             const ColumnAnalysis& column = result.analysis->columns[k];
             if (norm.is_value)
@@ -155,8 +156,7 @@ LadderResult analyse_ladder(const LadderBlock& block, const Method& method,
             if (fit == nullptr && !norm.is_value && !column.verdicts.empty())
                 shown.verdicts = column.verdicts;
         }
-        if (auto remark = solver.remark ? solver.remark(series, result.rungs, k) : "";
-            !remark.empty())
+        if (!remark.empty())
             shown.remarks.push_back(std::move(remark));
         if (auto exact = solver.exact ? solver.exact(series, result.rungs, k) : ""; !exact.empty())
             shown.remarks = {std::move(exact)};

@@ -9,12 +9,13 @@ namespace tvbeam {
 
 namespace {
 
-PublishedFigures read_printed(TableReader table, const LadderBlock& ladder,
+PublishedFigures read_printed(TableReader table, const LadderBlock& ladder, const Place& norms,
                               const SolverKeys& keys) {
     PublishedFigures printed;
     printed.source = table.text("source").value_or("published");
     printed.figures = read_by_measure(
-        table, keys, ladder.norms, [&](const std::string& name, const std::vector<double>& list) {
+        table, keys, ladder.norms, norms,
+        [&](const std::string& name, const std::vector<double>& list) {
             if (list.size() != ladder.rungs.size())
                 throw table.error(name, " has " + std::to_string(list.size()) +
                                             (list.size() == 1 ? " value for " : " values for ") +
@@ -60,7 +61,7 @@ LadderBlock read_ladder(TableReader& table, const SolverKeys& keys) {
     ladder.norms = read_norms(table, keys);
     read_values(table, keys, ladder.norms);
     if (auto printed = table.table("printed"))
-        ladder.printed = read_printed(*std::move(printed), ladder, keys);
+        ladder.printed = read_printed(*std::move(printed), ladder, table.place("norms"), keys);
     read_refining(table, ladder);
     ladder.says_orders = keys.any_widths || ladder.until;
     table.finish();

@@ -50,6 +50,38 @@ struct Sequence {
     std::vector<Observed>::const_iterator first, leaves, end;
 };
 
+/// Orders along a ladder exist only where every step refines by the same ratio, in both widths.
+bool refines_evenly(std::span<const Refinement> roots) {
+    const auto evenly = [&](double Refinement::*width) {
+        const double first = roots[0].*width / roots[1].*width;
+        for (std::size_t i = 2; i < roots.size(); ++i)
+            // What the records lack does not change.
+            if (std::abs(roots[i - 1].*width / roots[i].*width / first - 1.0) > 0.01)
+                return false;
+        return true;
+    };
+    return refinement_ratio(roots[0], roots[1]) && evenly(&Refinement::h) &&
+           evenly(&Refinement::dt);
+}
+
+/// Whether the order of dt in h, from level to level, is another: an order along such a ladder is
+/// that of no refinement.
+bool changes_proportions(std::span<const Refinement> roots) {
+    std::optional<double> first;
+    for (std::size_t i = 1; i < roots.size(); ++i) {
+        const double in_h = std::log(roots[i - 1].h / roots[i].h);
+        const double in_dt = std::log(roots[i - 1].dt / roots[i].dt);
+        if (!std::isfinite(in_h) || !std::isfinite(in_dt))
+            return false; // one width alone
+        const double proportion = in_h == 0.0 ? 1e9 : in_dt / in_h;
+        if (!first)
+            first = proportion;
+        else if (std::abs(proportion - *first) > 0.05 * (1.0 + std::abs(*first)))
+            return true;
+    }
+    return false;
+}
+
 /// A dip of the error: its order is above a level into it, and below that out of it.
 bool dips(const Sequence& orders, double level) {
     const auto into = std::find_if(orders.first, orders.end, [&](const Observed& seen) {
@@ -88,16 +120,21 @@ std::string departure(const Measure& norm, std::span<const Refinement> roots,
         return text + ".";
     if (std::abs(last.order) < steady && std::abs((orders.end - 2)->order) < steady)
         return text + ": the error hardly shrinks any more.";
-    const bool settles = orders.end - orders.leaves >= 2 && last.order > 0.0 &&
-                         std::abs(last.order - (orders.end - 2)->order) <= steady;
+    const double last_step = std::abs(last.order - (orders.end - 2)->order);
+    const bool settles = orders.end - orders.leaves >= 2 && last.order > 0.0 && last_step <= steady;
+    if (changes_proportions(roots))
+        return text + ", on a ladder that refines h and dt in proportions that change.";
     if (dips(orders, settles ? last.order : before))
         return text + ", as where two terms of the error cancel.";
-    if (settles && std::abs(last.order - extreme.order) <= steady)
-        return text +
-               (rises ? ", where the last two orders agree, as where coarse levels do not show it."
-                      : ", as where a term of lower order takes over.");
-    return text + (settles ? "; the last two orders agree, but why the others differ is not known."
-                           : "; it has not settled, and why is not known.");
+    const double step_before = std::abs((orders.end - 2)->order - (orders.end - 3)->order);
+    const bool slows = last_step <= 0.02 || last_step <= 0.7 * step_before;
+    if (settles && rises && slows && std::abs(last.order - extreme.order) <= steady)
+        return text + ", where the last two orders agree, as where coarse levels do not show it.";
+    if (settles && !rises && last.order <= extreme.order + 0.02)
+        return text + ", as where a term of lower order takes over.";
+    return text + (settles && slows
+                       ? "; the last two orders agree, but why the others differ is not known."
+                       : "; it has not settled, and why is not known.");
 }
 
 /// What the orders do. Why they do it is guessed where no model says it.
@@ -117,20 +154,6 @@ std::string from_pairs(const Measure& norm, std::span<const Refinement> roots,
     if (leaves == known.end())
         return text + ".";
     return text + departure(norm, roots, {known.begin(), leaves, known.end()}, explained);
-}
-
-/// Orders along a ladder exist only where every step refines by the same ratio, in both widths.
-bool refines_evenly(std::span<const Refinement> roots) {
-    const auto evenly = [&](double Refinement::*width) {
-        const double first = roots[0].*width / roots[1].*width;
-        for (std::size_t i = 2; i < roots.size(); ++i)
-            // What the records lack does not change.
-            if (std::abs(roots[i - 1].*width / roots[i].*width / first - 1.0) > 0.01)
-                return false;
-        return true;
-    };
-    return refinement_ratio(roots[0], roots[1]) && evenly(&Refinement::h) &&
-           evenly(&Refinement::dt);
 }
 
 /// Of a ladder that refines one width alone: what the error of the other one, which stays, comes
@@ -221,7 +244,7 @@ std::string from_model(const Measure& norm, std::span<const Refinement> roots,
 } // namespace
 
 std::vector<std::string> order_remarks(const Measure& norm, std::span<const Refinement> roots,
-                                       const TwoTermModel* model, bool has_defect) {
+                                       const TwoTermModel* model, bool is_explained) {
     const auto orders = observed_orders(roots);
     std::vector<Observed> known;
     for (std::size_t i = 0; i < orders.size(); ++i)
@@ -232,7 +255,7 @@ std::vector<std::string> order_remarks(const Measure& norm, std::span<const Refi
     const std::string why = model != nullptr ? from_model(norm, roots, *model) : "";
     // Orders of steps that are uneven are as uneven, and no news beside a model.
     const bool explained =
-        has_defect || !why.empty() || (model != nullptr && !refines_evenly(roots));
+        is_explained || !why.empty() || (model != nullptr && !refines_evenly(roots));
     std::vector<std::string> remarks{from_pairs(norm, roots, known, explained)};
     if (!why.empty())
         remarks.push_back(why);

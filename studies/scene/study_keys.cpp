@@ -174,6 +174,7 @@ void read_values(TableReader& table, const SolverKeys& keys, std::vector<Measure
 
 std::map<std::string, std::vector<double>> read_by_measure(
     TableReader& table, const SolverKeys& keys, const std::vector<Measure>& wanted,
+    const Place& norms,
     const std::function<void(const std::string& name, const std::vector<double>&)>& check) {
     std::map<std::string, std::vector<double>> lists;
     auto known = keys.measures;
@@ -190,7 +191,8 @@ std::map<std::string, std::vector<double>> read_by_measure(
                 unwanted = measure.name;
         }
     table.finish();
-    if (lists.empty() && !unwanted.empty())
+    const bool are_norms_of_the_file = !norms.file.starts_with("--set ");
+    if (lists.empty() && !unwanted.empty() && are_norms_of_the_file)
         throw table.error(unwanted, " is not among the norms, and neither is another of " +
                                         table.full("") +
                                         ": none of it would be shown; name it in "

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "mms/text/input_error.hpp"
 #include "studies/runs/run.hpp"
 
 #include <cstddef>
@@ -55,9 +56,11 @@ void read_values(TableReader& table, const SolverKeys& keys, std::vector<Measure
 
 /// A list of numbers for each measure that the table names. Lists may stand there for measures that
 /// are not wanted, e.g. after --set ladder.norms=…; `check` is told of every list, and those of the
-/// others are dropped. Throws InputError where that leaves none.
+/// others are dropped. Throws InputError where that leaves none and the norms, which stand
+/// at that place, are those of the file.
 std::map<std::string, std::vector<double>> read_by_measure(
     TableReader& table, const SolverKeys& keys, const std::vector<Measure>& wanted,
+    const Place& norms,
     const std::function<void(const std::string& name, const std::vector<double>&)>& check);
 
 } // namespace tvbeam

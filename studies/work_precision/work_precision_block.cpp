@@ -57,10 +57,12 @@ std::vector<TimedScheme> read_schemes(TableReader& block, double final_time,
     return schemes;
 }
 
-std::map<std::string, std::vector<double>>
-read_targets(TableReader table, const std::vector<Measure>& norms, const SolverKeys& keys) {
+std::map<std::string, std::vector<double>> read_targets(TableReader table,
+                                                        const std::vector<Measure>& norms,
+                                                        const Place& place,
+                                                        const SolverKeys& keys) {
     return read_by_measure(
-        table, keys, norms, [&](const std::string& name, const std::vector<double>& errors) {
+        table, keys, norms, place, [&](const std::string& name, const std::vector<double>& errors) {
             for (std::size_t i = 0; i < errors.size(); ++i)
                 if (!(errors[i] > 0.0))
                     throw table.error(
@@ -84,7 +86,7 @@ WorkPrecisionBlock read_work_precision(TableReader& table, const SolverKeys& key
                                       std::to_string(most_timed_runs));
     block.runs = static_cast<int>(runs);
     if (auto targets = table.table("targets"))
-        block.targets = read_targets(*std::move(targets), block.norms, keys);
+        block.targets = read_targets(*std::move(targets), block.norms, table.place("norms"), keys);
     block.schemes = read_schemes(table, block.final_time, keys);
     table.finish();
     return block;
