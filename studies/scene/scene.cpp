@@ -74,11 +74,12 @@ void check_meshes(const Scene& scene, const TableReader& root) {
     // Of graded meshes the finest has the greatest factor, of the others all have the same.
     const auto lengths = scene.mesh.with(finest).lengths;
     if (!(lengths.minCoeff() >= least_ratio * lengths.maxCoeff()))
-        throw InputError(root.place("mesh"),
-                         "with " + std::to_string(finest) + " elements the shortest is " +
-                             message_text(lengths.minCoeff()) + " and the longest " +
-                             message_text(lengths.maxCoeff()) +
-                             "; they must be within a factor of 1e8: grade less");
+        throw InputError(
+            root.place("mesh"),
+            "with " + std::to_string(finest) + " elements the shortest is " +
+                message_text(lengths.minCoeff()) + " and the longest " +
+                message_text(lengths.maxCoeff()) + "; they must be within a factor of 1e8: " +
+                (intervals > 0 ? "give mesh.nodes that are further apart" : "grade less"));
 }
 
 std::string json_of(const toml::table& table) {

@@ -198,7 +198,9 @@ Entries of_other_studies() {
         {"evolution.elements", KeyType::integer, required, "of its mesh"},
         {"evolution.dt", KeyType::number, required, "its time step"},
         {"evolution.probes", KeyType::texts, required,
-         "what is looked at: theta@X and u@X with X from 0 to 1, stress, energy"},
+         "what is looked at: theta@X and u@X with X from 0 to 1, stress, energy, which is half of "
+         "the "
+         "integrals of (theta - theta_A*(1 - x))^2 and u_xx^2"},
         {"evolution.every", KeyType::integer, "1", "steps from one sample to the next"},
         {"evolution.period", KeyType::number, "none",
          "compare each period of this length with that before it"},
