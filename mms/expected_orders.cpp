@@ -27,6 +27,7 @@ using GiNaC::ex;
 namespace {
 
 constexpr double jump_tolerance = 1e-9; ///< relative to what jumps
+constexpr double least_jump = 1e-3;     ///< within a phase, relative likewise
 
 bool in_all(const DerivedSolution& derived, const auto& holds) {
     return std::all_of(derived.derived.begin(), derived.derived.end(), holds);
@@ -62,7 +63,22 @@ std::vector<Switch> switches(const DerivedSolution& derived, double final_time) 
                  sample_points(phase.begin_value, std::min(phase.end_value, final_time)))
                 sizes = sizes.max(tape.at(x, t).abs().rowwise().maxCoeff());
     std::vector<Switch> result;
+    const auto at_one_place = [&](const ArrayXd& s) {
+        Eigen::ArrayXXd values(2, s.size());
+        for (Eigen::Index n = 0; n < s.size(); ++n)
+            values.col(n) = tape.at(ArrayXd::Constant(1, 0.4321), s(n));
+        return values;
+    };
     for (const PhaseExpressions& phase : derived.phases) {
+        if (!(phase.begin_value < final_time))
+            break;
+        const double end = std::min(phase.end_value, final_time);
+        // At its begin the phase before it holds.
+        const double begin = phase.begin_value + 1e-9 * (end - phase.begin_value);
+        if (const auto jump = find_jump(at_one_place, uneven_grid(begin, end), least_jump)) {
+            const double size = std::abs(jump->size);
+            result.push_back({jump->at, jump->row == 0 ? size : 0.0, jump->row == 1 ? size : 0.0});
+        }
         if (!(phase.end_value < final_time))
             break;
         const Eigen::ArrayXXd before = tape.at(x, phase.end_value);
@@ -269,7 +285,6 @@ private:
 
 /// A jump within a phase, where a formula has one: sqrt((x - a)^2).
 std::optional<Kink> kink_in(const DerivedSolution& derived, double final_time) {
-    constexpr double least_jump = 1e-6;
     for (std::size_t i = 0; i < derived.phases.size(); ++i) {
         const PhaseExpressions& phase = derived.phases[i];
         if (phase.begin_value >= final_time)

@@ -10,8 +10,9 @@
 
 namespace tvbeam {
 
-/// A time at which a solution passes from one formula to the next, and by how much what the schemes
-/// difference jumps there; a jump that is 1e-9 of the largest size of what jumps is none.
+/// A time at which a solution passes from one formula to the next, or at which the rates of one
+/// jump, and by how much what the schemes difference jumps there; a jump that is 1e-9 of the
+/// largest size of what jumps is none.
 struct Switch {
     double t = 0.0;
     double theta_t_jump = 0.0; ///< largest over x

@@ -171,7 +171,7 @@ void require_clamped(const ex& u, const ex& u_x, const SourceText& source) {
 
 /// Where the slope jumps, the formula of u0'' lacks a delta function.
 void require_no_kink(const ex& u, const ex& u_x, const SourceText& source) {
-    constexpr double least_jump = 1e-6;
+    constexpr double least_jump = 1e-3;
     const Tape tape = located(source, "u0", [&] { return compile_tape({u, u_x}); });
     const auto in_x = [&](const ArrayXd& x) { return tape.evaluate(x, ArrayXd::Zero(1)); };
     if (const auto jump = find_jump(in_x, uneven_grid(0.0, 1.0), least_jump))

@@ -95,18 +95,23 @@ std::optional<Jump> find_jump(const FunctionRows& functions, const ArrayXd& grid
     here.middle = functions(here.centre());
     while (true) {
         const double width = here.end(0) - here.begin(0);
+        const ArrayXd centre = here.centre();
         const ArrayXXd distance =
             here.distance().colwise() / least.max(std::numeric_limits<double>::min());
         std::vector<std::pair<double, Index>> kept;
         for (Index k = 0; k < here.size(); ++k) {
             const bool is_finite = distance.col(k).isFinite().all();
-            if (width <= narrowest * length || !is_finite)
+            // Late in time the doubles may be no nearer to each other.
+            const bool is_last = width <= narrowest * length || !(here.begin(k) < centre(k)) ||
+                                 !(centre(k) < here.end(k));
+            if (is_last || !is_finite)
                 if (const auto jump = jump_in(here, k, functions, length, least))
                     return jump;
-            if (const double greatest = distance.col(k).maxCoeff(); is_finite && greatest > 1.0)
+            if (const double greatest = distance.col(k).maxCoeff();
+                is_finite && !is_last && greatest > 1.0)
                 kept.emplace_back(-greatest, k);
         }
-        if (kept.empty() || width <= narrowest * length)
+        if (kept.empty())
             return std::nullopt;
         std::sort(kept.begin(), kept.end());
         std::vector<Index> first;

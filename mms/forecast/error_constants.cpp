@@ -217,6 +217,8 @@ std::string why_not(const ExpectedOrders& expected, const DerivedSolution& deriv
         return words_of(*expected.kink);
     if (derived.phases.front().end_value < final_time)
         return "a phase ends at t = " + number_text(derived.phases.front().end_value);
+    if (!expected.switches.empty())
+        return "theta_t or u_xxt jumps at t = " + number_text(expected.switches.front().t);
     if (time_scheme == "bdf2" && expected.is_quadratic)
         return "theta and u_xx are quadratic in t: BDF2 has the error of its first step alone";
     if (time_scheme == "sdirk2" && beam.zeta == 0.0)

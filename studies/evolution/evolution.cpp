@@ -24,13 +24,10 @@ std::optional<std::size_t> extreme(const std::vector<double>& values, const Befo
         if (!std::isnan(values[i]) && (!best || before(values[i], values[*best])))
             best = i;
     constexpr double round_off = 1e-12;
-    double size = 0.0;
-    for (const double value : values)
-        size = std::max(size, std::isnan(value) ? 0.0 : std::abs(value));
-    if (!best || std::isinf(size))
+    if (!best || std::isinf(values[*best]))
         return best;
     const auto first = std::find_if(values.begin(), values.end(), [&](double value) {
-        return std::abs(value - values[*best]) <= round_off * size;
+        return std::abs(value - values[*best]) <= round_off * std::abs(values[*best]);
     });
     return static_cast<std::size_t>(first - values.begin());
 }

@@ -129,7 +129,7 @@ std::string departure(const Measure& norm, std::span<const Refinement> roots,
     const double step_before = orders.end - orders.first < 3
                                    ? 0.0
                                    : std::abs((orders.end - 2)->order - (orders.end - 3)->order);
-    const bool slows = last_step <= 0.02 || last_step <= 0.7 * step_before;
+    const bool slows = last_step <= 0.02 || (last_step <= 0.06 && last_step <= 0.7 * step_before);
     if (settles && rises && slows && std::abs(last.order - extreme.order) <= steady)
         return text + ", where the last two orders agree, as where coarse levels do not show it.";
     if (settles && !rises && last.order <= extreme.order + 0.02)

@@ -368,7 +368,7 @@ LimitEstimate estimate_limit(std::span<const ValueRow> rows, const LimitTuning& 
     if (const auto mean = mean_of(limits, tuning.agreement * last_step + unknown)) {
         const double half = std::max(
             scale * (factor * mean->spread + tuning.narrowest * std::abs(mean->value) + unknown),
-            given.back().unit / 2);
+            std::max(given.back().unit / 2, is_scattered ? scale * scatter : 0.0));
         const double limit = origin + scale * mean->value;
         result.limit = {.value = limit,
                         .low = limit - half,

@@ -79,6 +79,17 @@ BOOST_AUTO_TEST_CASE(what_is_steep_or_fast_but_continuous_has_no_jump) {
         BOOST_TEST(!jump_of([&](const ArrayXd& s) -> ArrayXd { return (n * s).sin(); }), n);
 }
 
+BOOST_AUTO_TEST_CASE(where_doubles_lie_far_apart_the_search_ends) {
+    for (const double begin : {3600.0, 86400.0, 1e6, 1e6 + 1e-9})
+        for (const double length : {1e-5, 3e-5, 1e-4}) {
+            const auto fast = [&](const ArrayXd& t) -> ArrayXXd {
+                return (100.0 * (t - begin) / length).cos().transpose();
+            };
+            static_cast<void>(find_jump(fast, uneven_grid(begin, begin + length), 1e-6));
+        }
+    BOOST_TEST(true);
+}
+
 BOOST_AUTO_TEST_CASE(of_several_functions_the_one_that_jumps_most_is_named) {
     const auto rows = [](const ArrayXd& s) -> ArrayXXd {
         ArrayXXd values(3, s.size());
