@@ -179,6 +179,17 @@ bool alternates(const Rows& levels) {
     return step(1) * step(2) < 0 && (n < 4 || step(2) * step(3) < 0);
 }
 
+/// Whether the ratios of the steps rise and fall, as those of values that scatter do; of a smooth
+/// sequence they go one way. Two show nothing.
+bool is_erratic(const Rows& levels) {
+    std::vector<double> ratios;
+    for (std::size_t i = 2; i < levels.size(); ++i)
+        ratios.push_back((levels[i].value - levels[i - 1].value) /
+                         (levels[i - 1].value - levels[i - 2].value));
+    return ratios.size() >= 3 && (!std::is_sorted(ratios.begin(), ratios.end()) &&
+                                  !std::is_sorted(ratios.rbegin(), ratios.rend()));
+}
+
 /// Is the finest step more than what the known deviations make of no step at all?
 bool is_significant(const Rows& levels) {
     constexpr double deviations = 3;
@@ -360,15 +371,16 @@ LimitEstimate estimate_limit(std::span<const ValueRow> rows, const LimitTuning& 
     const auto spare = static_cast<double>(levels.size()) - 2;
     const double scatter = scatter_of(levels);
     const bool is_scattered = last_step < tuning.exact_steps * scatter;
-    const double factor = (is_scattered ? tuning.scattered : tuning.factor) *
-                          (1 + tuning.few_levels / (spare * spare));
+    const bool is_wider = is_scattered && is_erratic(levels);
+    const double factor =
+        (is_wider ? tuning.scattered : tuning.factor) * (1 + tuning.few_levels / (spare * spare));
     // What the doubles of the values do not know, in units of the scale.
     const double unknown =
         std::max(rounding / scale, roundings * std::numeric_limits<double>::epsilon());
     if (const auto mean = mean_of(limits, tuning.agreement * last_step + unknown)) {
         const double half = std::max(
             scale * (factor * mean->spread + tuning.narrowest * std::abs(mean->value) + unknown),
-            std::max(given.back().unit / 2, is_scattered ? scale * scatter : 0.0));
+            std::max(given.back().unit / 2, is_wider ? scale * scatter : 0.0));
         const double limit = origin + scale * mean->value;
         result.limit = {.value = limit,
                         .low = limit - half,

@@ -15,8 +15,8 @@
 /// rounding to the digits printed, where the finest step is so few of their units that it counts.
 ///
 /// Where the finest step is no more than so many deviations from the best model, the values
-/// scatter: the interval is wider then, and an order is determined where it is with that scatter,
-/// too.
+/// scatter: an order is determined where it is with that scatter, too, and the interval is wider
+/// where their steps are erratic.
 ///
 /// The limit is the mean with weights 1 / u_m², its interval their spread, as in order_engine.hpp.
 #pragma once
