@@ -174,7 +174,8 @@ void require_no_kink(const ex& u, const ex& u_x, const SourceText& source) {
     constexpr double least_jump = 1e-3;
     const Tape tape = located(source, "u0", [&] { return compile_tape({u, u_x}); });
     const auto in_x = [&](const ArrayXd& x) { return tape.evaluate(x, ArrayXd::Zero(1)); };
-    if (const auto jump = find_jump(in_x, uneven_grid(0.0, 1.0), least_jump))
+    const auto exactly = [&](const ArrayXd& x) { return tape.evaluate_wide(x, ArrayXd::Zero(1)); };
+    if (const auto jump = find_jump(in_x, exactly, uneven_grid(0.0, 1.0), least_jump))
         throw InputError(source.begin(),
                          std::string(jump->row == 0 ? "u0" : "the slope of u0") + " jumps by " +
                              number_text(jump->size) + " at x = " + number_text(jump->at) +

@@ -163,7 +163,11 @@ private:
                 const auto in_space = [&](const ArrayXd& x) -> Eigen::ArrayXXd {
                     return tape.evaluate(x, t)(in_x, Eigen::all);
                 };
-                if (const auto jump = find_jump(in_space, uneven_grid(0.0, 1.0), least_jump))
+                const auto exactly = [&](const ArrayXd& x) -> Eigen::ArrayXXd {
+                    return tape.evaluate_wide(x, t)(in_x, Eigen::all);
+                };
+                if (const auto jump =
+                        find_jump(in_space, exactly, uneven_grid(0.0, 1.0), least_jump))
                     refuse(in_x.at(static_cast<std::size_t>(jump->row)), jump->size, jump->at, t(0),
                            "derivative in x");
             }
@@ -171,7 +175,10 @@ private:
             const auto in_time = [&](const ArrayXd& s) -> Eigen::ArrayXXd {
                 return tape.evaluate(x, s)(in_t, Eigen::all);
             };
-            if (const auto jump = find_jump(in_time, uneven_grid(begin, end), least_jump))
+            const auto exactly = [&](const ArrayXd& s) -> Eigen::ArrayXXd {
+                return tape.evaluate_wide(x, s)(in_t, Eigen::all);
+            };
+            if (const auto jump = find_jump(in_time, exactly, uneven_grid(begin, end), least_jump))
                 refuse(in_t.at(static_cast<std::size_t>(jump->row)), jump->size, part, jump->at,
                        "rate");
         }

@@ -121,4 +121,10 @@ std::optional<Jump> find_jump(const FunctionRows& functions, const ArrayXd& grid
     }
 }
 
+std::optional<Jump> find_jump(const FunctionRows& functions, const FunctionRows& exactly,
+                              const ArrayXd& grid, double least_distance) {
+    return find_jump(functions, grid, least_distance) ? find_jump(exactly, grid, least_distance)
+                                                      : std::nullopt;
+}
+
 } // namespace tvbeam

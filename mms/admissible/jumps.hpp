@@ -29,4 +29,9 @@ Eigen::ArrayXd uneven_grid(double begin, double end);
 std::optional<Jump> find_jump(const FunctionRows& functions, const Eigen::ArrayXd& grid,
                               double least_distance);
 
+/// A jump that is one of `exactly`, too, which has more digits: no step of rounding, where large
+/// terms cancel.
+std::optional<Jump> find_jump(const FunctionRows& functions, const FunctionRows& exactly,
+                              const Eigen::ArrayXd& grid, double least_distance);
+
 } // namespace tvbeam

@@ -124,13 +124,27 @@ void Tape::run(const Instruction& instruction, Registers<Real>& registers, Eigen
     }
 }
 
-Eigen::ArrayXXd Tape::evaluate(const Eigen::ArrayXd& x, const Eigen::ArrayXd& t) const {
+namespace {
+
+/// One x or one t at no points gives no values.
+Eigen::Index points_of(const Eigen::ArrayXd& x, const Eigen::ArrayXd& t) {
     if (x.size() != t.size() && x.size() != 1 && t.size() != 1)
         throw std::invalid_argument(
             "Tape::evaluate: x and t must have one size, or one of them size 1");
-    // One x or one t at no points gives no values.
-    const Eigen::Index points =
-        std::min(x.size(), t.size()) == 0 ? 0 : std::max(x.size(), t.size());
+    return std::min(x.size(), t.size()) == 0 ? 0 : std::max(x.size(), t.size());
+}
+
+} // namespace
+
+Eigen::ArrayXXd Tape::evaluate_wide(const Eigen::ArrayXd& x, const Eigen::ArrayXd& t) const {
+    Eigen::ArrayXXd values(output_count(), points_of(x, t));
+    if (values.cols() > 0)
+        evaluate_in<long double>(x, t, values);
+    return values;
+}
+
+Eigen::ArrayXXd Tape::evaluate(const Eigen::ArrayXd& x, const Eigen::ArrayXd& t) const {
+    const Eigen::Index points = points_of(x, t);
     Eigen::ArrayXXd values(output_count(), points);
     if (points > 0 && wide_)
         evaluate_in<long double>(x, t, values);
