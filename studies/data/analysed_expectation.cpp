@@ -29,6 +29,7 @@ DataChoice read_choice(TableReader& table) {
     choice.errors = table.texts("error").value_or(choice.errors);
     choice.values = table.texts("value").value_or(choice.values);
     choice.sigma = table.text("sigma");
+    choice.where = table.texts("where").value_or(choice.where);
     return choice;
 }
 

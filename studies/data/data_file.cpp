@@ -4,6 +4,7 @@
 #include "mms/text/input_error.hpp"
 #include "studies/data/data_columns.hpp"
 #include "studies/data/printed_digits.hpp"
+#include "studies/data/row_factors.hpp"
 #include "studies/orders/observed_order.hpp"
 #include "studies/text/number_text.hpp"
 
@@ -322,7 +323,10 @@ DataFile read_data(const std::string& file, const DataChoice& choice) {
                          "is empty; its first line must name the columns, e.g. h,dt,error");
     Lines lines(data.name, text);
     const Head head = head_of(lines);
-    std::vector<ColumnUse> uses = choose_columns({head.names, head.place}, choice, data);
+    const ColumnNames names{head.names, head.place};
+    std::vector<ColumnUse> uses = choose_columns(names, choice, data);
+    auto conditions = conditions_of(names, choice.where);
+    auto unread = unread_columns(names, uses, conditions);
     std::vector<TextField> fields;
     for (bool more = head.numbers_follow || lines.next(); more; more = lines.next()) {
         const auto line = trimmed(lines.line());
@@ -334,11 +338,23 @@ DataFile read_data(const std::string& file, const DataChoice& choice) {
                                                  (fields.size() == 1 ? " field" : " fields") +
                                                  "; the columns are " +
                                                  std::to_string(head.names.size()));
+        // All of them: each remembers what it has seen.
+        const bool is_chosen = std::ranges::count_if(conditions, [&](RowCondition& condition) {
+                                   return condition.holds_for(fields[condition.column].text);
+                               }) == std::ssize(conditions);
+        if (!is_chosen)
+            continue;
         read_record(lines, fields, head, uses);
+        for (auto& column : unread) {
+            const auto text = fields[column.column].text;
+            column.texts.push_back(text);
+            column.is_number =
+                column.is_number && (is_missing(text) || number_of(text, head.separator));
+        }
     }
-    if (data.widths.front().numbers.empty())
-        throw InputError({data.name}, "has no records below its line of names");
+    require_records(data, head.place, conditions);
     take_whole_sizes_for_counts(choice, data);
+    require_one_series(data, head.place, unread);
     require_squares_of(data);
     for (const auto& use : uses)
         if (use.is_figure())

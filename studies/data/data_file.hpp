@@ -24,6 +24,9 @@ struct DataChoice {
     std::vector<std::string> errors = {};
     std::vector<std::string> values = {};
     std::optional<std::string> sigma = {}; ///< standard deviations of the figures
+    /// COLUMN=TEXT: only rows whose column has this text, or is the same number; COLUMN=*: rows
+    /// that the column tells apart are of one series all the same.
+    std::vector<std::string> where = {};
 };
 
 struct DataColumn {

@@ -520,6 +520,9 @@ Entries of_what_is_analysed() {
          "columns of computed numbers whose limit is not known"},
         {"expect.analyse.sigma", KeyType::text, "not known",
          "the column of standard deviations of the figures"},
+        {"expect.analyse.where", KeyType::texts, "all rows",
+         "only rows whose column has this text or number: \"scheme=Euler\"; \"seed=*\": rows "
+         "that the column tells apart are one series"},
         {"expect.analyse.holds", KeyType::text, required,
          "what is expected of the columns, as `tvbeam analyse --expect` takes it: \"L2.order = "
          "[1.9, 2.1]\""},

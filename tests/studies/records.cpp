@@ -14,7 +14,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
 #include <ostream>
+#include <random>
+#include <sstream>
+#include <utility>
 
 using namespace tvbeam;
 
@@ -176,6 +180,18 @@ const std::vector<Malformed> malformed{
      {.errors = {"L2", "H1"}, .sigma = "sd"}},
     {"elements,error\n0.1,1\n", "e.csv:2:1: '0.1' in column elements counts nothing"},
     {"steps,error\n0.1,1\n", "e.csv:2:1: '0.1' in column steps counts nothing", {.step = "steps"}},
+    {"scheme,h,error\nA,0.2,1\nA,0.1,0.5\nB,0.2,1\nB,0.1,0.25\n",
+     "e.csv:1:1: has rows of several series: column scheme tells 'A' from 'B' at widths alike. "
+     "Take one with --where 'scheme=A', or all together with --where 'scheme=*'"},
+    {"h,error\n0.2,1\n", "e.csv:1:1: cannot be asked for rows where 'h'", {.where = {"h"}}},
+    {"h,error\n0.2,1\n", "e.csv:1:1: cannot be asked for rows where '=1'", {.where = {"=1"}}},
+    {"h,error\n0.2,1\n", "e.csv:1:1: no column 'scheme'", {.where = {"scheme=A"}}},
+    {"scheme,h,error\nA,0.2,1\nB,0.2,1\nA,0.1,2\nC,0.1,1\nD,0.1,1\n",
+     "e.csv:1:1: has no row where scheme = E; the column has A, B, C, …",
+     {.where = {"scheme=E"}}},
+    {"scheme,k,h,error\nA,1,0.2,1\nB,2,0.2,1\n",
+     "e.csv:1:1: has no row where scheme = A and k = 2; the columns have A, B and 1",
+     {.where = {"scheme=A", "k=2"}}},
     {"H,h1,error,Error,ERROR\n0.1,1,1,1,1\n",
      "e.csv:1:1: names the column eRROR twice",
      {.errors = {"eRROR"}}},
@@ -237,6 +253,64 @@ BOOST_AUTO_TEST_CASE(of_four_widths_at_a_time_no_order_is_told) {
     const auto analysis = analyse(data_of(text, {.sizes = {"a", "b", "c"}}));
     for (const auto& order : analysis.columns.front().by_width)
         BOOST_TEST(order.status == "of more than three widths at a time no orders are found");
+}
+
+namespace {
+
+/// A table of two series of four levels, e = h and e = h², told apart by a column that has `first`
+/// in rows of one and `second` in those of the other.
+std::string two_series(const std::string& column, const std::string& first,
+                       const std::string& second, double finer = 1.0) {
+    std::string text = column + ",h,error\n";
+    for (const double h : {0.2, 0.1, 0.05, 0.025})
+        text += first + "," + std::to_string(h) + "," + std::to_string(h) + "\n" + second + "," +
+                std::to_string(h * finer) + "," + std::to_string(h * finer * h * finer) + "\n";
+    return text;
+}
+
+} // namespace
+
+BOOST_AUTO_TEST_CASE(rows_of_two_series_are_refused_and_either_is_taken_by_its_text_or_number) {
+    struct Factor {
+        std::string column, first, second, asked;
+        double finer = 1.0;
+    };
+    for (const auto& factor : {Factor{"scheme", "Euler", "BDF2", "BDF2"},
+                               {"degree", "1", "2", "2.0"},
+                               {"t", "0.5", "1e0", "1"},
+                               {"scheme", "\"P1, lumped\"", "P2", "P2", 0.7},
+                               {"degree", "1", "2", "2", 1.4}}) {
+        const std::string text =
+            two_series(factor.column, factor.first, factor.second, factor.finer);
+        BOOST_TEST(message_of(text).starts_with("e.csv:1:1: has rows of several series: column " +
+                                                factor.column),
+                   message_of(text));
+        const auto chosen = analysis_of(text, {.where = {factor.column + "=" + factor.asked}});
+        BOOST_TEST(chosen.rows() == 4u);
+        const auto& interval = chosen.columns.at(0).by_width.at(0);
+        BOOST_TEST((interval.low <= 2.0 && 2.0 <= interval.high));
+        BOOST_TEST(chosen.remarks.at(0) ==
+                   "only rows where " + factor.column + " = " + factor.asked);
+        const auto together = analysis_of(text, {.where = {factor.column + "=*"}});
+        BOOST_TEST(together.rows() == 8u);
+        BOOST_TEST(together.remarks.at(0) ==
+                   "rows of every " + factor.column + " are taken together");
+    }
+}
+
+BOOST_AUTO_TEST_CASE(columns_that_tell_no_series_apart_are_passed_over) {
+    // Labels of replicates and what a run shows of itself; one row each; texts of one half of the
+    // widths and of the other; a value of fewer widths than a series of numbers has; rows that
+    // failed.
+    for (const char* name : {"seed", "Run", "iterations", "status"})
+        BOOST_TEST(data_of(two_series(name, "1", "2")).errors.at(0).numbers.size() == 8u, name);
+    for (const std::string text :
+         {"date,h,error\n1a,0.2,1\n1b,0.1,2\n1c,0.2,3\n1d,0.1,4\n",
+          "part,h,error\na,0.2,1\na,0.1,2\nb,0.1,3\nb,0.05,4\n",
+          "count,h,error\n1,0.2,1\n1,0.1,2\n2,0.2,3\n2,0.1,4\n",
+          "state,h,error\nok,0.2,1\nbad,0.2,\nok,0.1,3\nbad,0.1,nan\n",
+          "scheme,h,dt,error\nA,0.2,0.1,1\nA,0.1,0.1,2\nB,0.2,0.2,3\nB,0.1,0.2,4\n"})
+        BOOST_TEST(message_of(text) == "accepted", text);
 }
 
 BOOST_AUTO_TEST_CASE(a_doubled_quote_in_a_name_is_one) {
@@ -406,7 +480,67 @@ BOOST_AUTO_TEST_CASE(an_order_that_is_not_there_has_its_cause) {
     BOOST_TEST(cause("0.4,nan\n0.2,1\n") == "one width alone has a positive error");
     BOOST_TEST(cause("0.2,2\n0.2,1\n") == "one width alone has a positive error");
     BOOST_TEST(cause("0.4,4\n0.2,1\n").find("three widths") != std::string::npos);
-    BOOST_TEST(cause("0.4,1\n0.2,2\n0.1,4\n").find("grows") != std::string::npos);
+    BOOST_TEST(cause("0.4,1.00\n0.2,2.00\n0.1,4.00\n").find("grows") != std::string::npos);
+}
+
+namespace {
+
+/// A number in two digits, as tables print it.
+std::string two_digits(double number) {
+    std::ostringstream text;
+    text << std::scientific << std::setprecision(1) << number;
+    return text.str();
+}
+
+} // namespace
+
+// The error h^p (1 + D h) + b Δt^q (1 + E Δt), of signs alike, on grids of 3 to 5 by 3 to 5 widths.
+BOOST_AUTO_TEST_CASE(intervals_of_errors_in_two_digits_hold_the_orders) {
+    std::mt19937 generator(20261125);
+    const auto between = [&](double low, double high) {
+        return std::uniform_real_distribution<>(low, high)(generator);
+    };
+    int determined = 0;
+    int missed = 0;
+    for (int i = 0; i < 100; ++i) {
+        const double p = 1 + std::floor(between(0, 4));
+        const double q = 1 + std::floor(between(0, 2));
+        const double b = std::pow(10, between(-1, 1));
+        const double next_h = between(-0.5, 0.8);
+        const double next_dt = between(-0.5, 0.8);
+        const auto in_h = static_cast<int>(between(3, 6));
+        const auto in_dt = static_cast<int>(between(3, 6));
+        std::string text = "h,dt,error\n";
+        for (int k = 0; k < in_h * in_dt; ++k) {
+            const double h = std::exp2(-(k % in_h));
+            const double dt = std::exp2(-(k / in_h));
+            text += std::to_string(h) + "," + std::to_string(dt) + "," +
+                    two_digits(std::pow(h, p) * (1 + next_h * h) +
+                               b * std::pow(dt, q) * (1 + next_dt * dt)) +
+                    "\n";
+        }
+        const auto column = analysis_of(text).columns.at(0);
+        for (const auto& [order, is] :
+             {std::pair(p, &column.by_width.at(0)), {q, &column.by_width.at(1)}}) {
+            determined += is->determined ? 1 : 0;
+            missed += is->determined && !(is->low <= order && order <= is->high) ? 1 : 0;
+        }
+    }
+    BOOST_TEST(determined > 40);
+    BOOST_TEST(missed <= 0.05 * determined, missed << " of " << determined);
+}
+
+BOOST_AUTO_TEST_CASE(digits_count_from_where_an_order_shows_them) {
+    const auto half = [](const std::string& rows) {
+        const auto column = analysis_of("h,error\n" + rows).columns.at(0);
+        return std::pair(column.by_width.at(0).half_width(), column.findings.size());
+    };
+    const auto [of_two, said_of_two] = half("0.4,1.6e-1\n0.2,4.0e-2\n0.1,1.0e-2\n0.05,2.5e-3\n");
+    const auto [of_five, said_of_five] =
+        half("0.4,1.6000e-1\n0.2,4.0000e-2\n0.1,1.0000e-2\n0.05,2.5000e-3\n");
+    BOOST_TEST(of_two > 0.05);
+    BOOST_TEST(said_of_two == said_of_five + 1);
+    BOOST_TEST(of_five < 0.011);
 }
 
 // What is written shows the interval to two digits: half of it is then right to 5 %.

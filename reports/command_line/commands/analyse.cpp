@@ -104,6 +104,13 @@ void add_choice(CLI::App& analyse, DataChoice& choice) {
           "no errors");
     analyse.add_option("--sigma", choice.sigma, "the column of standard deviations of the figures")
         ->type_name("NAME");
+    analyse
+        .add_option("--where", choice.where,
+                    "only rows whose column has this text or number, e.g. scheme=Euler; NAME=*: "
+                    "rows that the column tells apart are one series. Repeatable")
+        ->expected(1)
+        ->take_all()
+        ->type_name("NAME=TEXT");
 }
 
 } // namespace

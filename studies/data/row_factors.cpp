@@ -1,0 +1,178 @@
+#include "studies/data/row_factors.hpp"
+
+#include <boost/algorithm/string/join.hpp>
+#include <boost/algorithm/string/predicate.hpp>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <set>
+
+namespace tvbeam {
+
+namespace {
+
+constexpr std::size_t most_texts_named = 3;
+
+std::optional<double> plain_number(std::string_view text) {
+    double number = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    const bool is_all = error == std::errc() && end == text.data() + text.size();
+    return is_all ? std::optional(number) : std::nullopt;
+}
+
+bool is_no_factor(const std::string& name) {
+    constexpr std::array names{// labels of replicates
+                               "seed", "run", "replicate", "repeat", "repetition", "sample",
+                               "trial", "realization", "realisation",
+                               // what a run shows of itself
+                               "seconds", "sec", "cpu", "wall", "walltime", "runtime", "elapsed",
+                               "iterations", "iter", "its", "niter", "order", "rate", "eoc",
+                               "ratio", "verdict", "status"};
+    return std::ranges::any_of(
+        names, [&](const char* one) { return boost::algorithm::iequals(one, name); });
+}
+
+/// The records of one value of a column.
+struct Group {
+    std::string_view text;
+    std::vector<std::size_t> records;
+    std::set<std::vector<double>> widths; ///< different ones
+};
+
+std::vector<double> widths_of(const DataFile& data, std::size_t record) {
+    std::vector<double> widths;
+    for (const auto& width : data.widths)
+        widths.push_back(width.numbers[record]);
+    return widths;
+}
+
+bool has_figure(const DataFile& data, std::size_t record) {
+    const auto is_finite = [&](const DataColumn& one) {
+        return std::isfinite(one.numbers[record]);
+    };
+    return std::ranges::any_of(data.errors, is_finite) ||
+           std::ranges::any_of(data.values, is_finite);
+}
+
+/// Those of as many different widths as a series has, in the order of their first records.
+std::vector<Group> series_by(const UnreadColumn& column, const DataFile& data) {
+    std::map<std::string_view, Group> groups;
+    for (std::size_t i = 0; i < column.texts.size(); ++i)
+        if (has_figure(data, i)) {
+            auto& group = groups[column.texts[i]];
+            group.text = column.texts[i];
+            group.records.push_back(i);
+            group.widths.insert(widths_of(data, i));
+        }
+    std::vector<Group> series;
+    for (auto& [text, group] : groups)
+        if (group.widths.size() >= (column.is_number ? 3U : 2U))
+            series.push_back(std::move(group));
+    std::ranges::sort(series, {}, [](const Group& group) { return group.records.front(); });
+    return series;
+}
+
+/// Whether each width of both takes values in a range of some length in common.
+bool overlap(const Group& a, const Group& b) {
+    for (std::size_t w = 0; w < a.widths.begin()->size(); ++w) {
+        const auto by_width = [&](const auto& one, const auto& other) { return one[w] < other[w]; };
+        const auto [a_least, a_most] = std::ranges::minmax_element(a.widths, by_width);
+        const auto [b_least, b_most] = std::ranges::minmax_element(b.widths, by_width);
+        const double least = std::max((*a_least)[w], (*b_least)[w]);
+        const double most = std::min((*a_most)[w], (*b_most)[w]);
+        const bool is_refined = (*a_least)[w] < (*a_most)[w] || (*b_least)[w] < (*b_most)[w];
+        if (is_refined ? !(least < most) : least != most)
+            return false;
+    }
+    return true;
+}
+
+std::string quoted(std::string_view text) {
+    return "'" + std::string(text.substr(0, 40)) + "'";
+}
+
+} // namespace
+
+bool RowCondition::holds_for(std::string_view field) {
+    if (seen.size() < most_texts_named && std::ranges::find(seen, field) == seen.end())
+        seen.emplace_back(field);
+    if (text == "*" || field == text)
+        return true;
+    const auto number = plain_number(field);
+    return number && number == plain_number(text);
+}
+
+std::vector<RowCondition> conditions_of(const ColumnNames& names,
+                                        const std::vector<std::string>& where) {
+    std::vector<RowCondition> conditions;
+    for (const auto& one : where) {
+        const auto equals = one.find('=');
+        if (equals == std::string::npos || equals == 0)
+            throw InputError(names.place, "cannot be asked for rows where '" + one +
+                                              "'; write it as COLUMN=TEXT, e.g. scheme=Euler");
+        const std::string name = one.substr(0, equals);
+        const auto column = names.need(name, "--where");
+        conditions.push_back({column, names.all[column], one.substr(equals + 1)});
+    }
+    return conditions;
+}
+
+void require_records(DataFile& data, const Place& names,
+                     const std::vector<RowCondition>& conditions) {
+    const bool has_none = data.widths.front().numbers.empty();
+    if (has_none && (conditions.empty() || conditions.front().seen.empty()))
+        throw InputError({data.name}, "has no records below its line of names");
+    std::vector<std::string> asked;
+    std::vector<std::string> there;
+    for (const auto& condition : conditions) {
+        asked.push_back(condition.name + " = " + condition.text);
+        there.push_back(boost::algorithm::join(condition.seen, ", ") +
+                        (condition.seen.size() == most_texts_named ? ", …" : ""));
+        data.remarks.push_back(condition.text == "*"
+                                   ? "rows of every " + condition.name + " are taken together"
+                                   : "only rows where " + asked.back());
+    }
+    if (has_none)
+        throw InputError(names,
+                         "has no row where " + boost::algorithm::join(asked, " and ") +
+                             (asked.size() == 1 ? "; the column has " : "; the columns have ") +
+                             boost::algorithm::join(there, " and "));
+}
+
+std::vector<UnreadColumn> unread_columns(const ColumnNames& names,
+                                         const std::vector<ColumnUse>& uses,
+                                         const std::vector<RowCondition>& conditions) {
+    std::vector<UnreadColumn> columns;
+    for (std::size_t column = 0; column < names.all.size(); ++column) {
+        const auto is_it = [&](const auto& one) { return one.column == column; };
+        if (std::ranges::none_of(uses, is_it) && std::ranges::none_of(conditions, is_it) &&
+            !is_no_factor(names.all[column]))
+            columns.push_back({column, names.all[column]});
+    }
+    return columns;
+}
+
+void require_one_series(const DataFile& data, const Place& names,
+                        const std::vector<UnreadColumn>& columns) {
+    for (const auto& column : columns) {
+        const auto series = series_by(column, data);
+        for (std::size_t i = 0; i < series.size(); ++i)
+            for (std::size_t k = 0; k < i; ++k) {
+                if (!overlap(series[k], series[i]))
+                    continue;
+                const std::string first = column.name + "=" + std::string(series[k].text);
+                throw InputError(names, "has rows of several series: column " + column.name +
+                                            " tells " + quoted(series[k].text) + " from " +
+                                            quoted(series[i].text) +
+                                            " at widths alike. Take one with --where '" + first +
+                                            "', or all together with --where '" + column.name +
+                                            "=*'; in a scene where = [\"" + first + "\"]");
+            }
+    }
+}
+
+} // namespace tvbeam

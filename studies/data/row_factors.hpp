@@ -1,0 +1,56 @@
+/// Columns that are no width and no figure and yet tell rows apart, as the scheme, the degree of
+/// the elements or the time of an error does: factors, in the words of statistics. Rows of two
+/// schemes are no replicates of each other, and no ladder.
+#pragma once
+
+#include "mms/text/input_error.hpp"
+#include "studies/data/data_columns.hpp"
+#include "studies/data/data_file.hpp"
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace tvbeam {
+
+/// What DataChoice::where asks of a column.
+struct RowCondition {
+    std::size_t column = 0;
+    std::string name;
+    std::string text;                   ///< "*": anything
+    std::vector<std::string> seen = {}; ///< the first different texts
+
+    /// Whether a field has the text, or is the same number.
+    bool holds_for(std::string_view field);
+};
+
+/// Throws InputError for what is not COLUMN=TEXT, and for columns that are not there.
+std::vector<RowCondition> conditions_of(const ColumnNames& names,
+                                        const std::vector<std::string>& where);
+
+/// Adds to the data's remarks which rows were chosen. Throws InputError where there are none.
+void require_records(DataFile& data, const Place& names,
+                     const std::vector<RowCondition>& conditions);
+
+/// A column that nothing reads.
+struct UnreadColumn {
+    std::size_t column = 0;
+    std::string name;
+    bool is_number = true;
+    std::vector<std::string_view> texts = {}; ///< one a record
+};
+
+/// All columns but those that are used, named by a condition, or by their names no factors: labels
+/// of replicates, as seed, and what a run shows of itself, as seconds.
+std::vector<UnreadColumn> unread_columns(const ColumnNames& names,
+                                         const std::vector<ColumnUse>& uses,
+                                         const std::vector<RowCondition>& conditions);
+
+/// Throws InputError where a column takes a value at several widths (a text at 2, a number at 3),
+/// another at several, and both ranges of widths overlap: the rows are then of two series. Only
+/// records with a figure count.
+void require_one_series(const DataFile& data, const Place& names,
+                        const std::vector<UnreadColumn>& columns);
+
+} // namespace tvbeam
