@@ -2,6 +2,7 @@
 
 #include <boost/algorithm/string/join.hpp>
 #include <boost/algorithm/string/predicate.hpp>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
@@ -91,10 +92,6 @@ bool overlap(const Group& a, const Group& b) {
     return true;
 }
 
-std::string quoted(std::string_view text) {
-    return "'" + std::string(text.substr(0, 40)) + "'";
-}
-
 } // namespace
 
 bool RowCondition::holds_for(std::string_view field) {
@@ -164,13 +161,13 @@ void require_one_series(const DataFile& data, const Place& names,
             for (std::size_t k = 0; k < i; ++k) {
                 if (!overlap(series[k], series[i]))
                     continue;
-                const std::string first = column.name + "=" + std::string(series[k].text);
-                throw InputError(names, "has rows of several series: column " + column.name +
-                                            " tells " + quoted(series[k].text) + " from " +
-                                            quoted(series[i].text) +
-                                            " at widths alike. Take one with --where '" + first +
-                                            "', or all together with --where '" + column.name +
-                                            "=*'; in a scene where = [\"" + first + "\"]");
+                throw InputError(
+                    names,
+                    fmt::format("has rows of several series: column {0} tells '{1:.40}' from "
+                                "'{2:.40}' at widths alike. Take one with --where '{0}={1:.40}', "
+                                "or all together with --where '{0}=*'; in a scene where = "
+                                "[\"{0}={1:.40}\"]",
+                                column.name, series[k].text, series[i].text));
             }
     }
 }
