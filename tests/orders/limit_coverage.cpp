@@ -25,7 +25,7 @@ BOOST_AUTO_TEST_SUITE(limit_engine)
 
 namespace {
 
-const int sequences = short_tests ? 150 : 2000;
+const int sequences = short_tests ? 150 : 1200;
 /// Below this the finest value is its limit, but for rounding.
 constexpr double least_error = 1e-12;
 

@@ -261,11 +261,12 @@ namespace {
 /// in rows of one and `second` in those of the other.
 std::string two_series(const std::string& column, const std::string& first,
                        const std::string& second, double finer = 1.0) {
-    std::string text = column + ",h,error\n";
+    std::ostringstream text;
+    text << column << ",h,error\n" << std::fixed;
     for (const double h : {0.2, 0.1, 0.05, 0.025})
-        text += first + "," + std::to_string(h) + "," + std::to_string(h) + "\n" + second + "," +
-                std::to_string(h * finer) + "," + std::to_string(h * finer * h * finer) + "\n";
-    return text;
+        text << first << ',' << h << ',' << h << '\n'
+             << second << ',' << h * finer << ',' << h * finer * h * finer << '\n';
+    return text.str();
 }
 
 } // namespace
