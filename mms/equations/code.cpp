@@ -144,9 +144,10 @@ CodeFile empty_file(const DerivedSystem& derived, const Dialect& dialect) {
                                 std::filesystem::path(derived.system.file).filename().string() +
                                 " by tvbeam: " + derived.system.name);
     for (const auto& parameter : derived.parameters)
-        file.constants.emplace_back(dialect.identifier(parameter.name),
-                                    (parameter.value < 0.0 ? "-" : "") +
-                                        literal_text(std::abs(parameter.value), dialect.infix));
+        if (!parameter.is_number)
+            file.constants.emplace_back(dialect.identifier(parameter.name),
+                                        (parameter.value < 0.0 ? "-" : "") +
+                                            literal_text(std::abs(parameter.value), dialect.infix));
     return file;
 }
 

@@ -17,9 +17,56 @@ using Role = DerivedFunction::Role;
 
 namespace {
 
+constexpr int largest_exponent = 100; // of a polynomial
+
+/// The parameters that make exponents whole.
+class WholeExponents : public GiNaC::map_function {
+public:
+    explicit WholeExponents(const std::vector<DerivedParameter>& parameters)
+        : parameters_(parameters) {}
+
+    [[nodiscard]] const std::set<std::string>& names() const { return names_; }
+
+    ex operator()(const ex& formula) override {
+        if (GiNaC::is_a<GiNaC::power>(formula))
+            look_at(formula.op(0), formula.op(1));
+        return formula.map(*this);
+    }
+
+private:
+    void look_at(const ex& base, const ex& exponent) {
+        GiNaC::exmap values;
+        std::set<std::string> used;
+        for (const auto& parameter : parameters_) {
+            values[parameter.symbol] = parameter.exact;
+            if (exponent.has(parameter.symbol))
+                used.insert(parameter.name);
+        }
+        const ex value = exponent.subs(values);
+        const bool is_whole = GiNaC::is_exactly_a<GiNaC::numeric>(value) &&
+                              GiNaC::ex_to<GiNaC::numeric>(value).is_integer() &&
+                              GiNaC::abs(GiNaC::ex_to<GiNaC::numeric>(value)) <= largest_exponent;
+        const bool varies = !GiNaC::is_exactly_a<GiNaC::numeric>(base.subs(values).evalf());
+        if (is_whole && varies)
+            names_.insert(used.begin(), used.end());
+    }
+
+    const std::vector<DerivedParameter>& parameters_;
+    std::set<std::string> names_;
+};
+
 class Derivation {
 public:
-    explicit Derivation(const EquationSystem& system) { derived_.system = system; }
+    /// numbers: parameters that their numbers stand for.
+    explicit Derivation(const EquationSystem& system, std::set<std::string> numbers = {})
+        : numbers_(std::move(numbers)) {
+        derived_.system = system;
+    }
+
+    /// Those that should be such, after the result.
+    [[nodiscard]] const std::set<std::string>& in_whole_exponents() const {
+        return in_whole_exponents_;
+    }
 
     DerivedSystem result() {
         for (std::size_t i = 0; i < coordinate_count; ++i)
@@ -41,6 +88,10 @@ public:
         for (const auto& entry : system().initial)
             add_initial(entry);
         require_different_names();
+        WholeExponents found(derived_.parameters);
+        for (const auto& formula : texts_)
+            found(formula);
+        in_whole_exponents_ = found.names();
         return std::move(derived_);
     }
 
@@ -50,8 +101,10 @@ private:
     /// The value of an entry of the file: of one text, or of several, which are the components.
     Tensor tensor_of(const NamedEntries& named) {
         std::vector<Tensor> values;
-        for (const SourceText& entry : named.entries)
+        for (const SourceText& entry : named.entries) {
             values.push_back(parse_tensor(entry, names_, derived_.fields, system().dimension));
+            texts_.insert(texts_.end(), values.back().entries.begin(), values.back().entries.end());
+        }
         if (values.size() == 1)
             return values.front();
         for (std::size_t i = 0; i < values.size(); ++i)
@@ -92,7 +145,9 @@ private:
                                    value.entries.front()};
         parameter.value = located(text, "parameter " + named.name,
                                   [&] { return numeric_value(parameter.exact); });
-        names_[named.name] = Tensor::scalar(parameter.symbol);
+        parameter.is_number = numbers_.contains(named.name);
+        names_[named.name] =
+            Tensor::scalar(parameter.is_number ? parameter.exact : ex(parameter.symbol));
         derived_.parameters.push_back(parameter);
     }
 
@@ -265,6 +320,9 @@ private:
     DerivedSystem derived_;
     TensorTable names_;
     std::vector<const NamedEntries*> unknown_texts_; ///< for each component
+    std::vector<ex> texts_;                          ///< what was read
+    std::set<std::string> numbers_;
+    std::set<std::string> in_whole_exponents_;
 };
 
 } // namespace
@@ -278,7 +336,10 @@ std::vector<const DerivedFunction*> DerivedSystem::of_role(Role role) const {
 }
 
 DerivedSystem derive_system(const EquationSystem& system) {
-    return Derivation(system).result();
+    Derivation derivation(system);
+    DerivedSystem derived = derivation.result();
+    const auto& numbers = derivation.in_whole_exponents();
+    return numbers.empty() ? std::move(derived) : Derivation(system, numbers).result();
 }
 
 } // namespace tvbeam

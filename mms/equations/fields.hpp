@@ -29,6 +29,13 @@ struct EquationField {
 /// their symbols, and stay as short as they are written: u_t − k(u_xx + u_yy).
 class Fields {
 public:
+    Fields() = default;
+    Fields(const Fields&) = delete; // by_name_ points into fields_
+    Fields& operator=(const Fields&) = delete;
+    Fields(Fields&&) = default;
+    Fields& operator=(Fields&&) = default;
+    ~Fields() = default;
+
     /// A component of an unknown with its exact value; its symbol.
     GiNaC::ex add(const std::string& unknown, const GiNaC::ex& exact);
 

@@ -6,6 +6,7 @@
 #include "mms/equations/singularities.hpp"
 #include "mms/expression/algebra.hpp"
 #include "mms/expression/printing.hpp"
+#include "mms/text/number_text.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -131,7 +132,12 @@ private:
             formulas.push_back(function.formula);
         const Program all = located_program(formulas, derived_.fields, derived_.functions.front());
         for (std::size_t i = 0; i < derived_.parameters.size(); ++i)
-            if (const std::string& name = derived_.parameters[i].name; !all.uses(name))
+            if (const auto& [name, symbol, exact, value, is_number] = derived_.parameters[i];
+                is_number)
+                say(derived_.system.parameters[i].place,
+                    "parameter " + name + " stands in whole exponents, and " + number_text(value) +
+                        " for it everywhere");
+            else if (!all.uses(name))
                 say(derived_.system.parameters[i].place,
                     "parameter " + name + " has no effect on anything that is derived");
     }
