@@ -16,34 +16,40 @@ double EnergyLaw::square(const RecordedState& y) const {
 void EnergyLaw::add(const SolveRecord& record) {
     const Eigen::Index s = mesh_.elements();
     const double c = record.leading;
+    const double dt = record.dt;
+    // All times Δt, and ẇ = c (w − w*) next to w − w*: ẇ² alone, or (w − w*)², is beyond the range
+    // of doubles where Δt < 1e-154; c Δt is about 1.
+    const double unit = c * dt;
     const Eigen::VectorXd& theta = record.now.theta;
-    const auto rate = c * (record.now.w - record.star.w); // ẇ
+    const auto change = record.now.w - record.star.w; // c times this is ẇ
     // Without temporaries, here and below: on the largest meshes memory is what takes time.
     const double conduction =
+        dt *
         (((theta.tail(s) - theta.head(s)).array() / mesh_.lengths).square() * mesh_.lengths).sum();
     // KΘ* is summed as differences of fluxes, node by node.
     const Eigen::VectorXd& before = record.star.theta;
-    const double fluxes = (((before.tail(s) - before.head(s)).array() / mesh_.lengths).abs() *
-                           (theta.head(s).array().abs() + theta.tail(s).array().abs()))
-                              .sum();
-    const double rate_square = certify::product(mesh_, rate, rate);
-    const double viscosity = beam_.zeta * rate_square;
-    const double heating = record.heat_load.dot(theta);
-    const double load = certify::product(mesh_, record.moment, rate);
+    const double fluxes = dt * (((before.tail(s) - before.head(s)).array() / mesh_.lengths).abs() *
+                                (theta.head(s).array().abs() + theta.tail(s).array().abs()))
+                                   .sum();
+    const double rate_change = certify::product(mesh_, c * change, change); // ‖ẇ‖²/c
+    const double viscosity = beam_.zeta * unit * rate_change;
+    const double heating = dt * record.heat_load.dot(theta);
+    const double load = unit * certify::product(mesh_, record.moment, change);
     const double theta_A = beam_.alpha * beam_.theta_A / record.unit;
-    const double tip = certify::tip_moment(mesh_, rate);
+    const double tip = unit * certify::tip_moment(mesh_, change);
     balances_.push_back(conduction + viscosity - heating + load + (theta_A - record.stress) * tip);
 
     // |ẇ| ≤ c (|w| + |w*|) term by term.
-    const double rate_size =
-        c * (record.now.curvature_size + record.star.curvature_size + underflow_);
+    const double change_size =
+        unit * (record.now.curvature_size + record.star.curvature_size + underflow_);
     const double forces = beam_.alpha * record.now.temperature_size +
                           record.moment.abs().maxCoeff() + std::abs(theta_A) +
-                          std::abs(record.stress) + beam_.zeta * std::sqrt(rate_square);
+                          std::abs(record.stress) +
+                          beam_.zeta * std::sqrt(c) * std::sqrt(rate_change);
     sizes_.push_back(conduction + fluxes + viscosity +
-                     (c + 4.0 / mesh_.lengths.square().minCoeff()) * record.now.temperature_size *
-                         underflow_ +
-                     record.heat_load.cwiseAbs().dot(theta.cwiseAbs()) + forces * rate_size);
+                     (unit + 4.0 * dt / mesh_.lengths.square().minCoeff()) *
+                         record.now.temperature_size * underflow_ +
+                     dt * record.heat_load.cwiseAbs().dot(theta.cwiseAbs()) + forces * change_size);
 }
 
 /// ½ Σ n_kl (d_k, d_l) with the increments d_k = Y_k − y^{n−1} of the stages: as the rates are
@@ -88,7 +94,7 @@ double EnergyLaw::end_step(const SolveRecorder& recorder, const SolveRecord& las
         change += dissipated.sum;
         size += dissipated.size;
         for (Eigen::Index i = 0; i < step.solves(); ++i) {
-            const double weight = last.dt * step.a(step.solves() - 1, i);
+            const double weight = step.a(step.solves() - 1, i);
             change += weight * balances_[static_cast<std::size_t>(i)];
             size += std::abs(weight) * sizes_[static_cast<std::size_t>(i)];
         }
@@ -104,8 +110,8 @@ double EnergyLaw::end_step(const SolveRecorder& recorder, const SolveRecord& las
         energy_ = 0.25 * (square(now) + combined(2.0, -1.0, 0.0));
         const double energy_before = 0.25 * (square(before) + combined(0.0, 2.0, -1.0));
         const double dissipated = 0.25 * combined(1.0, -2.0, 1.0);
-        change = energy_ - energy_before + dissipated + last.dt * balances_.front();
-        size = energy_ + energy_before + dissipated + last.dt * sizes_.front();
+        change = energy_ - energy_before + dissipated + balances_.front();
+        size = energy_ + energy_before + dissipated + sizes_.front();
     }
     balances_.clear();
     sizes_.clear();

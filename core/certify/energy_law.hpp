@@ -27,7 +27,7 @@ public:
     EnergyLaw(const Beam& beam, const Mesh& mesh, ThermalMass mass, double underflow = 0.0);
     EnergyLaw(const Beam& beam, Mesh&& mesh, ThermalMass mass, double underflow = 0.0) = delete;
 
-    /// Adds the power of a solve.
+    /// Adds the work of a solve.
     void add(const SolveRecord& record);
 
     /// What the identity leaves over a step, relative to the sum of the sizes of its terms. KΘ
@@ -53,7 +53,7 @@ private:
     const Mesh& mesh_;
     ThermalMass mass_;
     double underflow_;
-    std::vector<double> balances_; // D − W of each
+    std::vector<double> balances_; // Δt (D − W) of each
     std::vector<double> sizes_;
     double energy_ = 0.0;
 };
