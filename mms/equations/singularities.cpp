@@ -344,14 +344,30 @@ private:
             const Critical* broken = first_broken(open, box);
             if (broken == nullptr)
                 continue;
-            if (++looked_at > most_parts || !can_be_halved(box))
+            if (++looked_at > most_parts || !can_be_halved(box)) {
+                const std::string place = text_of(middle_of(box));
+                if (vanishes_at(*broken, middle_of(box)))
+                    return Singularity{broken->pole ? Singularity::Kind::pole
+                                                    : Singularity::Kind::kink,
+                                       said(*broken) + place, place};
                 return Singularity{Singularity::Kind::not_excluded,
                                    "it could not be excluded that " + said(*broken) + "near " +
-                                       text_of(middle_of(box)).substr(3),
-                                   text_of(middle_of(box))};
+                                       place.substr(3),
+                                   place};
+            }
             halve(box, whole, left);
         }
         return std::nullopt;
+    }
+
+    /// Whether a margin that is of one sign touches 0 in a place, as (x - 0.3)^2 does: it is of the
+    /// size that rounding of the place leaves beside its greatest.
+    [[nodiscard]] bool vanishes_at(const Critical& critical, const DomainPoint& point) const {
+        constexpr long double of_rounding = 1e-14L;
+        const auto at = static_cast<std::size_t>(&critical - criticals_.data());
+        const long double greatest =
+            std::max(std::abs(extremes_[at].least), std::abs(extremes_[at].greatest));
+        return std::abs(margin_at(critical, point)) <= of_rounding * greatest;
     }
 
     [[nodiscard]] const Critical* first_broken(const std::vector<const Critical*>& open,

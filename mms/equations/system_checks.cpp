@@ -90,7 +90,11 @@ private:
             if (found.kind == Kind::overflow)
                 throw InputError(exact.source, exact.of + ": " + found.text + advice);
             say(exact.source,
-                exact.of + (found.kind == Kind::kink ? " is not smooth: " : ": ") + found.text);
+                exact.of + (found.kind == Kind::kink ? " is not smooth: " : ": ") + found.text +
+                    (found.kind == Kind::kink
+                         ? "; where a derivative that the equations have jumps there, what is "
+                           "derived lacks a delta function"
+                         : ""));
             said_.emplace(exact.of, found.kind);
         }
         for (const Rounded& value : values_of(program))
@@ -99,7 +103,16 @@ private:
                                  exact.of + " has values beyond the range of doubles" + advice);
     }
 
+    /// At a kink a derivative that is zero elsewhere may have a delta function.
+    [[nodiscard]] bool is_kinked(const EquationField& field) const {
+        const auto said = said_.find(field.unknown);
+        return said != said_.end() && said->second == Singularity::Kind::kink;
+    }
+
     void look_for_zero(const DerivedFunction& source) {
+        if (std::ranges::any_of(derived_.fields.occurring_in(source.formula),
+                                [&](const EquationField* field) { return is_kinked(*field); }))
+            return;
         if (is_zero(source.formula, source))
             say(source.source, source.name +
                                    " is zero everywhere: the solution meets the equation already, "
@@ -109,7 +122,7 @@ private:
 
     void look_for_unexercised(const DerivedFunction& source) {
         for (const EquationField* field : derived_.fields.occurring_in(source.formula)) {
-            if (!is_zero(field->symbol, source))
+            if (is_kinked(*field) || !is_zero(field->symbol, source))
                 continue;
             ex coefficient;
             try {

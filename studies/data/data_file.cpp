@@ -259,13 +259,40 @@ Head head_of(Lines& lines) {
                                     "h,dt,error");
 }
 
+/// The first number with a decimal point and the first with a decimal comma: a file that has both
+/// has a comma for thousands, and nobody can tell where.
+class DecimalMark {
+public:
+    void look_at(const Lines& lines, const TextField& field, const std::string& name) {
+        const bool has_comma = field.text.find(',') != std::string_view::npos;
+        if (!has_comma && field.text.find('.') == std::string_view::npos)
+            return;
+        std::string& own = has_comma ? comma_ : point_;
+        const std::string& other = has_comma ? point_ : comma_;
+        if (own.empty())
+            own = field.text;
+        if (!other.empty())
+            throw InputError(lines.place(field.column),
+                             "'" + std::string(field.text) + "' in column " + name +
+                                 " has a decimal " + (has_comma ? "comma" : "point") + ", and '" +
+                                 other + "' above a " + (has_comma ? "point" : "comma") +
+                                 "; write all numbers alike, without separators of thousands");
+    }
+
+private:
+    std::string point_;
+    std::string comma_;
+};
+
 void read_record(const Lines& lines, const std::vector<TextField>& fields, const Head& head,
-                 std::vector<ColumnUse>& uses) {
+                 DecimalMark& mark, std::vector<ColumnUse>& uses) {
     bool found = false; // an error or a value; deviations come behind them
     for (auto& use : uses) {
         const TextField& field = fields[use.column];
         const std::string& name = head.names[use.column];
         const double number = checked_number(lines, field, head.separator, name);
+        if (head.separator == ';')
+            mark.look_at(lines, field, name);
         if (use.is_width && (!(number > 0) || !std::isfinite(number)))
             throw InputError(lines.place(field.column), "'" + std::string(field.text) +
                                                             "' in column " + name +
@@ -327,6 +354,7 @@ DataFile read_data(const std::string& file, const DataChoice& choice) {
     std::vector<ColumnUse> uses = choose_columns(names, choice, data);
     auto conditions = conditions_of(names, choice.where);
     auto unread = unread_columns(names, uses, conditions);
+    DecimalMark mark;
     std::vector<TextField> fields;
     for (bool more = head.numbers_follow || lines.next(); more; more = lines.next()) {
         const auto line = trimmed(lines.line());
@@ -344,7 +372,7 @@ DataFile read_data(const std::string& file, const DataChoice& choice) {
                                }) == std::ssize(conditions);
         if (!is_chosen)
             continue;
-        read_record(lines, fields, head, uses);
+        read_record(lines, fields, head, mark, uses);
         for (auto& column : unread) {
             const auto text = fields[column.column].text;
             column.texts.push_back(text);

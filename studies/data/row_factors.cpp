@@ -1,7 +1,9 @@
 #include "studies/data/row_factors.hpp"
 
+#include <boost/algorithm/string/classification.hpp>
 #include <boost/algorithm/string/join.hpp>
 #include <boost/algorithm/string/predicate.hpp>
+#include <boost/algorithm/string/split.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,6 +13,7 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <span>
 
 namespace tvbeam {
 
@@ -25,16 +28,27 @@ std::optional<double> plain_number(std::string_view text) {
     return is_all ? std::optional(number) : std::nullopt;
 }
 
-bool is_no_factor(const std::string& name) {
-    constexpr std::array names{// labels of replicates
-                               "seed", "run", "replicate", "repeat", "repetition", "sample",
-                               "trial", "realization", "realisation",
-                               // what a run shows of itself
-                               "seconds", "sec", "cpu", "wall", "walltime", "runtime", "elapsed",
-                               "iterations", "iter", "its", "niter", "order", "rate", "eoc",
-                               "ratio", "verdict", "status"};
+bool is_among(std::string_view name, std::span<const std::string_view> names) {
     return std::ranges::any_of(
-        names, [&](const char* one) { return boost::algorithm::iequals(one, name); });
+        names, [&](std::string_view one) { return boost::algorithm::iequals(one, name); });
+}
+
+bool is_no_factor(const std::string& name) {
+    // Labels of replicates, also as a part of a name: sample_id, run-name.
+    constexpr std::array<std::string_view, 20> labels{
+        "seed",   "run",      "rep",     "replica", "replicate", "repeat",      "repetition",
+        "sample", "trial",    "batch",   "attempt", "draw",      "realization", "realisation",
+        "host",   "hostname", "machine", "commit",  "date",      "id"};
+    // What a run shows of itself.
+    constexpr std::array<std::string_view, 18> outcomes{
+        "seconds", "sec",        "cpu",   "wall",    "walltime", "runtime",
+        "elapsed", "iterations", "iter",  "its",     "niter",    "order",
+        "rate",    "eoc",        "ratio", "verdict", "status",   "note"};
+    std::vector<std::string> parts;
+    boost::algorithm::split(parts, name, boost::algorithm::is_any_of("_-. "));
+    return is_among(name, outcomes) || std::ranges::any_of(parts, [&](const std::string& part) {
+               return is_among(part, labels);
+           });
 }
 
 /// The records of one value of a column.
@@ -159,14 +173,14 @@ void require_one_series(const DataFile& data, const Place& names,
         const auto series = series_by(column, data);
         for (std::size_t i = 0; i < series.size(); ++i)
             for (std::size_t k = 0; k < i; ++k) {
-                if (!overlap(series[k], series[i]))
+                // Numbers that change once along the widths are as likely what a run shows.
+                if (column.is_number && !overlap(series[k], series[i]))
                     continue;
                 throw InputError(
                     names,
                     fmt::format("has rows of several series: column {0} tells '{1:.40}' from "
-                                "'{2:.40}' at widths alike. Take one with --where '{0}={1:.40}', "
-                                "or all together with --where '{0}=*'; in a scene where = "
-                                "[\"{0}={1:.40}\"]",
+                                "'{2:.40}'. Take one with --where '{0}={1:.40}', or all together "
+                                "with --where '{0}=*'; in a scene where = [\"{0}={1:.40}\"]",
                                 column.name, series[k].text, series[i].text));
             }
     }

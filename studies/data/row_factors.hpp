@@ -47,9 +47,9 @@ std::vector<UnreadColumn> unread_columns(const ColumnNames& names,
                                          const std::vector<ColumnUse>& uses,
                                          const std::vector<RowCondition>& conditions);
 
-/// Throws InputError where a column takes a value at several widths (a text at 2, a number at 3),
-/// another at several, and both ranges of widths overlap: the rows are then of two series. Only
-/// records with a figure count.
+/// Throws InputError where the rows are of two series: where a column has one text at two widths or
+/// more and another at as many; or one number at three and another, and the ranges of both overlap.
+/// Only records with a figure count.
 void require_one_series(const DataFile& data, const Place& names,
                         const std::vector<UnreadColumn>& columns);
 

@@ -243,6 +243,18 @@ std::string from_model(const Measure& norm, std::span<const Refinement> roots,
     return text;
 }
 
+/// A level without any error, between others: not of a solver that has come to the exact solution.
+std::string lone_zero(const Measure& norm, std::span<const Refinement> roots) {
+    const auto zero = std::ranges::find(roots, 0.0, &Refinement::error);
+    if (zero == roots.end() || std::none_of(zero, roots.end(), [](const Refinement& root) {
+            return is_positive(root.error);
+        }))
+        return {};
+    return norm.name + ": the error is zero at " + rung_name(roots, *zero) +
+           ", and not on a finer level: no order goes through it, and it has no part in what is "
+           "said of the others.";
+}
+
 } // namespace
 
 std::vector<std::string> order_remarks(const Measure& norm, std::span<const Refinement> roots,
@@ -252,8 +264,9 @@ std::vector<std::string> order_remarks(const Measure& norm, std::span<const Refi
     for (std::size_t i = 0; i < orders.size(); ++i)
         if (orders[i])
             known.push_back({i, *orders[i]});
+    const std::string zero = lone_zero(norm, roots);
     if (known.size() < 2)
-        return {};
+        return zero.empty() ? std::vector<std::string>{} : std::vector{zero};
     const std::string why = model != nullptr ? from_model(norm, roots, *model) : "";
     // Orders of steps that are uneven are as uneven, and no news beside a model.
     const bool explained =
@@ -261,6 +274,8 @@ std::vector<std::string> order_remarks(const Measure& norm, std::span<const Refi
     std::vector<std::string> remarks{from_pairs(norm, roots, known, explained)};
     if (!why.empty())
         remarks.push_back(why);
+    if (!zero.empty())
+        remarks.push_back(zero);
     return remarks;
 }
 

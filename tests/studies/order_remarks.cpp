@@ -176,4 +176,23 @@ BOOST_AUTO_TEST_CASE(terms_cancel_only_where_their_correlation_is_seen) {
     }
 }
 
+// From one level on an error may be zero: then no finer one has another.
+BOOST_AUTO_TEST_CASE(an_error_that_is_zero_between_others_is_said) {
+    const auto said = [](std::initializer_list<double> errors) {
+        std::vector<Refinement> ladder;
+        double h = 0.5;
+        for (const double error : errors)
+            ladder.push_back({.h = h /= 2, .dt = 0.1, .error = error});
+        for (const auto& remark :
+             order_remarks(measure_of(*Norm::named("theta_L2L2")), ladder, nullptr))
+            if (remark.find("the error is zero at s = 16") != std::string::npos)
+                return true;
+        return false;
+    };
+    BOOST_TEST(said({16.0, 4.0, 0.0, 0.25}));
+    BOOST_TEST(said({16.0, 4.0, 0.0, 0.25, 0.0625}));
+    BOOST_TEST(!said({16.0, 4.0, 0.0, 0.0}));
+    BOOST_TEST(!said({16.0, 4.0, 1.0, 0.25}));
+}
+
 BOOST_AUTO_TEST_SUITE_END()

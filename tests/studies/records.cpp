@@ -181,8 +181,14 @@ const std::vector<Malformed> malformed{
     {"elements,error\n0.1,1\n", "e.csv:2:1: '0.1' in column elements counts nothing"},
     {"steps,error\n0.1,1\n", "e.csv:2:1: '0.1' in column steps counts nothing", {.step = "steps"}},
     {"scheme,h,error\nA,0.2,1\nA,0.1,0.5\nB,0.2,1\nB,0.1,0.25\n",
-     "e.csv:1:1: has rows of several series: column scheme tells 'A' from 'B' at widths alike. "
+     "e.csv:1:1: has rows of several series: column scheme tells 'A' from 'B'. "
      "Take one with --where 'scheme=A', or all together with --where 'scheme=*'"},
+    {"scheme,h,error\nA,0.2,1\nA,0.1,0.5\nB,0.05,1\nB,0.025,0.25\n",
+     "e.csv:1:1: has rows of several series: column scheme tells 'A' from 'B'. "},
+    {"elements;error\n1,000;1e-2\n2,500;1.6e-3\n",
+     "e.csv:3:7: '1.6e-3' in column error has a decimal point, and '1,000' above a comma"},
+    {"h;error\n0.1;1,000\n0.05;250\n",
+     "e.csv:2:5: '1,000' in column error has a decimal comma, and '0.1' above a point"},
     {"h,error\n0.2,1\n", "e.csv:1:1: cannot be asked for rows where 'h'", {.where = {"h"}}},
     {"h,error\n0.2,1\n", "e.csv:1:1: cannot be asked for rows where '=1'", {.where = {"=1"}}},
     {"h,error\n0.2,1\n", "e.csv:1:1: no column 'scheme'", {.where = {"scheme=A"}}},
@@ -307,10 +313,12 @@ BOOST_AUTO_TEST_CASE(columns_that_tell_no_series_apart_are_passed_over) {
         BOOST_TEST(data_of(two_series(name, "1", "2")).errors.at(0).numbers.size() == 8u, name);
     for (const std::string text :
          {"date,h,error\n1a,0.2,1\n1b,0.1,2\n1c,0.2,3\n1d,0.1,4\n",
-          "part,h,error\na,0.2,1\na,0.1,2\nb,0.1,3\nb,0.05,4\n",
+          "part,h,error\n1,0.4,1\n1,0.2,1\n1,0.1,2\n2,0.1,3\n2,0.05,4\n2,0.025,4\n",
+          "sample_id,h,error\na,0.2,1\na,0.1,2\nb,0.2,3\nb,0.1,4\n",
           "count,h,error\n1,0.2,1\n1,0.1,2\n2,0.2,3\n2,0.1,4\n",
           "state,h,error\nok,0.2,1\nbad,0.2,\nok,0.1,3\nbad,0.1,nan\n",
-          "scheme,h,dt,error\nA,0.2,0.1,1\nA,0.1,0.1,2\nB,0.2,0.2,3\nB,0.1,0.2,4\n"})
+          "k,h,dt,error\n1,0.2,0.1,1\n1,0.1,0.1,2\n1,0.05,0.1,2\n2,0.2,0.2,3\n2,0.1,0.2,4\n"
+          "2,0.05,0.2,4\n"})
         BOOST_TEST(message_of(text) == "accepted", text);
 }
 
