@@ -7,6 +7,7 @@
 #include <boost/numeric/interval.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -346,6 +347,8 @@ private:
                 continue;
             if (++looked_at > most_parts || !can_be_halved(box)) {
                 const std::string place = text_of(middle_of(box));
+                if (is_below_beside(*broken, middle_of(box)))
+                    return Singularity{Singularity::Kind::no_value, said(*broken) + place, place};
                 if (vanishes_at(*broken, middle_of(box)))
                     return Singularity{broken->pole ? Singularity::Kind::pole
                                                     : Singularity::Kind::kink,
@@ -361,13 +364,47 @@ private:
     }
 
     /// Whether a margin that is of one sign touches 0 in a place, as (x - 0.3)^2 does: it is of the
-    /// size that rounding of the place leaves beside its greatest.
+    /// size that rounding of the place leaves beside its greatest, and beside what it is close by
+    /// on both sides along a coordinate. What is small all about, as exp(-40 x), is not 0.
     [[nodiscard]] bool vanishes_at(const Critical& critical, const DomainPoint& point) const {
-        constexpr long double of_rounding = 1e-14L;
-        const auto at = static_cast<std::size_t>(&critical - criticals_.data());
-        const long double greatest =
-            std::max(std::abs(extremes_[at].least), std::abs(extremes_[at].greatest));
-        return std::abs(margin_at(critical, point)) <= of_rounding * greatest;
+        constexpr long double of_greatest = 1e-14L;
+        constexpr long double of_close_by = 1e-9L;
+        constexpr int halvings = 10;
+        const auto of = static_cast<std::size_t>(&critical - criticals_.data());
+        const long double here = std::abs(margin_at(critical, point));
+        if (here >
+            of_greatest * std::max(std::abs(extremes_[of].least), std::abs(extremes_[of].greatest)))
+            return false;
+        return std::ranges::any_of(point, [&](const auto& coordinate) {
+            const auto& [name, at] = coordinate;
+            const DomainInterval range = derived_.system.domain.at(name);
+            const double step = std::ldexp(range.end - range.begin, -halvings);
+            return std::ranges::all_of(std::array{at - step, at + step}, [&](double beside) {
+                DomainPoint other = point;
+                other[name] = std::clamp(beside, range.begin, range.end);
+                return here <= of_close_by * std::abs(margin_at(critical, other));
+            });
+        });
+    }
+
+    /// Whether what must be positive is negative close to a place: between the points of the grid.
+    [[nodiscard]] bool is_below_beside(const Critical& critical, const DomainPoint& point) const {
+        if (critical.rule != Critical::Rule::positive && critical.rule != Critical::Rule::below_one)
+            return false;
+        constexpr int finest = 45; // halvings of the domain
+        constexpr long double rounding = 1e-15L;
+        for (const auto& [name, at] : point) {
+            const DomainInterval range = derived_.system.domain.at(name);
+            for (int k = 1; k <= finest; ++k)
+                for (const double side : {-1.0, 1.0}) {
+                    DomainPoint beside = point;
+                    beside[name] = at + side * std::ldexp(range.end - range.begin, -k);
+                    if (beside[name] >= range.begin && beside[name] <= range.end &&
+                        margin_at(critical, beside) < -rounding)
+                        return true;
+                }
+        }
+        return false;
     }
 
     [[nodiscard]] const Critical* first_broken(const std::vector<const Critical*>& open,

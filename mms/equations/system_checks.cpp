@@ -106,7 +106,13 @@ private:
     /// At a kink a derivative that is zero elsewhere may have a delta function.
     [[nodiscard]] bool is_kinked(const EquationField& field) const {
         const auto said = said_.find(field.unknown);
-        return said != said_.end() && said->second == Singularity::Kind::kink;
+        if (said == said_.end() || said->second != Singularity::Kind::kink)
+            return false;
+        const ex& exact = derived_.fields.find(field.unknown)->exact;
+        for (std::size_t i = 0; i < coordinate_count; ++i)
+            if (field.orders[i] > 0 && !exact.has(coordinate(i)))
+                return false;
+        return true;
     }
 
     void look_for_zero(const DerivedFunction& source) {

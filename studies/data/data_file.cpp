@@ -275,7 +275,7 @@ public:
             throw InputError(lines.place(field.column),
                              "'" + std::string(field.text) + "' in column " + name +
                                  " has a decimal " + (has_comma ? "comma" : "point") + ", and '" +
-                                 other + "' above a " + (has_comma ? "point" : "comma") +
+                                 other + "' before it a " + (has_comma ? "point" : "comma") +
                                  "; write all numbers alike, without separators of thousands");
     }
 

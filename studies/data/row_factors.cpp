@@ -4,12 +4,14 @@
 #include <boost/algorithm/string/join.hpp>
 #include <boost/algorithm/string/predicate.hpp>
 #include <boost/algorithm/string/split.hpp>
+#include <boost/algorithm/string/trim.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <optional>
 #include <set>
@@ -22,9 +24,11 @@ namespace {
 constexpr std::size_t most_texts_named = 3;
 
 std::optional<double> plain_number(std::string_view text) {
+    std::string plain(text.starts_with('+') ? text.substr(1) : text);
+    std::ranges::replace(plain, ',', '.');
     double number = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-    const bool is_all = error == std::errc() && end == text.data() + text.size();
+    const auto [end, error] = std::from_chars(plain.data(), plain.data() + plain.size(), number);
+    const bool is_all = error == std::errc() && end == plain.data() + plain.size();
     return is_all ? std::optional(number) : std::nullopt;
 }
 
@@ -40,10 +44,10 @@ bool is_no_factor(const std::string& name) {
         "sample", "trial",    "batch",   "attempt", "draw",      "realization", "realisation",
         "host",   "hostname", "machine", "commit",  "date",      "id"};
     // What a run shows of itself.
-    constexpr std::array<std::string_view, 18> outcomes{
-        "seconds", "sec",        "cpu",   "wall",    "walltime", "runtime",
-        "elapsed", "iterations", "iter",  "its",     "niter",    "order",
-        "rate",    "eoc",        "ratio", "verdict", "status",   "note"};
+    constexpr std::array<std::string_view, 19> outcomes{
+        "seconds",    "sec",  "cpu",     "wall",   "walltime", "runtime", "elapsed",
+        "iterations", "iter", "its",     "niter",  "rate",     "eoc",     "verdict",
+        "status",     "note", "comment", "remark", "converged"};
     std::vector<std::string> parts;
     boost::algorithm::split(parts, name, boost::algorithm::is_any_of("_-. "));
     return is_among(name, outcomes) || std::ranges::any_of(parts, [&](const std::string& part) {
@@ -73,19 +77,22 @@ bool has_figure(const DataFile& data, std::size_t record) {
            std::ranges::any_of(data.values, is_finite);
 }
 
-/// Those of as many different widths as a series has, in the order of their first records.
+/// Those of two widths or more, in the order of their first records.
 std::vector<Group> series_by(const UnreadColumn& column, const DataFile& data) {
-    std::map<std::string_view, Group> groups;
+    std::map<std::string, Group> groups;
     for (std::size_t i = 0; i < column.texts.size(); ++i)
         if (has_figure(data, i)) {
-            auto& group = groups[column.texts[i]];
-            group.text = column.texts[i];
+            const auto number = plain_number(column.texts[i]);
+            auto& group =
+                groups[number ? fmt::format("{}", *number) : std::string(column.texts[i])];
+            if (group.records.empty())
+                group.text = column.texts[i];
             group.records.push_back(i);
             group.widths.insert(widths_of(data, i));
         }
     std::vector<Group> series;
     for (auto& [text, group] : groups)
-        if (group.widths.size() >= (column.is_number ? 3U : 2U))
+        if (group.widths.size() >= 2U)
             series.push_back(std::move(group));
     std::ranges::sort(series, {}, [](const Group& group) { return group.records.front(); });
     return series;
@@ -104,6 +111,34 @@ bool overlap(const Group& a, const Group& b) {
             return false;
     }
     return true;
+}
+
+/// Whether a group refines all that the data refine, as a series by itself does; the rows of one
+/// mesh on a grid do not.
+bool is_ladder(const Group& group, const DataFile& data) {
+    for (std::size_t w = 0; w < data.widths.size(); ++w) {
+        const auto& all = data.widths[w].numbers;
+        const bool varies = std::ranges::adjacent_find(all, std::not_equal_to<>()) != all.end();
+        const double first = (*group.widths.begin())[w];
+        if (varies && std::ranges::all_of(group.widths, [&](const std::vector<double>& widths) {
+                return widths[w] == first;
+            }))
+            return false;
+    }
+    return true;
+}
+
+/// At two widths alike both have rows: these are no replicates. Else by what is likely: numbers
+/// that change once along the widths are what a run shows, texts that do are series.
+bool are_series(const Group& a, const Group& b, bool is_number, const DataFile& data) {
+    constexpr std::ptrdiff_t alike = 2;
+    if (std::ranges::count_if(
+            a.widths, [&](const auto& widths) { return b.widths.contains(widths); }) >= alike)
+        return true;
+    constexpr std::size_t of_numbers = 3;
+    if (is_number)
+        return a.widths.size() >= of_numbers && b.widths.size() >= of_numbers && overlap(a, b);
+    return overlap(a, b) || (is_ladder(a, data) && is_ladder(b, data));
 }
 
 } // namespace
@@ -125,9 +160,17 @@ std::vector<RowCondition> conditions_of(const ColumnNames& names,
         if (equals == std::string::npos || equals == 0)
             throw InputError(names.place, "cannot be asked for rows where '" + one +
                                               "'; write it as COLUMN=TEXT, e.g. scheme=Euler");
-        const std::string name = one.substr(0, equals);
-        const auto column = names.need(name, "--where");
-        conditions.push_back({column, names.all[column], one.substr(equals + 1)});
+        const auto name = boost::algorithm::trim_copy(one.substr(0, equals));
+        const auto column = names.find(name);
+        if (!column)
+            throw InputError(names.place,
+                             fmt::format("no column '{}' for --where '{}' among {}", name, one,
+                                         boost::algorithm::join(names.all, ", ")));
+        if (std::ranges::find(conditions, *column, &RowCondition::column) != conditions.end())
+            throw InputError(names.place, "is asked for rows by column " + name +
+                                              " twice; one text each can hold");
+        conditions.push_back(
+            {*column, names.all[*column], boost::algorithm::trim_copy(one.substr(equals + 1))});
     }
     return conditions;
 }
@@ -173,14 +216,13 @@ void require_one_series(const DataFile& data, const Place& names,
         const auto series = series_by(column, data);
         for (std::size_t i = 0; i < series.size(); ++i)
             for (std::size_t k = 0; k < i; ++k) {
-                // Numbers that change once along the widths are as likely what a run shows.
-                if (column.is_number && !overlap(series[k], series[i]))
+                if (!are_series(series[k], series[i], column.is_number, data))
                     continue;
                 throw InputError(
                     names,
                     fmt::format("has rows of several series: column {0} tells '{1:.40}' from "
-                                "'{2:.40}'. Take one with --where '{0}={1:.40}', or all together "
-                                "with --where '{0}=*'; in a scene where = [\"{0}={1:.40}\"]",
+                                "'{2:.40}'. Take one with --where '{0}={1}', or all together "
+                                "with --where '{0}=*'; in a scene where = [\"{0}={1}\"]",
                                 column.name, series[k].text, series[i].text));
             }
     }

@@ -25,7 +25,8 @@ struct RowCondition {
     bool holds_for(std::string_view field);
 };
 
-/// Throws InputError for what is not COLUMN=TEXT, and for columns that are not there.
+/// Throws InputError for what is not COLUMN=TEXT, for columns that are not there, and those that
+/// are named twice.
 std::vector<RowCondition> conditions_of(const ColumnNames& names,
                                         const std::vector<std::string>& where);
 
@@ -47,9 +48,10 @@ std::vector<UnreadColumn> unread_columns(const ColumnNames& names,
                                          const std::vector<ColumnUse>& uses,
                                          const std::vector<RowCondition>& conditions);
 
-/// Throws InputError where the rows are of two series: where a column has one text at two widths or
-/// more and another at as many; or one number at three and another, and the ranges of both overlap.
-/// Only records with a figure count.
+/// Throws InputError where the rows are of two series: where a column has one value at two widths
+/// or more and another at two of the same; one number at three and another, and the ranges of both
+/// overlap; or one text and another, and the ranges overlap, or both refine all that the table
+/// does. Only records with a figure count.
 void require_one_series(const DataFile& data, const Place& names,
                         const std::vector<UnreadColumn>& columns);
 
