@@ -18,8 +18,8 @@ void EnergyLaw::add(const SolveRecord& record) {
     const double c = record.leading;
     const double dt = record.dt;
     // All times Δt, and ẇ = c (w − w*) next to w − w*: ẇ² alone, or (w − w*)², is beyond the range
-    // of doubles where Δt < 1e-154; c Δt is about 1.
-    const double unit = c * dt;
+    // of doubles where Δt < 1e-154; c Δt is 1 to 4.
+    const double c_dt = c * dt;
     const Eigen::VectorXd& theta = record.now.theta;
     const auto change = record.now.w - record.star.w; // c times this is ẇ
     // Without temporaries, here and below: on the largest meshes memory is what takes time.
@@ -32,22 +32,22 @@ void EnergyLaw::add(const SolveRecord& record) {
                                 (theta.head(s).array().abs() + theta.tail(s).array().abs()))
                                    .sum();
     const double rate_change = certify::product(mesh_, c * change, change); // ‖ẇ‖²/c
-    const double viscosity = beam_.zeta * unit * rate_change;
+    const double viscosity = beam_.zeta * c_dt * rate_change;
     const double heating = dt * record.heat_load.dot(theta);
-    const double load = unit * certify::product(mesh_, record.moment, change);
+    const double load = c_dt * certify::product(mesh_, record.moment, change);
     const double theta_A = beam_.alpha * beam_.theta_A / record.unit;
-    const double tip = unit * certify::tip_moment(mesh_, change);
+    const double tip = c_dt * certify::tip_moment(mesh_, change);
     balances_.push_back(conduction + viscosity - heating + load + (theta_A - record.stress) * tip);
 
     // |ẇ| ≤ c (|w| + |w*|) term by term.
     const double change_size =
-        unit * (record.now.curvature_size + record.star.curvature_size + underflow_);
+        c_dt * (record.now.curvature_size + record.star.curvature_size + underflow_);
     const double forces = beam_.alpha * record.now.temperature_size +
                           record.moment.abs().maxCoeff() + std::abs(theta_A) +
                           std::abs(record.stress) +
                           beam_.zeta * std::sqrt(c) * std::sqrt(rate_change);
     sizes_.push_back(conduction + fluxes + viscosity +
-                     (unit + 4.0 * dt / mesh_.lengths.square().minCoeff()) *
+                     (c_dt + 4.0 * dt / mesh_.lengths.square().minCoeff()) *
                          record.now.temperature_size * underflow_ +
                      dt * record.heat_load.cwiseAbs().dot(theta.cwiseAbs()) + forces * change_size);
 }

@@ -19,41 +19,24 @@ namespace {
 
 constexpr int largest_exponent = 100; // of a polynomial
 
-/// The parameters that make exponents whole.
-class WholeExponents : public GiNaC::map_function {
-public:
-    explicit WholeExponents(const std::vector<DerivedParameter>& parameters)
-        : parameters_(parameters) {}
-
-    [[nodiscard]] const std::set<std::string>& names() const { return names_; }
-
-    ex operator()(const ex& formula) override {
-        if (GiNaC::is_a<GiNaC::power>(formula))
-            look_at(formula.op(0), formula.op(1));
-        return formula.map(*this);
+/// The parameters in a whole exponent of what varies; none where it is no such.
+std::set<std::string> in_whole_exponent(const ex& base, const ex& exponent,
+                                        const std::vector<DerivedParameter>& parameters) {
+    GiNaC::exmap values;
+    std::set<std::string> used;
+    for (const auto& parameter : parameters) {
+        values[parameter.symbol] = parameter.exact;
+        if (exponent.has(parameter.symbol))
+            used.insert(parameter.name);
     }
-
-private:
-    void look_at(const ex& base, const ex& exponent) {
-        GiNaC::exmap values;
-        std::set<std::string> used;
-        for (const auto& parameter : parameters_) {
-            values[parameter.symbol] = parameter.exact;
-            if (exponent.has(parameter.symbol))
-                used.insert(parameter.name);
-        }
-        const ex value = exponent.subs(values);
-        const bool is_whole = GiNaC::is_exactly_a<GiNaC::numeric>(value) &&
-                              GiNaC::ex_to<GiNaC::numeric>(value).is_integer() &&
-                              GiNaC::abs(GiNaC::ex_to<GiNaC::numeric>(value)) <= largest_exponent;
-        const bool varies = !GiNaC::is_exactly_a<GiNaC::numeric>(base.subs(values).evalf());
-        if (is_whole && varies)
-            names_.insert(used.begin(), used.end());
-    }
-
-    const std::vector<DerivedParameter>& parameters_;
-    std::set<std::string> names_;
-};
+    if (used.empty() || GiNaC::is_exactly_a<GiNaC::numeric>(base.subs(values).evalf()))
+        return {};
+    const ex value = exponent.subs(values);
+    const bool is_whole = GiNaC::is_exactly_a<GiNaC::numeric>(value) &&
+                          GiNaC::ex_to<GiNaC::numeric>(value).is_integer() &&
+                          GiNaC::abs(GiNaC::ex_to<GiNaC::numeric>(value)) <= largest_exponent;
+    return is_whole ? used : std::set<std::string>{};
+}
 
 class Derivation {
 public:
@@ -88,10 +71,11 @@ public:
         for (const auto& entry : system().initial)
             add_initial(entry);
         require_different_names();
-        WholeExponents found(derived_.parameters);
         for (const auto& formula : texts_)
-            found(formula);
-        in_whole_exponents_ = found.names();
+            for (auto part = formula.preorder_begin(); part != formula.preorder_end(); ++part)
+                if (GiNaC::is_a<GiNaC::power>(*part))
+                    in_whole_exponents_.merge(
+                        in_whole_exponent(part->op(0), part->op(1), derived_.parameters));
         return std::move(derived_);
     }
 

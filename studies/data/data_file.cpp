@@ -3,6 +3,7 @@
 #include "mms/text/file_text.hpp"
 #include "mms/text/input_error.hpp"
 #include "studies/data/data_columns.hpp"
+#include "studies/data/field_number.hpp"
 #include "studies/data/printed_digits.hpp"
 #include "studies/data/row_factors.hpp"
 #include "studies/orders/observed_order.hpp"
@@ -12,7 +13,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <iterator>
 #include <limits>
@@ -114,45 +114,6 @@ void split(const Lines& lines, std::string_view line, char separator,
             return;
         ++at;
     }
-}
-
-/// Reads all of a text as a number: also with a plus, a decimal comma where the separator leaves
-/// it, or a Fortran exponent. None where it is not one.
-std::optional<double> number_of(std::string_view text, char separator) {
-    if (text.starts_with('+') && text.size() > 1 && text[1] != '-' && text[1] != '+')
-        text.remove_prefix(1);
-    double value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error == std::errc() && end == text.data() + text.size())
-        return value;
-    constexpr std::size_t longest = 64;
-    if (text.empty() || text.size() > longest ||
-        text.find_first_not_of("0123456789+-.,eEdDqQ") != std::string_view::npos)
-        return std::nullopt;
-    std::string plain;
-    for (std::size_t i = 0; i < text.size(); ++i) {
-        const char c = text[i];
-        const bool after_digit =
-            i > 0 && std::string_view("0123456789.").find(text[i - 1]) != std::string_view::npos;
-        if (c == ',' && separator == ';')
-            plain += '.';
-        else if (std::string_view("dDqQE").find(c) != std::string_view::npos)
-            plain += 'e';
-        else if ((c == '+' || c == '-') && after_digit)
-            plain += std::string("e") + c; // 1.5-103
-        else
-            plain += c;
-    }
-    if (const auto plus = plain.find("e+"); plus != std::string::npos)
-        plain.erase(plus + 1, 1);
-    long double wide = 0;
-    const auto [wide_end, wide_error] =
-        std::from_chars(plain.data(), plain.data() + plain.size(), wide);
-    if (wide_end != plain.data() + plain.size() || wide_error == std::errc::invalid_argument)
-        return std::nullopt;
-    if (wide_error == std::errc::result_out_of_range)
-        return plain.find("e-") != std::string::npos ? 0.0 : std::numeric_limits<double>::max() * 2;
-    return static_cast<double>(wide);
 }
 
 bool is_missing(std::string_view text) {
@@ -367,17 +328,17 @@ DataFile read_data(const std::string& file, const DataChoice& choice) {
                                                  "; the columns are " +
                                                  std::to_string(head.names.size()));
         // All of them: each remembers what it has seen.
-        const bool is_chosen = std::ranges::count_if(conditions, [&](RowCondition& condition) {
-                                   return condition.holds_for(fields[condition.column].text);
-                               }) == std::ssize(conditions);
+        const bool is_chosen =
+            std::ranges::count_if(conditions, [&](RowCondition& condition) {
+                return condition.holds_for(fields[condition.column].text, head.separator);
+            }) == std::ssize(conditions);
         if (!is_chosen)
             continue;
         read_record(lines, fields, head, mark, uses);
         for (auto& column : unread) {
             const auto text = fields[column.column].text;
-            column.texts.push_back(text);
-            column.is_number =
-                column.is_number && (is_missing(text) || number_of(text, head.separator));
+            column.texts.push_back(is_missing(text) ? std::string_view() : text);
+            column.numbers.push_back(number_of(text, head.separator));
         }
     }
     require_records(data, head.place, conditions);

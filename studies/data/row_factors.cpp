@@ -1,5 +1,8 @@
 #include "studies/data/row_factors.hpp"
 
+#include "studies/data/field_number.hpp"
+#include "studies/text/number_text.hpp"
+
 #include <boost/algorithm/string/classification.hpp>
 #include <boost/algorithm/string/join.hpp>
 #include <boost/algorithm/string/predicate.hpp>
@@ -9,11 +12,9 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <functional>
 #include <map>
-#include <optional>
 #include <set>
 #include <span>
 
@@ -22,15 +23,6 @@ namespace tvbeam {
 namespace {
 
 constexpr std::size_t most_texts_named = 3;
-
-std::optional<double> plain_number(std::string_view text) {
-    std::string plain(text.starts_with('+') ? text.substr(1) : text);
-    std::ranges::replace(plain, ',', '.');
-    double number = 0;
-    const auto [end, error] = std::from_chars(plain.data(), plain.data() + plain.size(), number);
-    const bool is_all = error == std::errc() && end == plain.data() + plain.size();
-    return is_all ? std::optional(number) : std::nullopt;
-}
 
 bool is_among(std::string_view name, std::span<const std::string_view> names) {
     return std::ranges::any_of(
@@ -43,22 +35,22 @@ bool is_no_factor(const std::string& name) {
         "seed",   "run",      "rep",     "replica", "replicate", "repeat",      "repetition",
         "sample", "trial",    "batch",   "attempt", "draw",      "realization", "realisation",
         "host",   "hostname", "machine", "commit",  "date",      "id"};
-    // What a run shows of itself.
-    constexpr std::array<std::string_view, 19> outcomes{
-        "seconds",    "sec",  "cpu",     "wall",   "walltime", "runtime", "elapsed",
-        "iterations", "iter", "its",     "niter",  "rate",     "eoc",     "verdict",
-        "status",     "note", "comment", "remark", "converged"};
+    // What a run shows of itself, likewise: newton_iterations, wall_time.
+    constexpr std::array<std::string_view, 18> outcomes{
+        "seconds", "sec",        "cpu",  "wall",    "walltime", "runtime",
+        "elapsed", "iterations", "iter", "its",     "niter",    "eoc",
+        "verdict", "status",     "note", "comment", "remark",   "converged"};
     std::vector<std::string> parts;
     boost::algorithm::split(parts, name, boost::algorithm::is_any_of("_-. "));
-    return is_among(name, outcomes) || std::ranges::any_of(parts, [&](const std::string& part) {
-               return is_among(part, labels);
-           });
+    return std::ranges::any_of(parts, [&](const std::string& part) {
+        return is_among(part, labels) || is_among(part, outcomes);
+    });
 }
 
 /// The records of one value of a column.
 struct Group {
     std::string_view text;
-    std::vector<std::size_t> records;
+    std::size_t first = 0;                ///< of the records
     std::set<std::vector<double>> widths; ///< different ones
 };
 
@@ -82,19 +74,19 @@ std::vector<Group> series_by(const UnreadColumn& column, const DataFile& data) {
     std::map<std::string, Group> groups;
     for (std::size_t i = 0; i < column.texts.size(); ++i)
         if (has_figure(data, i)) {
-            const auto number = plain_number(column.texts[i]);
-            auto& group =
-                groups[number ? fmt::format("{}", *number) : std::string(column.texts[i])];
-            if (group.records.empty())
+            const auto& number = column.numbers[i];
+            auto& group = groups[number ? shortest(*number) : std::string(column.texts[i])];
+            if (group.widths.empty()) {
                 group.text = column.texts[i];
-            group.records.push_back(i);
+                group.first = i;
+            }
             group.widths.insert(widths_of(data, i));
         }
     std::vector<Group> series;
     for (auto& [text, group] : groups)
         if (group.widths.size() >= 2U)
             series.push_back(std::move(group));
-    std::ranges::sort(series, {}, [](const Group& group) { return group.records.front(); });
+    std::ranges::sort(series, {}, &Group::first);
     return series;
 }
 
@@ -143,13 +135,13 @@ bool are_series(const Group& a, const Group& b, bool is_number, const DataFile& 
 
 } // namespace
 
-bool RowCondition::holds_for(std::string_view field) {
+bool RowCondition::holds_for(std::string_view field, char separator) {
     if (seen.size() < most_texts_named && std::ranges::find(seen, field) == seen.end())
         seen.emplace_back(field);
     if (text == "*" || field == text)
         return true;
-    const auto number = plain_number(field);
-    return number && number == plain_number(text);
+    const auto number = number_of(field, separator);
+    return number && number == number_of(text, separator);
 }
 
 std::vector<RowCondition> conditions_of(const ColumnNames& names,
@@ -212,11 +204,17 @@ std::vector<UnreadColumn> unread_columns(const ColumnNames& names,
 
 void require_one_series(const DataFile& data, const Place& names,
                         const std::vector<UnreadColumn>& columns) {
+    // Of very many values the first show as much as all, and all pairs of them would take minutes.
+    constexpr std::size_t most_compared = 200;
     for (const auto& column : columns) {
-        const auto series = series_by(column, data);
+        auto series = series_by(column, data);
+        series.resize(std::min(series.size(), most_compared));
+        bool is_number = true;
+        for (std::size_t i = 0; i < column.texts.size(); ++i)
+            is_number = is_number && (column.texts[i].empty() || column.numbers[i]);
         for (std::size_t i = 0; i < series.size(); ++i)
             for (std::size_t k = 0; k < i; ++k) {
-                if (!are_series(series[k], series[i], column.is_number, data))
+                if (!are_series(series[k], series[i], is_number, data))
                     continue;
                 throw InputError(
                     names,

@@ -8,6 +8,7 @@
 #include "studies/data/data_file.hpp"
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -21,8 +22,8 @@ struct RowCondition {
     std::string text;                   ///< "*": anything
     std::vector<std::string> seen = {}; ///< the first different texts
 
-    /// Whether a field has the text, or is the same number.
-    bool holds_for(std::string_view field);
+    /// Whether a field has the text, or is the same number, as field_number.hpp reads both.
+    bool holds_for(std::string_view field, char separator);
 };
 
 /// Throws InputError for what is not COLUMN=TEXT, for columns that are not there, and those that
@@ -38,8 +39,8 @@ void require_records(DataFile& data, const Place& names,
 struct UnreadColumn {
     std::size_t column = 0;
     std::string name;
-    bool is_number = true;
-    std::vector<std::string_view> texts = {}; ///< one a record
+    std::vector<std::string_view> texts = {};        ///< one a record
+    std::vector<std::optional<double>> numbers = {}; ///< what these are; none where they are none
 };
 
 /// All columns but those that are used, named by a condition, or by their names no factors: labels

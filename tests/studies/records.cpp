@@ -288,6 +288,7 @@ BOOST_AUTO_TEST_CASE(rows_of_two_series_are_refused_and_either_is_taken_by_its_t
         double finer = 1.0;
     };
     for (const auto& factor : {Factor{"scheme", "Euler", "BDF2", "BDF2"},
+                               {"eps", "1d-1", "0.01", "1e-2"},
                                {"degree", "1", "2", "2.0"},
                                {"t", "0.5", "1e0", "1"},
                                {"scheme", "\"P1, lumped\"", "P2", "P2", 0.7},
@@ -314,7 +315,7 @@ BOOST_AUTO_TEST_CASE(columns_that_tell_no_series_apart_are_passed_over) {
     // Labels of replicates and what a run shows of itself; one row each; texts of one half of the
     // widths and of the other; a value of fewer widths than a series of numbers has; rows that
     // failed.
-    for (const char* name : {"seed", "Run", "iterations", "status"})
+    for (const char* name : {"seed", "Run", "newton_iterations", "status"})
         BOOST_TEST(data_of(two_series(name, "1", "2")).errors.at(0).numbers.size() == 8u, name);
     for (const std::string text :
          {"date,h,error\n1a,0.2,1\n1b,0.1,2\n1c,0.2,3\n1d,0.1,4\n",
