@@ -3,7 +3,6 @@
 #include "studies/data/field_number.hpp"
 #include "studies/text/number_text.hpp"
 
-#include <boost/algorithm/string/classification.hpp>
 #include <boost/algorithm/string/join.hpp>
 #include <boost/algorithm/string/predicate.hpp>
 #include <boost/algorithm/string/split.hpp>
@@ -41,7 +40,9 @@ bool is_no_factor(const std::string& name) {
         "elapsed", "iterations", "iter", "its",     "niter",    "eoc",
         "verdict", "status",     "note", "comment", "remark",   "converged"};
     std::vector<std::string> parts;
-    boost::algorithm::split(parts, name, boost::algorithm::is_any_of("_-. "));
+    boost::algorithm::split(parts, name, [](char c) {
+        return std::string_view("_-. ").find(c) != std::string_view::npos;
+    });
     return std::ranges::any_of(parts, [&](const std::string& part) {
         return is_among(part, labels) || is_among(part, outcomes);
     });
