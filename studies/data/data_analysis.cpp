@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -66,6 +67,37 @@ std::vector<RowVerdict> verdicts_of(const TwoTermFit& fit, std::size_t rows) {
     for (const auto& [row, why, reason] : fit.rejected)
         verdicts[row] = {verdict_of(why), reason};
     return verdicts;
+}
+
+/// The part of an error that is uncertain to 95 %, by its stated deviation, or, where there is
+/// none, by the digits printed.
+double uncertainty_of(const DataColumn& errors, const std::vector<double>& stated, std::size_t r) {
+    const double unit = errors.units.empty() ? 0.0 : errors.units[r];
+    if (errors.numbers[r] == 0)
+        return unit > 0 ? std::numeric_limits<double>::infinity() : 0.0;
+    constexpr double of_95 = 1.96;
+    return of_95 * (stated.empty() ? unit / std::sqrt(12.0) : stated[r]) / errors.numbers[r];
+}
+
+/// What a verdict says of an order of two rows may be what is not known of their errors: of a floor
+/// in 0.002 and 0.001 nobody can tell. A row that is asymptotic has the order of others.
+void leave_open(const DataColumn& errors, const std::vector<double>& stated,
+                std::vector<RowVerdict>& verdicts) {
+    // An order on halved widths is then uncertain by 0.2.
+    constexpr double of_no_order = 0.1;
+    for (std::size_t r = 0; r < verdicts.size(); ++r) {
+        double part = uncertainty_of(errors, stated, r);
+        if (verdicts[r].verdict == Verdict::exact && part > 0)
+            verdicts[r] = {Verdict::unresolved, "zero to the digits printed"};
+        if (r > 0)
+            part = std::max(part, uncertainty_of(errors, stated, r - 1));
+        constexpr std::array events{Verdict::floor, Verdict::diverging, Verdict::cancellation,
+                                    Verdict::outlier};
+        if (part > of_no_order && std::ranges::find(events, verdicts[r].verdict) != events.end())
+            verdicts[r] = {Verdict::unresolved,
+                           fmt::format("it, or the row before, is uncertain by {:.0f} %",
+                                       100 * std::min(part, 1.0))};
+    }
 }
 
 /// Errors of one or two widths.
@@ -150,6 +182,7 @@ ColumnAnalysis analyse_errors(const DataAnalysis& data, const DataColumn& errors
     constexpr std::size_t most_widths = 3;
     if (used.size() <= 2) {
         analyse_records(data, used, sigma, column);
+        leave_open(errors, stated, column.verdicts);
     } else if (used.size() > most_widths) {
         for (const auto i : used)
             column.by_width[i].status = "of more than three widths at a time no orders are found";

@@ -65,8 +65,21 @@ private:
     int number_ = 0;
 };
 
+/// Whether a line is one of a table of Markdown's, with a bar at both ends.
+bool is_between_bars(std::string_view line) {
+    return line.size() > 1 && line.front() == '|' && line.back() == '|';
+}
+
+/// Whether it is that below the names: |---|:--:|.
+bool is_rule(std::string_view line) {
+    return is_between_bars(line) && line.find_first_not_of("|-: \t") == std::string_view::npos &&
+           line.find('-') != std::string_view::npos;
+}
+
 /// The separator that a line of names has; a blank stands for any run of blanks.
 char separator_of(std::string_view names) {
+    if (is_between_bars(names))
+        return '|';
     for (const char separator : {'\t', ';', ','})
         if (names.find(separator) != std::string_view::npos)
             return separator;
@@ -77,6 +90,8 @@ char separator_of(std::string_view names) {
 void split(const Lines& lines, std::string_view line, char separator,
            std::vector<TextField>& fields) {
     fields.clear();
+    if (separator == '|' && is_between_bars(trimmed(line)))
+        line = trimmed(line).substr(1, trimmed(line).size() - 2);
     const auto column = [&](std::size_t at) {
         return static_cast<int>(line.data() - lines.line().data()) + static_cast<int>(at) + 1;
     };
@@ -300,6 +315,18 @@ void require_squares_of(const DataFile& data) {
     }
 }
 
+bool is_error(const DataFile& data, const ColumnUse& use) {
+    return std::ranges::any_of(data.errors,
+                               [&](const DataColumn& column) { return &column == use.target; });
+}
+
+/// An error of 0 is of a solution that is met; a value of 0 may be what is left of 0.0003.
+void take_zeros_for_exact(const ColumnUse& use) {
+    for (std::size_t i = 0; i < use.printed.size(); ++i)
+        if (use.target->numbers[i] == 0 && use.printed[i].is_zero)
+            use.target->units[i] = 0;
+}
+
 } // namespace
 
 DataFile read_data(const std::string& file, const DataChoice& choice) {
@@ -319,7 +346,8 @@ DataFile read_data(const std::string& file, const DataChoice& choice) {
     std::vector<TextField> fields;
     for (bool more = head.numbers_follow || lines.next(); more; more = lines.next()) {
         const auto line = trimmed(lines.line());
-        if (line.empty() || line.starts_with('#') || line.starts_with('%'))
+        if (line.empty() || line.starts_with('#') || line.starts_with('%') ||
+            (head.separator == '|' && is_rule(line)))
             continue;
         split(lines, head.separator == ' ' ? line : lines.line(), head.separator, fields);
         if (fields.size() != head.names.size())
@@ -348,6 +376,9 @@ DataFile read_data(const std::string& file, const DataChoice& choice) {
     for (const auto& use : uses)
         if (use.is_figure())
             use.target->units = printed_units(use.target->numbers, use.printed);
+    for (const auto& use : uses)
+        if (use.is_figure() && !use.target->units.empty() && is_error(data, use))
+            take_zeros_for_exact(use);
     return data;
 }
 

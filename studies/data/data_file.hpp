@@ -1,11 +1,11 @@
 /// A table of errors or values of any solver, as people have it.
 ///
 /// One record a line, a name a column. Fields are separated by commas, tabs, semicolons (then a
-/// comma may be a decimal point) or blanks, as the line of names has it. The names stand in the
-/// first line, or, as NumPy writes them, in the comment (#) just above the first line of numbers.
-/// Empty lines and other comments are passed over. Numbers are read alike in every locale, also
-/// with Fortran's exponents (1.5D-03, 1.5-103); an empty field, nan or NA is a failed run. What is
-/// too large or too small for a double is refused.
+/// comma may be a decimal point), blanks, or the bars of a Markdown table, as the line of names has
+/// it. The names stand in the first line, or, as NumPy writes them, in the comment (#) just above
+/// the first line of numbers. Empty lines and other comments are passed over. Numbers are read
+/// alike in every locale, also with Fortran's exponents (1.5D-03, 1.5-103); an empty field, nan or
+/// NA is a failed run. What is too large or too small for a double is refused.
 #pragma once
 
 #include <optional>

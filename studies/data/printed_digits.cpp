@@ -34,6 +34,7 @@ PrintedDigits printed_digits(std::string_view text) {
         digits.significant += digits.significant > 0 || c != '0' ? 1 : 0;
         digits.last_place -= is_behind_the_point ? 1 : 0;
     }
+    digits.is_zero = digits.significant == 0 && (digits.last_place == 0 || end < text.size());
     auto exponent = text.substr(end);
     exponent.remove_prefix(std::min(exponent.find_first_of("0123456789-"), exponent.size()));
     int places = 0;

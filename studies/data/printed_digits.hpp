@@ -10,6 +10,8 @@ namespace tvbeam {
 struct PrintedDigits {
     int significant = 0; ///< from the first that is not zero; of 0.00: none
     int last_place = 0;  ///< the last digit counts 10^last_place
+    /// 0 or 0.00e+00, of a number that is zero; 0.00 may be 0.004.
+    bool is_zero = false;
 };
 
 /// Of the text of a number, also one with a decimal comma or Fortran's exponent. A text without

@@ -560,6 +560,63 @@ BOOST_AUTO_TEST_CASE(digits_count_from_where_an_order_shows_them) {
     BOOST_TEST(of_five < 0.011);
 }
 
+// Where the last digit leaves an error uncertain by more than a tenth, no order of two rows holds.
+BOOST_AUTO_TEST_CASE(verdicts_know_what_the_digits_printed_leave_open) {
+    const auto verdicts = [](const std::string& rows) {
+        const auto column = analysis_of("h,error\n" + rows).columns.at(0);
+        std::string names;
+        for (const auto& row : column.verdicts)
+            names += std::string(names.empty() ? "" : " ") + name_of(row.verdict);
+        return names;
+    };
+    // Orders 2.04, 2.17 and 1.00, or of 0.0015 and 0.0010, ….
+    BOOST_TEST(verdicts("8,0.0370\n4,0.0090\n2,0.0022\n1,0.0019\n") ==
+               "pre-asymptotic pre-asymptotic pre-asymptotic floor");
+    BOOST_TEST(verdicts("8,0.037\n4,0.009\n2,0.002\n1,0.002\n") ==
+               "pre-asymptotic pre-asymptotic pre-asymptotic unresolved");
+    BOOST_TEST(verdicts("8,0.37\n4,0.15\n2,0.00\n1,0.00\n") ==
+               "pre-asymptotic pre-asymptotic unresolved unresolved");
+    for (const std::string zero : {"0", "0.0e+00"})
+        BOOST_TEST(verdicts("8,3.7e-1\n4,1.5e-1\n2," + zero + "\n1,0.0e+00\n") ==
+                   "pre-asymptotic pre-asymptotic exact exact");
+    BOOST_TEST(verdicts("8,6.4e-1\n4,1.6e-1\n2,4.0e-2\n1,1.0e-2\n") ==
+               "asymptotic asymptotic asymptotic asymptotic");
+}
+
+BOOST_AUTO_TEST_CASE(verdicts_know_stated_deviations) {
+    const auto last = [](const std::string& sigma) {
+        return analysis_of("h,error,sigma\n8,6.4,0.01\n4,1.6,0.01\n2,0.4,0.01\n1,0.35," + sigma +
+                               "\n",
+                           {.sigma = "sigma"})
+            .columns.at(0)
+            .verdicts.back()
+            .verdict;
+    };
+    BOOST_TEST((last("0.01") == Verdict::floor));
+    BOOST_TEST((last("0.1") == Verdict::unresolved));
+}
+
+// On a grid a zero that may be none is left out as what is not known.
+BOOST_AUTO_TEST_CASE(a_printed_zero_of_a_grid_is_not_exact) {
+    std::string text = "h,dt,error\n";
+    for (int k = 0; k < 16; ++k)
+        text +=
+            std::to_string(std::exp2(-(k % 4))) + "," + std::to_string(std::exp2(-(k / 4))) + "," +
+            (k == 15 ? "0.000" : two_digits(std::exp2(-2 * (k % 4)) + std::exp2(-(k / 4)))) + "\n";
+    const auto column = analysis_of(text).columns.at(0);
+    BOOST_TEST((column.verdicts.back().verdict == Verdict::unresolved));
+}
+
+BOOST_AUTO_TEST_CASE(a_table_of_markdown_is_read) {
+    const auto data =
+        data_of("| h | error |\n|---|:-----:|\n| 0.5 | 2.5e-1 |\n| 0.25 | 6.25e-2 |\n");
+    BOOST_REQUIRE(data.errors.size() == 1U);
+    BOOST_TEST(data.widths[0].numbers == std::vector({0.5, 0.25}),
+               boost::test_tools::per_element());
+    BOOST_TEST(data.errors[0].numbers == std::vector({0.25, 0.0625}),
+               boost::test_tools::per_element());
+}
+
 // What is written shows the interval to two digits: half of it is then right to 5 %.
 BOOST_AUTO_TEST_CASE(a_limit_is_written_with_the_digits_that_its_interval_needs) {
     const auto column =
@@ -612,7 +669,9 @@ BOOST_AUTO_TEST_CASE(the_last_digits_of_values_are_read) {
     are("h,value\n4,1.5D-03\n2,+2.5-103\n", {1e-4, 1e-104});
     are("h;value\n4;3,14\n2;3,15\n", {1e-2, 1e-2});
     are("h,error\n4,1.2e-3\n2,3.1E-04\n", {1e-4, 1e-5});
-    are("h,value\n4,0e-99999999999\n2,7\n", {1, 1});
+    are("h,error\n4,0e-99999999999\n2,7\n", {0, 1});
+    are("h,error\n4,0.00\n2,None\n1,7\n", {1e-2, 1e-2, 1});
+    are("h,error\n4,0.00e+00\n2,7.12\n1,0\n", {0, 1e-2, 0});
     BOOST_TEST(units("h,value\n4,1.5\n2,1.23456789012345\n").empty());
     BOOST_TEST(units("h,value\n4,0\n2,0\n").empty());
 }

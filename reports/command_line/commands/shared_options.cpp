@@ -69,10 +69,13 @@ void add_directory(CLI::App& command, std::string& directory, const std::string&
 
 void add_baseline(CLI::App& command, std::string& file, double& tolerance,
                   const std::string& figure) {
-    command.add_option("--baseline", file, "hold every " + figure + " against a recorded baseline")
-        ->type_name("FILE");
+    auto* const baseline =
+        command
+            .add_option("--baseline", file, "hold every " + figure + " against a recorded baseline")
+            ->type_name("FILE");
     command.add_option("--tolerance", tolerance, "relative, both sides, for --baseline")
         ->check(narrow)
+        ->needs(baseline)
         ->capture_default_str();
 }
 
