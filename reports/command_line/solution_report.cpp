@@ -145,9 +145,12 @@ std::string sizes_table(const SolutionSetting& setting) {
     if (!unknown.empty())
         return wrapped("not known: " + unknown);
     add("lumped", "euler", ThermalMass::lumped, &NormConstants::in_h);
-    for (const auto& time : TimeScheme::names())
-        unknown += add((time == "euler" ? "b: " : "") + time, time, ThermalMass::consistent,
-                       &NormConstants::in_dt);
+    for (const auto& time : TimeScheme::names()) {
+        const std::string why = add((time == "euler" ? "b: " : "") + time, time,
+                                    ThermalMass::consistent, &NormConstants::in_dt);
+        if (!why.empty() && unknown.find(why) == std::string::npos)
+            unknown += (unknown.empty() ? "" : "; ") + why;
+    }
     return text_table({"", {"", {norm}}, {{"", columns}}}) + unknown_norms +
            (unknown.empty() ? "" : wrapped("not known: " + unknown));
 }

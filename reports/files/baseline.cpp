@@ -120,15 +120,20 @@ std::string earlier_baseline(const std::string& file) {
     return file_text(file, largest_baseline);
 }
 
+void require_another_name(std::set<std::string>& names, const std::string& name,
+                          const Place& place) {
+    if (!names.insert(name).second)
+        throw InputError(place, "is the second scene that is called " + name +
+                                    "; a baseline goes by their names: rename one");
+}
+
 std::string baseline_of(const std::vector<BaselineEntry>& entries, const std::string& earlier) {
     Json scenes = Json::object();
     std::set<std::string> names;
     if (!earlier.empty())
         scenes = Json::parse(earlier)["scenes"];
     for (const auto& [name, place, figures, said] : entries) {
-        if (!names.insert(name).second)
-            throw InputError(place, "is the second scene that is called " + name +
-                                        "; a baseline goes by their names: rename one");
+        require_another_name(names, name, place);
         Json errors = Json::object();
         for (const auto& [what, error] : figures)
             errors[what] = figure_json(error);

@@ -1,11 +1,13 @@
 #pragma once
 
+#include "mms/text/input_error.hpp"
 #include "studies/data/data_analysis.hpp"
 #include "studies/gates/check.hpp"
 #include "studies/study.hpp"
 
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -29,6 +31,10 @@ BaselineEntry whole_entry(const StudyResult& result,
 /// can be held against it.
 void require_recordable(const Scene& scene);
 BaselineEntry baseline_entry(const DataAnalysis& analysis);
+
+/// Adds a name; throws InputError where it is there already: a baseline goes by them.
+void require_another_name(std::set<std::string>& names, const std::string& name,
+                          const Place& place);
 
 /// Entries as JSON (schema tvbeam-baseline/1), to hold later runs against. earlier: an earlier
 /// baseline, whose entries of other names stay; empty: none. Throws InputError where two have one

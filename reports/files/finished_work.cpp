@@ -132,7 +132,7 @@ bool FinishedWork::is_made_again(const Where& where) const {
 std::any FinishedWork::result_of(std::size_t group, std::size_t index, const Json& json) const {
     const WorkGroup& asked = groups_[group];
     if (asked.series)
-        return kept_run(json, asked.series->rungs[index], asked.series->measures.size());
+        return kept_run(json, asked.series->rungs[index], asked.series->measures);
     if (asked.study == "stress")
         return kept_case(json);
     const auto* stress = scene_.get<StressBlock>();

@@ -86,18 +86,36 @@ nlohmann::ordered_json kept(const RungResult& result) {
     Json counts = Json::object();
     for (const auto& [name, value] : result.counters)
         counts[name] = value;
-    return {{"elements", result.rung.elements},
-            {"steps", result.rung.steps},
-            {"dt", number(result.rung.dt)},
-            {"failed", result.status != RungStatus::ok},
-            {"reason", result.reason},
-            {"seconds", result.seconds},
-            {"counters", std::move(counts)},
-            {"errors", std::move(errors)},
-            {"uncertainties", std::move(uncertainties)}};
+    Json json{{"elements", result.rung.elements},
+              {"steps", result.rung.steps},
+              {"dt", number(result.rung.dt)},
+              {"failed", result.status != RungStatus::ok},
+              {"reason", result.reason},
+              {"seconds", result.seconds},
+              {"counters", std::move(counts)},
+              {"errors", std::move(errors)},
+              {"uncertainties", std::move(uncertainties)}};
+    for (const auto& digits : result.printed)
+        json["printed"].push_back(kept(digits));
+    return json;
 }
 
-RungResult kept_run(const nlohmann::ordered_json& json, const Rung& rung, std::size_t norms) {
+nlohmann::ordered_json kept(const PrintedDigits& digits) {
+    return {{"significant", digits.significant},
+            {"last_place", digits.last_place},
+            {"is_zero", digits.is_zero}};
+}
+
+PrintedDigits kept_digits(const nlohmann::ordered_json& json) {
+    require(member(json, "last_place").is_number_integer() && member(json, "is_zero").is_boolean(),
+            "what was printed is no digits");
+    return {.significant = static_cast<int>(count(member(json, "significant"), "significant")),
+            .last_place = json["last_place"],
+            .is_zero = json["is_zero"]};
+}
+
+RungResult kept_run(const nlohmann::ordered_json& json, const Rung& rung,
+                    const std::vector<Measure>& measures) {
     RungResult result;
     result.rung = {count(member(json, "elements"), "elements"),
                    count(member(json, "steps"), "steps"), number(member(json, "dt"), "dt")};
@@ -118,11 +136,12 @@ RungResult kept_run(const nlohmann::ordered_json& json, const Rung& rung, std::s
                 result.count("sine_steps") <= result.count("steps"),
             "counters are of more steps than the run has");
     const Json& errors = member(json, "errors");
-    require(errors.is_array() && errors.size() == (failed ? 0 : norms),
+    require(errors.is_array() && errors.size() == (failed ? 0 : measures.size()),
             "errors are not one a norm of a run that did not fail");
     for (const auto& error : errors) {
+        const bool is_value = measures[result.errors.size()].is_value;
         result.errors.push_back(number(error, "an error"));
-        require(std::isfinite(result.errors.back()) && result.errors.back() >= 0.0,
+        require(std::isfinite(result.errors.back()) && (is_value || result.errors.back() >= 0.0),
                 "an error is not a norm");
     }
     const Json& uncertainties = member(json, "uncertainties");
@@ -133,6 +152,11 @@ RungResult kept_run(const nlohmann::ordered_json& json, const Rung& rung, std::s
         result.uncertainties.push_back(number(part, "an uncertainty"));
         require(result.uncertainties.back() >= 0.0, "an uncertainty is not a part");
     }
+    if (json.contains("printed"))
+        for (const auto& digits : json["printed"])
+            result.printed.push_back(kept_digits(digits));
+    require(result.printed.empty() || result.printed.size() == result.errors.size(),
+            "what was printed is not one an error");
     return result;
 }
 

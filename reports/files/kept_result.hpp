@@ -13,9 +13,13 @@ namespace tvbeam {
 nlohmann::ordered_json kept(const RungResult& result);
 nlohmann::ordered_json kept(const StressCase& result);
 
-/// A result again, of the rung and with so many norms as the scene asks for. Throws
+/// A result again, of the rung and with the measures that the scene asks for. Throws
 /// std::invalid_argument, with the reason, where it is none that such a run gives.
-RungResult kept_run(const nlohmann::ordered_json& json, const Rung& rung, std::size_t norms);
+RungResult kept_run(const nlohmann::ordered_json& json, const Rung& rung,
+                    const std::vector<Measure>& measures);
+
+nlohmann::ordered_json kept(const PrintedDigits& digits);
+PrintedDigits kept_digits(const nlohmann::ordered_json& json); ///< throws likewise
 
 /// The same, without its parameters.
 StressCase kept_case(const nlohmann::ordered_json& json);

@@ -1,6 +1,7 @@
 #include "reports/files/solver_runs.hpp"
 
 #include "mms/text/input_error.hpp"
+#include "reports/files/kept_result.hpp"
 #include "reports/files/output_file.hpp"
 
 #include <fmt/format.h>
@@ -36,7 +37,10 @@ void SolverRuns::read_line(const KeptLine& line) {
         Run& run = runs_[json.at("of").get<std::string>()];
         run.seconds = json.at("seconds").get<double>();
         for (const auto& [name, figure] : json.at("figures").items())
-            run.figures[name] = figure.get<double>();
+            run.figures[name].value = figure.get<double>();
+        if (json.contains("printed"))
+            for (const auto& [name, digits] : json["printed"].items())
+                run.figures[name].printed = kept_digits(digits);
     } catch (const std::exception& error) {
         throw InputError({file_.path().string(), static_cast<int>(line.number), 1},
                          fmt::format("is not what tvbeam wrote: {}; remove the file to make its "
@@ -65,8 +69,13 @@ std::optional<RungResult> SolverRuns::kept(const Series& series, std::size_t ind
         const auto figure = found->second.figures.find(measure.name);
         if (figure == found->second.figures.end())
             return std::nullopt;
-        result.errors.push_back(figure->second);
+        result.errors.push_back(figure->second.value);
+        if (figure->second.printed)
+            result.printed.push_back(*figure->second.printed);
     }
+    // Those of an earlier version have no digits.
+    if (result.printed.size() < result.errors.size())
+        result.printed.clear();
     return result;
 }
 
@@ -75,20 +84,27 @@ void SolverRuns::add(const Series& series, std::size_t index, const RungResult& 
         return;
     const std::string identity = identities_.of(series, index);
     Json figures = Json::object();
-    for (std::size_t k = 0; k < series.measures.size(); ++k)
+    Json printed = Json::object();
+    for (std::size_t k = 0; k < series.measures.size(); ++k) {
         figures[series.measures[k].name] = result.errors[k];
+        if (!result.printed.empty())
+            printed[series.measures[k].name] = tvbeam::kept(result.printed[k]);
+    }
     const std::scoped_lock lock(mutex_);
     Run& run = runs_[identity];
     run.seconds = result.seconds;
     run.is_new = true;
     for (std::size_t k = 0; k < series.measures.size(); ++k)
-        run.figures[series.measures[k].name] = result.errors[k];
+        run.figures[series.measures[k].name] = {
+            result.errors[k],
+            result.printed.empty() ? std::nullopt : std::optional(result.printed[k])};
     if (!failure_.empty())
         return;
-    const Json line{{"schema", runs_schema},     {"of", identity},
-                    {"study", series.study},     {"elements", result.rung.elements},
-                    {"dt", result.rung.dt},      {"method", series.method.name},
-                    {"seconds", result.seconds}, {"figures", std::move(figures)}};
+    const Json line{{"schema", runs_schema},        {"of", identity},
+                    {"study", series.study},        {"elements", result.rung.elements},
+                    {"dt", result.rung.dt},         {"method", series.method.name},
+                    {"seconds", result.seconds},    {"figures", std::move(figures)},
+                    {"printed", std::move(printed)}};
     try {
         file_.append(line.dump(-1, ' ', false, Json::error_handler_t::replace));
     } catch (const OutputError& error) {

@@ -48,9 +48,13 @@ public:
     [[nodiscard]] const std::string& failure() const { return failure_; }
 
 private:
+    struct Figure {
+        double value = 0.0;
+        std::optional<PrintedDigits> printed;
+    };
     struct Run {
         double seconds = 0.0;
-        std::map<std::string, double> figures; ///< errors and values by name
+        std::map<std::string, Figure> figures; ///< errors and values by name
         bool is_new = false;                   ///< made by this command
     };
     void read_line(const KeptLine& line);

@@ -180,8 +180,10 @@ public:
             result.status = RungStatus::failed;
             result.reason = error.what();
         }
-        if (result.status != RungStatus::ok)
+        if (result.status != RungStatus::ok) {
             result.errors.clear();
+            result.printed.clear();
+        }
         task.advance(std::max<std::int64_t>(task.rung.steps, 1));
         return result;
     }
@@ -259,6 +261,7 @@ private:
                 return measure.name + " is " + shortest(*figure.value) +
                        "; a norm of an error is not below 0";
             result.errors.push_back(*figure.value);
+            result.printed.push_back(figure.printed);
         }
         return {};
     }

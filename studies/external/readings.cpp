@@ -43,7 +43,7 @@ ReadFigure number_of(const std::string& name, const std::string& written) {
         return {{}, name + " is " + trimmed(written) + ", beyond the range of doubles"};
     if (!std::isfinite(value))
         return {{}, name + " is " + trimmed(written)};
-    return {value, {}};
+    return {value, {}, printed_digits(text)};
 }
 
 /// What every match must begin with: the characters up to the first that means something else.
@@ -80,7 +80,7 @@ ReadFigure figure_in_json(const std::filesystem::path& file, const std::string& 
             return {{}, "it has " + name + " more than once; which is meant?"};
         if (!found->is_number())
             return {{}, name + " is " + found->dump().substr(0, 40) + ", which is not one number"};
-        return {found->get<double>(), {}};
+        return {found->get<double>(), {}, printed_digits(found->dump())};
     } catch (const std::exception& error) {
         return {{}, std::string("it is not JSON: ") + error.what()};
     }
@@ -134,6 +134,15 @@ ReadFigure figure_in_csv(const std::filesystem::path& file, const std::string& n
     return number_of(name, row[static_cast<std::size_t>(column - names.begin())]);
 }
 
+/// Whether the number that a group took goes on behind it: with digits, or with an exponent.
+bool goes_on(const std::string& number, const std::string& behind) {
+    static const std::regex rest(R"(^(\d|\.\d|[eEdD][+-]?\d))");
+    const bool ends_as_one =
+        !number.empty() &&
+        (std::isdigit(static_cast<unsigned char>(number.back())) != 0 || number.back() == '.');
+    return ends_as_one && std::regex_search(behind, rest);
+}
+
 /// A count of that many digits, as of {4} or \1, is beyond what the library reads it into.
 bool has_long_number(const std::string& pattern) {
     constexpr int most_digits = 9;
@@ -174,6 +183,11 @@ void OutputReading::take(const std::string& line) {
     if (match == std::sregex_iterator())
         return;
     found_ = (*match)[1].str();
+    const std::string behind = (*match)[1].second == line.end()
+                                   ? std::string()
+                                   : std::string((*match)[1].second, line.end());
+    goes_on_ = goes_on(*found_, behind) ? *found_ + behind.substr(0, behind.find_first_of(" \t\r"))
+                                        : std::string();
     twice_ = ++match != std::sregex_iterator();
 }
 
@@ -183,6 +197,10 @@ ReadFigure OutputReading::figure() const {
         return {{}, "no " + pattern_->name + ": " + of};
     if (twice_)
         return {{}, "the last line with " + pattern_->name + " has two of them"};
+    if (!goes_on_.empty())
+        return {{},
+                "of " + goes_on_ + ", " + pattern_->name + " would be " + *found_ + ": '" +
+                    pattern_->text + "' ends within the number; (\\S+) takes it whole"};
     return number_of(pattern_->name, *found_);
 }
 

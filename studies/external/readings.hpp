@@ -2,6 +2,7 @@
 #pragma once
 
 #include "mms/text/input_error.hpp"
+#include "studies/data/printed_digits.hpp"
 
 #include <filesystem>
 #include <optional>
@@ -15,6 +16,7 @@ namespace tvbeam {
 struct ReadFigure {
     std::optional<double> value; ///< finite
     std::string failure;         ///< e.g. "L2 is nan"
+    PrintedDigits printed = {};
 };
 
 /// A regular expression (ECMAScript, without back references) with one group, for lines of standard
@@ -39,7 +41,8 @@ public:
 private:
     const OutputPattern* pattern_;
     std::optional<std::string> found_;
-    bool twice_ = false; ///< the last line that matches does so twice
+    bool twice_ = false;  ///< the last line that matches does so twice
+    std::string goes_on_; ///< the whole number, where the pattern takes only a part; or empty
 };
 
 /// Where numbers are read by their names: on standard output, or in a file in the directory of the

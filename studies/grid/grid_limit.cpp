@@ -18,11 +18,14 @@ namespace {
 class ValueGrid {
 public:
     ValueGrid(const std::vector<RungResult>& runs, std::size_t k) {
-        for (const auto& run : runs) {
+        const auto units = units_of(runs, k);
+        for (std::size_t i = 0; i < runs.size(); ++i) {
+            const auto& run = runs[i];
             h_.insert(run.rung.h());
             dt_.insert(run.rung.dt);
             if (!run.errors.empty())
-                values_[{run.rung.h(), run.rung.dt}] = run.errors[k];
+                values_[{run.rung.h(), run.rung.dt}] = {run.errors[k],
+                                                        units.empty() ? 0.0 : units[i]};
         }
     }
 
@@ -31,31 +34,41 @@ public:
 
     [[nodiscard]] double at(double h, double dt) const {
         const auto found = values_.find({h, dt});
-        return found != values_.end() ? found->second : std::numeric_limits<double>::quiet_NaN();
+        return found != values_.end() ? found->second.value
+                                      : std::numeric_limits<double>::quiet_NaN();
     }
 
     /// Along one width where the other is finest, from coarse to fine.
     [[nodiscard]] LimitEstimate along_h() const {
-        return along(h_, [this](double h) { return at(h, *dt_.begin()); });
+        return along(h_, [this](double h) { return std::pair(h, *dt_.begin()); });
     }
     [[nodiscard]] LimitEstimate along_dt() const {
-        return along(dt_, [this](double dt) { return at(*h_.begin(), dt); });
+        return along(dt_, [this](double dt) { return std::pair(*h_.begin(), dt); });
     }
 
 private:
-    static LimitEstimate along(const std::set<double>& widths,
-                               const std::function<double(double)>& value) {
+    struct PrintedValue {
+        double value = std::numeric_limits<double>::quiet_NaN();
+        double unit = 0; ///< of its last digit
+    };
+    using Widths = std::pair<double, double>;
+
+    [[nodiscard]] LimitEstimate along(const std::set<double>& widths,
+                                      const std::function<Widths(double)>& both) const {
         std::vector<ValueRow> rows;
         rows.reserve(widths.size());
         const std::vector<double> falling(widths.rbegin(), widths.rend());
-        for (const double width : falling)
-            rows.push_back({width, value(width)});
+        for (const double width : falling) {
+            const auto found = values_.find(both(width));
+            const PrintedValue here = found != values_.end() ? found->second : PrintedValue{};
+            rows.push_back({.h = width, .value = here.value, .unit = here.unit});
+        }
         return estimate_limit(rows);
     }
 
     std::set<double> h_;
     std::set<double> dt_;
-    std::map<std::pair<double, double>, double> values_;
+    std::map<Widths, PrintedValue> values_;
 };
 
 /// r^p − 1, of the two finest widths.

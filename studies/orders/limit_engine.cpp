@@ -401,6 +401,9 @@ LimitEstimate estimate_limit(std::span<const ValueRow> rows, const LimitTuning& 
     if (is_scattered)
         result.order =
             hull(result.order, order_of_differences(with_scatter(levels, scatter), first));
+    // Its errors are the steps from value to value.
+    if (result.order.status.find("error") != std::string::npos)
+        result.order.status = "an order of values needs three steps that are not zero";
     if (levels.size() < 4)
         result.order.status = "an order of values with an interval needs four widths";
     return result;

@@ -61,6 +61,19 @@ double longest_time(const std::vector<Series>& all) {
     return longest;
 }
 
+std::vector<double> units_of(const std::vector<RungResult>& rungs, std::size_t k) {
+    std::vector<double> figures;
+    std::vector<PrintedDigits> digits;
+    for (const auto& rung : rungs) {
+        if (!rung.errors.empty() && rung.printed.empty())
+            return {};
+        figures.push_back(rung.errors.empty() ? std::numeric_limits<double>::quiet_NaN()
+                                              : rung.errors[k]);
+        digits.push_back(rung.errors.empty() ? PrintedDigits{} : rung.printed[k]);
+    }
+    return printed_units(figures, digits);
+}
+
 std::vector<Refinement> records_of(const std::vector<RungResult>& rungs, std::size_t k) {
     std::vector<Refinement> records;
     records.reserve(rungs.size());

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "studies/data/printed_digits.hpp"
 #include "studies/orders/observed_order.hpp"
 
 #include <any>
@@ -74,6 +75,8 @@ struct RungResult {
     /// The part of each error that its solver knows to be uncertain, e.g. by its quadrature; empty:
     /// none of any.
     std::vector<double> uncertainties = {};
+    /// How finely each was printed, where a program wrote them; empty: they are the doubles found.
+    std::vector<PrintedDigits> printed = {};
 
     /// A counter by its name; 0 where the solver has none of it.
     [[nodiscard]] std::int64_t count(std::string_view name) const;
@@ -108,6 +111,9 @@ struct Series {
 
 /// To which the longest of the series runs; 0 without any.
 double longest_time(const std::vector<Series>& all);
+
+/// The unit of the last digit printed of measure k in each run, as printed_units has them.
+std::vector<double> units_of(const std::vector<RungResult>& rungs, std::size_t k);
 
 /// The runs as records for an order analysis of measure k; a failed run has a NaN error.
 std::vector<Refinement> records_of(const std::vector<RungResult>& rungs, std::size_t k);

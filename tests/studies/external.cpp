@@ -126,6 +126,26 @@ BOOST_AUTO_TEST_CASE(what_is_no_one_number_is_a_failure_that_says_why) {
     }
 }
 
+// A part of a number is another number.
+BOOST_AUTO_TEST_CASE(a_pattern_that_ends_within_a_number_is_a_failure) {
+    for (const std::string line :
+         {"L2 = 9.76e-04", "L2 = 9.76D+04 m", "L2 = 9.76.", "L2 = 9.76e4"}) {
+        const ReadFigure found = read({line}, "L2 = ([0-9]+\\.?[0-9]?)");
+        BOOST_TEST(!found.value, line);
+        BOOST_TEST(found.failure.find("ends within the number") != std::string::npos,
+                   found.failure);
+    }
+    for (const std::string line :
+         {"L2 = 9.7", "L2 = 9.7 e-04", "L2 = 9.7em", "L2 = 9.7, 2", "L2 = 9.7e"})
+        BOOST_TEST(*read({line}, "L2 = ([0-9]+\\.?[0-9]?)").value == 9.7, line);
+}
+
+BOOST_AUTO_TEST_CASE(the_digits_that_were_printed_are_known) {
+    BOOST_TEST(read({"L2 = 1.760"}, "L2 = (\\S+)").printed.last_place == -3);
+    BOOST_TEST(in_file("e.csv", "L2\n1.50e-2\n").printed.last_place == -4);
+    BOOST_TEST(in_file("e.json", "{\"L2\": 0.125}").printed.significant == 3);
+}
+
 // What a line must begin a match with is looked for first: it must be no more than that.
 BOOST_AUTO_TEST_CASE(the_literal_start_of_a_pattern_passes_over_no_match) {
     for (const auto& [pattern, literal] :

@@ -19,6 +19,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -78,10 +79,13 @@ int check_command(const CheckOptions& options) {
                 {scene.file},
                 "has no [expect] block, so there is nothing to check; add one, or record a "
                 "baseline with --record");
+    std::set<std::string> recorded;
     for (const auto& scene : scenes) {
         require_runnable(scene);
         if (baseline || !options.record.empty())
             require_recordable(scene);
+        if (!options.record.empty())
+            require_another_name(recorded, scene.name, {scene.file});
     }
     Destination junit = destination(options.junit);
     const std::string earlier = options.record.empty() || options.record == "-"
