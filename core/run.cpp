@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <new>
 #include <optional>
 #include <stdexcept>
@@ -108,9 +109,15 @@ RunResult march(const RunRequest& request, const ProblemData& data, const Mesh& 
         result.counters.norm_evaluations = norms->evaluations();
         result.counters.doubles_allocated += norms->doubles_allocated();
     }
-    return all_finite(result.errors)
-               ? result
-               : failure("an error norm is not finite at the end of the run", result.counters);
+    if (const auto bad = std::ranges::find_if_not(
+            result.errors, [](double error) { return std::isfinite(error); });
+        bad != result.errors.end())
+        return failure(
+            fmt::format("{} is not finite at the end of the run: formulas of the solution, or of "
+                        "its derivatives, have no value, or one too large, at a point of this mesh",
+                        request.norms[static_cast<std::size_t>(bad - result.errors.begin())].name),
+            result.counters);
+    return result;
 }
 
 /// What norms and observer read between them.

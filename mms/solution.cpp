@@ -98,7 +98,7 @@ SolutionPhase read_phase(const TableReader& root, const Formulas& top, TableRead
     SolutionPhase phase = phase_of(root, top, table, inner, false);
     if (last && until)
         throw InputError(table.place_of_key("until"),
-                         "the last phase has no until: it holds for all later times");
+                         "the last phase holds for all later times; remove its until");
     if (!last && !until)
         throw InputError(table.place(), "until is missing; every phase but the last says when it "
                                         "ends");

@@ -7,6 +7,8 @@
 #include "studies/evolution/evolution_block.hpp"
 #include "studies/runs/beam_runs.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -127,12 +129,14 @@ std::string orders_text(const Scene& scene, const RateJump& jump) {
 
 std::string remark(const Scene& scene, const RateJump& jump, const std::string& orders,
                    const Costly& costly, double end) {
+    // The greatest over x is that of the points that were looked at.
+    const auto about = [](double size) { return fmt::format("about {:.2g}", size); };
     std::vector<std::string> jumps;
     if (jump.heat > 0.0)
         jumps.push_back((scene.beam.alpha != 0.0 ? "theta_t - alpha u_xxt by " : "theta_t by ") +
-                        number_text(jump.heat));
+                        about(jump.heat));
     if (jump.bending > 0.0)
-        jumps.push_back("zeta u_xxt by " + number_text(jump.bending));
+        jumps.push_back("zeta u_xxt by " + about(jump.bending));
     std::string text = "At t = " + message_text(end) +
                        ", where a phase of the solution ends, rates jump: " + list_of(jumps) + ".";
     if (!costly.inside.empty())

@@ -90,9 +90,8 @@ void bound(const Scene& scene, PredictedWork& predicted) {
 } // namespace
 
 std::string PredictedWork::text() const {
-    return fmt::format(
-               "{:.2g} steps of elements in {:.6g} runs, about {} on one core and {:.0f} MB", steps,
-               runs, time_text(seconds), std::ceil(bytes / 1e6)) +
+    return fmt::format("{:.2g} element steps in {:.6g} runs, about {} on one core and {:.0f} MB",
+                       steps, runs, time_text(seconds), std::ceil(bytes / 1e6)) +
            (at_most > 0.0 ? fmt::format("; at most {} {}", time_text(at_most), bounded_by) : "");
 }
 

@@ -71,6 +71,20 @@ private:
         return result;
     }
 
+    /// " is zero everywhere", of a formula that has no other value at any point; a spike between
+    /// the points may be what the algebra does not see.
+    [[nodiscard]] std::string zero_words(const ex& formula) const {
+        bool is_proven = false;
+        try {
+            is_proven = is_identically_zero(derived_.fields.exact(formula));
+        } catch (const AlgebraError&) {
+            is_proven = false; // too large to be looked through
+        }
+        return is_proven ? " is zero everywhere"
+                         : " is zero, to rounding, at all " + std::to_string(point_count) +
+                               " points that were looked at";
+    }
+
     /// Where the algebra does not see it, the values do.
     [[nodiscard]] bool is_zero(const ex& formula, const DerivedFunction& of) const {
         const Program program = located_program({formula}, derived_.fields, of);
@@ -120,10 +134,9 @@ private:
                                 [&](const EquationField* field) { return is_kinked(*field); }))
             return;
         if (is_zero(source.formula, source))
-            say(source.source, source.name +
-                                   " is zero everywhere: the solution meets the equation already, "
-                                   "as one must that has no source; otherwise, does it test "
-                                   "anything?");
+            say(source.source, source.name + zero_words(source.formula) +
+                                   ": the solution meets the equation already, as one must that "
+                                   "has no source; otherwise, does it test anything?");
     }
 
     void look_for_unexercised(const DerivedFunction& source) {
@@ -139,9 +152,9 @@ private:
             std::string text = formula_text(coefficient);
             if (text.size() > longest_shown)
                 text = text.substr(0, longest_shown) + "…";
-            say(source.source, field->symbol.get_name() +
-                                   " is zero everywhere: its coefficient in " + source.name + ", " +
-                                   text + ", is not tested");
+            say(source.source, field->symbol.get_name() + zero_words(field->symbol) +
+                                   ": its coefficient in " + source.name + ", " + text +
+                                   ", is not tested");
         }
     }
 

@@ -430,7 +430,8 @@ std::optional<std::vector<Value>> TableReader::values(std::string_view key, KeyT
         return std::nullopt;
     const toml::array* array = node->as_array();
     if (array == nullptr)
-        throw wrong_type(key, *node, "an array of " + wanted + in_brackets(*node));
+        throw wrong_type(key, *node,
+                         "an array of " + wanted + (node->is<Value>() ? in_brackets(*node) : ""));
     std::vector<Value> values;
     for (const auto& element : *array) {
         if (!element.is<Value>())
@@ -539,7 +540,8 @@ std::optional<std::vector<double>> TableReader::numbers(std::string_view key, In
         return std::nullopt;
     const toml::array* array = node->as_array();
     if (array == nullptr)
-        throw wrong_type(key, *node, "an array of numbers" + in_brackets(*node));
+        throw wrong_type(key, *node,
+                         "an array of numbers" + (node->is_number() ? in_brackets(*node) : ""));
     std::vector<double> values;
     for (const auto& element : *array)
         values.push_back(checked_number(key, element, infinity));

@@ -29,7 +29,7 @@ std::string ending_text(const Refined& refined, const Until& until, const std::s
         fmt::format("not known ({}): {}.", wanted_text(until), fmt::join(refined.open, ", "));
     switch (refined.end) {
     case RefiningEnd::known:
-        return text + "what was to be known is (" + wanted_text(until) + ").";
+        return text + "known as was asked: " + wanted_text(until) + ".";
     case RefiningEnd::levels:
         return text +
                (until.adds ? "the budget of levels is spent; " : "the short form adds none; ") +

@@ -159,8 +159,10 @@ Finding comparison(const SchemeComparison& pair, const ReachedError& error,
     const std::string ratio = ratio_text(pair.times.ratio);
     return {pair.times.distinguishable
                 ? fmt::format("{} is {} times faster than {} {}", faster, ratio, slower, spread)
-                : fmt::format("{} and {} are equally fast, as far as can be told: ratio {} {}",
-                              faster, slower, ratio, spread),
+                : fmt::format("{} and {} are equally fast, {}: ratio {} {}", faster, slower,
+                              !once && pair.times.lowest > 1.0 ? "but for less than a fifth"
+                                                               : "as far as can be told",
+                              ratio, spread),
             4};
 }
 

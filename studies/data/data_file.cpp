@@ -320,13 +320,6 @@ bool is_error(const DataFile& data, const ColumnUse& use) {
                                [&](const DataColumn& column) { return &column == use.target; });
 }
 
-/// An error of 0 is of a solution that is met; a value of 0 may be what is left of 0.0003.
-void take_zeros_for_exact(const ColumnUse& use) {
-    for (std::size_t i = 0; i < use.printed.size(); ++i)
-        if (use.target->numbers[i] == 0 && use.printed[i].is_zero)
-            use.target->units[i] = 0;
-}
-
 } // namespace
 
 DataFile read_data(const std::string& file, const DataChoice& choice) {
@@ -375,10 +368,9 @@ DataFile read_data(const std::string& file, const DataChoice& choice) {
     require_squares_of(data);
     for (const auto& use : uses)
         if (use.is_figure())
-            use.target->units = printed_units(use.target->numbers, use.printed);
-    for (const auto& use : uses)
-        if (use.is_figure() && !use.target->units.empty() && is_error(data, use))
-            take_zeros_for_exact(use);
+            use.target->units = is_error(data, use)
+                                    ? printed_units_of_errors(use.target->numbers, use.printed)
+                                    : printed_units(use.target->numbers, use.printed);
     return data;
 }
 

@@ -69,4 +69,13 @@ std::vector<double> printed_units(const std::vector<double>& numbers,
     return units;
 }
 
+std::vector<double> printed_units_of_errors(const std::vector<double>& errors,
+                                            const std::vector<PrintedDigits>& digits) {
+    auto units = printed_units(errors, digits);
+    for (std::size_t i = 0; i < units.size(); ++i)
+        if (errors[i] == 0 && digits[i].is_zero)
+            units[i] = 0;
+    return units;
+}
+
 } // namespace tvbeam

@@ -25,4 +25,9 @@ PrintedDigits printed_digits(std::string_view text);
 std::vector<double> printed_units(const std::vector<double>& numbers,
                                   const std::vector<PrintedDigits>& digits);
 
+/// The same of errors: one of 0 is of a solution that is met, and has 0; a value of 0 may be what
+/// is left of 0.0003.
+std::vector<double> printed_units_of_errors(const std::vector<double>& errors,
+                                            const std::vector<PrintedDigits>& digits);
+
 } // namespace tvbeam

@@ -30,6 +30,11 @@ public:
     /// first that the file does not have.
     [[nodiscard]] Template filled(const Template& original);
 
+    /// The parameters of the file, which are numbers in its formulas.
+    [[nodiscard]] const std::vector<DerivedParameter>& parameters() const {
+        return derived_.parameters;
+    }
+
     /// Whether any was.
     [[nodiscard]] bool used() const { return used_; }
 

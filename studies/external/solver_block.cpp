@@ -8,8 +8,11 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
+#include <cmath>
 #include <fstream>
 #include <iterator>
+#include <limits>
 #include <set>
 
 namespace tvbeam {
@@ -192,9 +195,30 @@ void fill_in_solution(TableReader& table, SolverBlock& solver, bool formulas_wan
     for (SolverFile& file : solver.files)
         if (file.contents)
             file.contents = formulas.filled(*file.contents);
+    for (const auto& parameter : formulas.parameters())
+        solver.of_solution[parameter.name] = parameter.value;
     if (!formulas.used())
         throw table.error("solution", " is used by nothing; write {source.NAME}, {exact.NAME} or "
                                       "{functions} into a file NAME.in, or leave it out");
+}
+
+/// A parameter of the solution is a number in what was derived from it: the solver must not be
+/// given another one under its name.
+void require_those_of_solution(const SolverBlock& solver, const Parameters& parameters,
+                               const Place& place) {
+    for (const auto& [name, value] : parameters) {
+        const auto own = solver.of_solution.find(name);
+        if (own == solver.of_solution.end())
+            continue;
+        double number = std::numeric_limits<double>::quiet_NaN();
+        std::from_chars(value.data(), value.data() + value.size(), number);
+        constexpr double last_digits = 1e-12; // as of 1/3 written out
+        if (!(std::abs(number - own->second) <= last_digits * std::abs(own->second)))
+            throw InputError(place, "parameter " + name + " is " + value + ", and " +
+                                        message_text(own->second) +
+                                        " in the solution, whose sources are derived with that; "
+                                        "give both one value, or one of them another name");
+    }
 }
 
 std::string text_of(const Parameters& parameters) {
@@ -226,6 +250,7 @@ SolverBlock read_solver(TableReader table, const std::filesystem::path& folder, 
     solver.environment = read_environment(table);
     solver.parameters = read_parameters(table, nullptr);
     fill_in_solution(table, solver, formulas);
+    require_those_of_solution(solver, solver.parameters, table.place("parameters"));
     table.finish();
     return solver;
 }
@@ -256,7 +281,9 @@ SolverKeys solver_keys(const SolverBlock& solver) {
     }
     keys.any_widths = true;
     keys.read_method = [&solver](TableReader& table) {
-        return method_of(solver, read_parameters(table, &solver.parameters));
+        const Parameters parameters = read_parameters(table, &solver.parameters);
+        require_those_of_solution(solver, parameters, table.place("parameters"));
+        return method_of(solver, parameters);
     };
     return keys;
 }

@@ -33,6 +33,7 @@ struct SolverBlock {
     std::optional<double> timeout;        ///< s
     std::map<std::string, std::string> environment;
     Parameters parameters;
+    std::map<std::string, double> of_solution; ///< the parameters of the file of equations
 
     [[nodiscard]] const FigureSource& source_of(const Measure& measure) const {
         return measure.is_value ? values : errors;

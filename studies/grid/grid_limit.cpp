@@ -18,7 +18,7 @@ namespace {
 class ValueGrid {
 public:
     ValueGrid(const std::vector<RungResult>& runs, std::size_t k) {
-        const auto units = units_of(runs, k);
+        const auto units = units_of(runs, k, true);
         for (std::size_t i = 0; i < runs.size(); ++i) {
             const auto& run = runs[i];
             h_.insert(run.rung.h());

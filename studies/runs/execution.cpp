@@ -32,7 +32,7 @@ RungResult run_or_find(const Series& series, std::size_t index, const RunCall& r
         return *std::move(kept);
     }
     if (execution.only_finished)
-        return {.rung = rung, .status = RungStatus::interrupted, .reason = "it was not made yet"};
+        return {.rung = rung, .status = RungStatus::interrupted, .reason = not_made};
     RungResult result = made();
     if (result.status != RungStatus::interrupted)
         execution.finished->add(series, index, result);

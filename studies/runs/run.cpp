@@ -50,8 +50,9 @@ std::int64_t RungResult::count(std::string_view name) const {
 }
 
 std::string RungResult::trouble(const std::function<std::string(double)>& text) const {
-    return rung.name(text) +
-           (status == RungStatus::interrupted ? " was interrupted" : " failed: " + reason);
+    return rung.name(text) + (status != RungStatus::interrupted ? " failed: " + reason
+                              : reason == not_made              ? " was not run"
+                                                                : " was interrupted");
 }
 
 double longest_time(const std::vector<Series>& all) {
@@ -61,7 +62,7 @@ double longest_time(const std::vector<Series>& all) {
     return longest;
 }
 
-std::vector<double> units_of(const std::vector<RungResult>& rungs, std::size_t k) {
+std::vector<double> units_of(const std::vector<RungResult>& rungs, std::size_t k, bool is_value) {
     std::vector<double> figures;
     std::vector<PrintedDigits> digits;
     for (const auto& rung : rungs) {
@@ -71,7 +72,7 @@ std::vector<double> units_of(const std::vector<RungResult>& rungs, std::size_t k
                                               : rung.errors[k]);
         digits.push_back(rung.errors.empty() ? PrintedDigits{} : rung.printed[k]);
     }
-    return printed_units(figures, digits);
+    return is_value ? printed_units(figures, digits) : printed_units_of_errors(figures, digits);
 }
 
 std::vector<Refinement> records_of(const std::vector<RungResult>& rungs, std::size_t k) {

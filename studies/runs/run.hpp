@@ -58,6 +58,9 @@ enum class RungStatus { ok, failed, interrupted };
 
 std::string name_of(RungStatus status); ///< "ok", "failed", "interrupted"
 
+/// The reason of one that nobody has begun: it is as one that was interrupted.
+inline constexpr const char* not_made = "it was not made yet";
+
 /// What a run did, so many times.
 struct Count {
     std::string name; ///< e.g. "heat_solves"
@@ -112,8 +115,8 @@ struct Series {
 /// To which the longest of the series runs; 0 without any.
 double longest_time(const std::vector<Series>& all);
 
-/// The unit of the last digit printed of measure k in each run, as printed_units has them.
-std::vector<double> units_of(const std::vector<RungResult>& rungs, std::size_t k);
+/// The unit of the last digit printed of measure k in each run (printed_digits.hpp).
+std::vector<double> units_of(const std::vector<RungResult>& rungs, std::size_t k, bool is_value);
 
 /// The runs as records for an order analysis of measure k; a failed run has a NaN error.
 std::vector<Refinement> records_of(const std::vector<RungResult>& rungs, std::size_t k);

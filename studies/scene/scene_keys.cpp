@@ -164,8 +164,8 @@ Entries of_ladders_and_grids() {
         {"work_precision.runs", KeyType::integer, "20",
          "timed ones of each level; of those above 25 ms as many as fill half a second, five at "
          "least"},
-        {"work_precision.targets", KeyType::table, "powers of ten",
-         "errors at which times are compared"},
+        {"work_precision.targets", KeyType::table, "powers of ten alone",
+         "errors at which times are compared, too"},
         {"work_precision.targets.NORM", KeyType::numbers, "none", "errors of this norm"},
         {"work_precision.scheme", KeyType::tables, required,
          "the schemes, each with a ladder of its own"},
@@ -199,8 +199,8 @@ Entries of_other_studies() {
         {"evolution.dt", KeyType::number, required, "its time step"},
         {"evolution.probes", KeyType::texts, required,
          "what is looked at: theta@X and u@X with X from 0 to 1, stress, energy, which is half of "
-         "the "
-         "integrals of (theta - theta_A*(1 - x))^2 and u_xx^2"},
+         "the integrals of (theta - theta_A*(1 - x))^2, with the lumped mass matrix as a sum over "
+         "the nodes, and of u_xx^2"},
         {"evolution.every", KeyType::integer, "1", "steps from one sample to the next"},
         {"evolution.period", KeyType::number, "none",
          "compare each period of this length with that before it"},
@@ -422,7 +422,7 @@ Entries of_expectations() {
         {"expect.work_precision.sooner.ratio", KeyType::band, "anything",
          "of the time of slower over that of faster"},
         {"expect.work_precision.sooner.distinguishable", KeyType::flag, "anything",
-         "whether the quartiles of their times keep them apart"},
+         "whether their times have a ratio above 1.2, and quartiles that are apart"},
         {"expect.evolution", KeyType::table, "anything", "of the evolution"},
         {"expect.evolution.events", KeyType::texts, "anything",
          "all of them: \"onset g2\", \"release g2\""},

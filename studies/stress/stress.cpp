@@ -7,8 +7,10 @@ namespace tvbeam {
 
 namespace {
 
-/// What is iterated in a point of a map or of a floor, in steps.
+/// What is iterated in a point of a map, in steps, and what two formulations and one in long double
+/// take of a step, measured.
 constexpr double steps_a_point = 100.0;
+constexpr double steps_a_round_off_step = 6.0;
 
 } // namespace
 
@@ -35,8 +37,12 @@ std::map<std::string, double> StressResult::figures() const {
 
 namespace {
 
+/// A case is run in nodal values, recorded and judged, by more than one path: measured, the steps of
+/// so many runs.
+constexpr double steps_a_judged_step = 40.0;
+
 double work_of(const StressParameters& parameters) {
-    return static_cast<double>(parameters.elements) * static_cast<double>(parameters.steps);
+    return steps_a_judged_step * static_cast<double>(parameters.elements) * static_cast<double>(parameters.steps);
 }
 
 Parts case_parts(const StressBlock& block) {
@@ -56,7 +62,7 @@ Parts contraction_parts(const ContractionBlock& block) {
 Parts round_off_parts(const RoundOffBlock& block) {
     return {"stress.roundoff", block.elements.size(),
             [&block](std::size_t row) {
-                return steps_a_point * static_cast<double>(block.steps) *
+                return steps_a_round_off_step * static_cast<double>(block.steps) *
                        static_cast<double>(block.elements[row]);
             },
             [&block](std::size_t row) -> std::any { return measure_round_off(block, row); }};

@@ -84,7 +84,7 @@ BOOST_AUTO_TEST_CASE(what_takes_very_long_is_refused_unless_it_is_wanted) {
     for (const std::string& command : {run, "check" + run.substr(3)}) {
         const Called refused = call(directory, command);
         BOOST_TEST(refused.exit == 2);
-        BOOST_TEST(has(refused.errors, "asks for 3.2e+12 steps of elements in 1 runs, about 9 h on "
+        BOOST_TEST(has(refused.errors, "asks for 3.2e+12 element steps in 1 runs, about 9 h on "
                                        "one core and 161 MB; beyond 6 h or 4000 MB it runs only "
                                        "with --yes-really-long, or long = true"),
                    refused.errors);

@@ -71,7 +71,7 @@ const std::vector<Refused> refused = {
     {good + "[[phase]]\ntheta = \"x\"\n", ":4:1", "theta is given here and at line 1"},
     {good + "[[phase]]\nutnil = 1\n", ":4:1", "did you mean 'until'?"},
     {good + "[[phase]]\n[[phase]]\n", ":3:1", "until is missing"},
-    {good + "[[phase]]\nuntil = 1\n", ":4:1", "the last phase has no until"},
+    {good + "[[phase]]\nuntil = 1\n", ":4:1", "the last phase holds for all later times; remove its until"},
     {good + "[[phase]]\nuntil = 0\n[[phase]]\n", ":4:9", "until is 0; it must be greater than 0"},
     {good + "[[phase]]\nuntil = \"-1\"\n[[phase]]\n", ":4:10", "until is -1; it must be greater"},
     {good + "[[phase]]\nuntil = 1\n[[phase]]\nuntil = \"1\"\n[[phase]]\n", ":6:10",

@@ -61,7 +61,7 @@ BOOST_AUTO_TEST_CASE(the_prediction_counts_what_the_scene_asks_for) {
     const PredictedWork two = predicted_work(scene_of(ladder("[10, 20]", "[0.1, 0.01]")));
     BOOST_TEST(two.runs == 2.0);
     BOOST_TEST(two.steps == 10.0 * 10.0 + 20.0 * 100.0);
-    BOOST_TEST(two.text() == "2.1e+03 steps of elements in 2 runs, about 0.00042 s on one core and "
+    BOOST_TEST(two.text() == "2.1e+03 element steps in 2 runs, about 0.00042 s on one core and "
                              "1 MB");
     // A sweep of three couplings, one at a time beside each other; a map of 4 × 5 points.
     BOOST_TEST(predicted_work(scene_of("[stress.sweep.a]\nalpha = [0.1, 1, 10]\n")).runs == 3.0);
