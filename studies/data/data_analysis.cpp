@@ -69,14 +69,11 @@ std::vector<RowVerdict> verdicts_of(const TwoTermFit& fit, std::size_t rows) {
     return verdicts;
 }
 
-/// The part of an error that is uncertain to 95 %, by its stated deviation, or, where there is
-/// none, by the digits printed.
+/// By how much an error may be another, to 95 % of its stated deviation, or, where there is none,
+/// by the digits printed.
 double uncertainty_of(const DataColumn& errors, const std::vector<double>& stated, std::size_t r) {
-    const double unit = errors.units.empty() ? 0.0 : errors.units[r];
-    if (errors.numbers[r] == 0)
-        return unit > 0 ? std::numeric_limits<double>::infinity() : 0.0;
     constexpr double of_95 = 1.96;
-    return of_95 * (stated.empty() ? unit / std::sqrt(12.0) : stated[r]) / errors.numbers[r];
+    return !stated.empty() ? of_95 * stated[r] : errors.units.empty() ? 0.0 : errors.units[r] / 2;
 }
 
 /// What a verdict says of an order of two rows may be what is not known of their errors: of a floor
@@ -85,15 +82,23 @@ void leave_open(const DataColumn& errors, const std::vector<double>& stated,
                 std::vector<RowVerdict>& verdicts) {
     // An order on halved widths is then uncertain by 0.2.
     constexpr double of_no_order = 0.1;
+    const auto& error = errors.numbers;
     for (std::size_t r = 0; r < verdicts.size(); ++r) {
-        double part = uncertainty_of(errors, stated, r);
-        if (verdicts[r].verdict == Verdict::exact && part > 0)
+        const double own = uncertainty_of(errors, stated, r);
+        if (verdicts[r].verdict == Verdict::exact && own > 0 && stated.empty())
             verdicts[r] = {Verdict::unresolved, "zero to the digits printed"};
-        if (r > 0)
-            part = std::max(part, uncertainty_of(errors, stated, r - 1));
-        constexpr std::array events{Verdict::floor, Verdict::diverging, Verdict::cancellation,
-                                    Verdict::outlier};
-        if (part > of_no_order && std::ranges::find(events, verdicts[r].verdict) != events.end())
+        const std::size_t finer = std::max<std::size_t>(r, 1);
+        if (finer == error.size())
+            continue;
+        const double before = uncertainty_of(errors, stated, finer - 1);
+        const double part = std::max(own / error[r], r > 0 ? before / error[r - 1] : 0.0);
+        const bool surely_grows =
+            error[finer] - uncertainty_of(errors, stated, finer) >= error[finer - 1] + before;
+        constexpr std::array events{Verdict::floor, Verdict::cancellation, Verdict::outlier};
+        if (part > of_no_order &&
+            (verdicts[r].verdict == Verdict::diverging
+                 ? !surely_grows
+                 : std::ranges::find(events, verdicts[r].verdict) != events.end()))
             verdicts[r] = {Verdict::unresolved,
                            fmt::format("it, or the row before, is uncertain by {:.0f} %",
                                        100 * std::min(part, 1.0))};

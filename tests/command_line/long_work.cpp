@@ -92,7 +92,7 @@ BOOST_AUTO_TEST_CASE(what_takes_very_long_is_refused_unless_it_is_wanted) {
     for (const std::string wanted : {" --yes-really-long", " --set long=true"}) {
         const Called begun = call(directory, run + wanted, "timeout -s INT 1 ");
         BOOST_TEST(begun.exit == 124);
-        BOOST_TEST(has(begun.errors, "ladder asks for 3.2e+12 steps"), begun.errors);
+        BOOST_TEST(has(begun.errors, "ladder asks for 3.2e+12 element steps"), begun.errors);
         BOOST_TEST(!has(begun.errors, "beyond"), begun.errors);
     }
 }

@@ -442,7 +442,7 @@ BOOST_AUTO_TEST_CASE(the_readme_shows_what_is_derived) {
     const std::size_t section = readme.find("## Equations of your own");
     BOOST_REQUIRE(section != std::string::npos);
     const auto derived =
-        derive_system(parse_equation_system(block("```toml\n", section), "heat.toml"));
+        derive_system(parse_equation_system(block("```toml\n", section), "rod.toml"));
     BOOST_TEST(system_code(derived, CodeLanguage::c).find(block("```c\n", section)) !=
                std::string::npos);
 }

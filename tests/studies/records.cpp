@@ -594,6 +594,14 @@ BOOST_AUTO_TEST_CASE(verdicts_know_stated_deviations) {
     };
     BOOST_TEST((last("0.01") == Verdict::floor));
     BOOST_TEST((last("0.1") == Verdict::unresolved));
+    const auto growing = [](const std::string& sigma) {
+        return analysis_of("h,error,sigma\n8,1,0.1\n4,1.5," + sigma + "\n", {.sigma = "sigma"})
+            .columns.at(0)
+            .verdicts.back()
+            .verdict;
+    };
+    BOOST_TEST((growing("0.1") == Verdict::diverging)); // 1.30 is beyond 1.20
+    BOOST_TEST((growing("0.2") == Verdict::unresolved));
 }
 
 // On a grid a zero that may be none is left out as what is not known.
