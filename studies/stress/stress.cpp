@@ -37,12 +37,13 @@ std::map<std::string, double> StressResult::figures() const {
 
 namespace {
 
-/// A case is run in nodal values, recorded and judged, by more than one path: measured, the steps of
-/// so many runs.
+/// A case is run in nodal values, recorded and judged, by more than one path: measured, the steps
+/// of so many runs.
 constexpr double steps_a_judged_step = 40.0;
 
 double work_of(const StressParameters& parameters) {
-    return steps_a_judged_step * static_cast<double>(parameters.elements) * static_cast<double>(parameters.steps);
+    return steps_a_judged_step * static_cast<double>(parameters.elements) *
+           static_cast<double>(parameters.steps);
 }
 
 Parts case_parts(const StressBlock& block) {
