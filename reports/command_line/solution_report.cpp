@@ -4,9 +4,11 @@
 #include "core/time/time_scheme.hpp"
 #include "mms/admissible/consistency.hpp"
 #include "mms/coverage.hpp"
+#include "mms/derivation.hpp"
 #include "mms/expected_orders.hpp"
 #include "mms/forecast/error_constants.hpp"
 #include "mms/text/input_error.hpp"
+#include "mms/text/number_text.hpp"
 #include "reports/document/text_table.hpp"
 #include "studies/text/number_text.hpp"
 
@@ -72,6 +74,18 @@ std::string space_table(const SolutionSetting& setting) {
     return text_table({"", {"", {s}}, {{"", {heat, heat_order, beam, beam_order}}}});
 }
 
+/// What the ends of phases do to the residuals in time; empty without any before the final time.
+std::string phase_ends_text(const SolutionSetting& setting) {
+    std::string ends;
+    for (const PhaseExpressions& phase : derive_on(setting.solution, setting.beam).phases)
+        if (phase.end_value < setting.final_time)
+            ends += (ends.empty() ? "t = " : ", ") + number_text(phase.end_value);
+    return ends.empty() ? ""
+                        : "\n" + wrapped("Phases end at " + ends +
+                                         ": residuals of steps that hold such a time, or look back "
+                                         "across it, may be larger and of lower order.");
+}
+
 std::string time_table(const SolutionSetting& setting) {
     const std::vector<std::int64_t> steps(shown_steps.begin(), shown_steps.end());
     Table::Column dt{"dt", {}};
@@ -92,7 +106,7 @@ std::string time_table(const SolutionSetting& setting) {
         }
         groups.push_back({name, {heat, heat_order, beam, beam_order}});
     }
-    return text_table({"", {"", {dt}}, groups});
+    return text_table({"", {"", {dt}}, groups}) + phase_ends_text(setting);
 }
 
 std::string orders_table(const ExpectedOrders& expected) {

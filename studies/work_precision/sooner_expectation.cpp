@@ -79,7 +79,7 @@ void expect_sooner(TableReader& table, const WorkPrecisionBlock& block,
                                  schemes[pair.slower] + " at " + norms[pair.norm] + " = " +
                                  metric_text(*error);
         const std::string absence = "not compared: an error that a scheme does not reach, or "
-                                    "neither a power of ten nor a target";
+                                    "neither a power of ten nor a target, or a clock that shows 0 s";
         if (const auto band = one.band("ratio"))
             expectations.push_back(in_band(
                 band->lowest, band->highest, one.place("ratio"),

@@ -167,6 +167,7 @@ BOOST_AUTO_TEST_CASE(a_run_of_a_program_that_failed_is_made_again) {
         "run " + scene + " --out " + (directory.path() / "parts").string() + " --shard 1/1";
     const Called failing = call(directory, shard);
     BOOST_TEST(failing.exit == 3);
+    BOOST_TEST(merge(directory, " --status").exit == 3);
     const std::string status = merge(directory, " --status").output;
     BOOST_TEST(has(status, "all          3          3          0          1"), status);
     BOOST_TEST(has(status, "what failed is made again by\n  tvbeam run "), status);

@@ -53,6 +53,7 @@ public:
     [[nodiscard]] const Scene& scene() const { return scene_; }
     FinishedWork& work() { return work_; }
     [[nodiscard]] bool complete() const { return unfinished().empty(); }
+    [[nodiscard]] bool has_failures() const { return !with_failures().empty(); }
 
     /// What is there and what is missing, by shard, and the command that makes it.
     [[nodiscard]] std::string status() const {
@@ -176,7 +177,7 @@ int merge_command(const MergeOptions& options) {
     Merged merged(options);
     if (options.status) {
         write_standard_output(merged.status());
-        return merged.complete() ? done : run_failed;
+        return merged.complete() && !merged.has_failures() ? done : run_failed;
     }
     const bool complete = merged.complete();
     if (complete && !options.really_long) // otherwise it makes nothing
@@ -224,7 +225,7 @@ Command add_merge(CLI::App& app) {
         ->required();
     merge->add_flag("--status", options->status,
                     "only say what is done, missing and failed, by shard, and which command makes "
-                    "what is missing; exit 3 where something is");
+                    "what is missing; exit 3 where something is, or has failed");
     merge
         ->add_option("--scene", options->scene,
                      "the scene's file, where it does not stand any more where the shards read it")
