@@ -117,7 +117,9 @@ double EnergyLaw::end_step(const SolveRecorder& recorder, const SolveRecord& las
     }
     balances_.clear();
     sizes_.clear();
-    return change == 0.0 ? 0.0 : std::abs(change) / size;
+    // Below this squares have no digits of their own: what has decayed so far is nothing.
+    size += std::numeric_limits<double>::min();
+    return std::abs(change) / size;
 }
 
 } // namespace tvbeam

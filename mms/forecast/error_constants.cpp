@@ -25,6 +25,7 @@ using GiNaC::ex;
 
 namespace {
 
+constexpr double least_viscosity = 0.01; ///< ζ over T, for what SDIRK2 does in a step
 constexpr double settled = 2e-3; ///< relative change of a constant from one resolution to the next
 constexpr std::pair<Index, Index> resolutions[] = {
     {16, 64}, {24, 128}, {32, 256}, {48, 512}, {64, 1024}}; ///< modes, steps
@@ -169,14 +170,13 @@ public:
     /// Whether the discrete temperature leaves that of the data within a first step of any length.
     [[nodiscard]] bool jumps_at_first() const { return beam_.zeta == 0.0 && beam_.alpha != 0.0; }
 
+    [[nodiscard]] bool is_hardly_viscous() const {
+        return beam_.zeta > 0.0 && beam_.zeta < least_viscosity * final_time_;
+    }
+
 private:
     [[nodiscard]] Eigen::ArrayXXd at(const ArrayXd& x, double t) const {
-        Eigen::ArrayXXd values = tape_.evaluate(x, ArrayXd::Constant(1, t));
-        if (!values.allFinite())
-            throw AlgebraError("at t = " + number_text(t) +
-                               " a derivative of the solution that the forecast needs is no "
-                               "number");
-        return values;
+        return tape_.evaluate(x, ArrayXd::Constant(1, t));
     }
 
     static void add_deflection(Squares& squares, const MatrixXd& w) {
@@ -191,6 +191,17 @@ private:
     bool held_;
     double final_time_;
 };
+
+/// The first time at which a square that the norm sums up is no number.
+std::optional<double> first_without_number(const Norm& norm, double order, const Squares& squares) {
+    for (Index n = 0; n < squares.t.size(); ++n)
+        for (const TimeNorm& part : norm.parts)
+            for (std::size_t q = 0; q < quantity_count; ++q)
+                if (part.quantities[q] && squares.orders[q] == order &&
+                    !std::isfinite(squares.values[q](n)))
+                    return squares.t(n);
+    return std::nullopt;
+}
 
 /// Of the quantities that have the norm's order.
 LeadingTerm leading_term(const Norm& norm, double order, const Squares& squares) {
@@ -229,12 +240,8 @@ std::string why_not(const ExpectedOrders& expected, const DerivedSolution& deriv
     if (time_scheme == "sdirk2" && beam.zeta == 0.0)
         return "SDIRK2 without viscosity";
     // What its stages lose where zeta is no larger than a step decays with exp(-dt/zeta) alone.
-    // What the stages of SDIRK2 lose where zeta is no larger than a step decays with exp(-dt/zeta)
-    // alone; the first step of BDF2 is one of them.
-    constexpr double least = 0.01;
-    if (time_scheme != "euler" && beam.zeta > 0.0 && beam.zeta < least * final_time)
-        return "SDIRK2, which also starts BDF2, with zeta below T/100: the sizes hold for steps "
-               "far below zeta alone";
+    if (time_scheme == "sdirk2" && beam.zeta < least_viscosity * final_time)
+        return "SDIRK2 with zeta below T/100: the sizes hold for steps far below zeta alone";
     return {};
 }
 
@@ -244,11 +251,26 @@ const ExpectedOrder* row_of(const ExpectedOrders& expected, const std::string& n
     return found == expected.orders.end() ? nullptr : &*found;
 }
 
-bool has_maximum_of_temperature(const Norm& norm) {
-    return std::ranges::any_of(norm.parts, [](const TimeNorm& part) {
-        return part.kind == TimeNorm::Kind::Linf && (part.quantities[index(Quantity::theta)] ||
-                                                     part.quantities[index(Quantity::theta_x)]);
+/// Whether the norm has the maximum over time of a quantity, from `first` to `last`.
+bool has_maximum_of(const Norm& norm, Quantity first, Quantity last) {
+    return std::ranges::any_of(norm.parts, [&](const TimeNorm& part) {
+        bool has = false;
+        for (std::size_t q = index(first); q <= index(last); ++q)
+            has = has || part.quantities[q];
+        return part.kind == TimeNorm::Kind::Linf && has;
     });
+}
+
+/// Why the sizes of a norm are not known, though those of others are; empty where they are.
+std::string why_not_of(const Norm& norm, const Forecaster& forecaster, const TimeScheme& scheme) {
+    if (forecaster.jumps_at_first() && has_maximum_of(norm, Quantity::theta, Quantity::theta_x))
+        return "without viscosity the temperature jumps in the first step, where a maximum over "
+               "time may stand";
+    if (scheme.name == "bdf2" && forecaster.is_hardly_viscous() &&
+        has_maximum_of(norm, Quantity::u, Quantity::u_xx))
+        return "with zeta below T/100 a maximum over time of BDF2 may stand in its first step, "
+               "which is one of SDIRK2";
+    return {};
 }
 
 std::vector<NormConstants> constants_at(const Forecaster& forecaster,
@@ -266,17 +288,22 @@ std::vector<NormConstants> constants_at(const Forecaster& forecaster,
         const Norm norm = *Norm::named(name);
         const double root = norm.squared ? 0.5 : 1.0;
         NormConstants constants{name, {}, std::nullopt, std::nullopt};
-        if (forecaster.jumps_at_first() && has_maximum_of_temperature(norm)) {
-            constants.unknown =
-                "without viscosity the temperature jumps in the first step, where a "
-                "maximum over time may stand";
+        constants.unknown = why_not_of(norm, forecaster, scheme);
+        if (!constants.unknown.empty()) {
             all.push_back(constants);
             continue;
         }
+        const auto add = [&](std::optional<LeadingTerm>& term, double of, const Squares& squares) {
+            if (const auto t = first_without_number(norm, of, squares))
+                constants.unknown =
+                    "at t = " + number_text(*t) + " a derivative of the solution has no value";
+            else
+                term = leading_term(norm, of, squares);
+        };
         if (order->in_h.has_error())
-            constants.in_h = leading_term(norm, root * order->in_h.least, space);
+            add(constants.in_h, root * order->in_h.least, space);
         if (order->euler.has_error()) // every scheme or none has an error in time
-            constants.in_dt = leading_term(norm, scheme.order, time);
+            add(constants.in_dt, scheme.order, time);
         all.push_back(constants);
     }
     return all;

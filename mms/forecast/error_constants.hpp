@@ -50,11 +50,11 @@ struct ErrorConstants {
 /// u_x and u have the integrals of d; without it h⁶∫w_xx²/30240 and h⁸∫w_xx²/362880.
 ///
 /// Not known where a contact begins or ends, at penalised stops that are touched, where a phase
-/// ends, for BDF2 where the solution is quadratic in time, for SDIRK2 without viscosity, for both
-/// where ζ is below T/100, where a derivative is no number, and where the driven problem does not
-/// settle to 0.2 %. Without viscosity W jumps to equilibrium in the
-/// first step, and a coupled Θ with it, away from I_hθ̃: maxima over time of errors in θ are not
-/// known. Throws InputError as expected_orders does.
+/// ends, for BDF2 where the solution is quadratic in time, for SDIRK2 where ζ is below T/100,
+/// and there for BDF2, which it starts, maxima over time of errors in u, where a derivative is no
+/// number, and where the driven problem does not settle to 0.2 %. Without viscosity W jumps to
+/// equilibrium in the first step, and a coupled Θ with it, away from I_hθ̃: maxima over time of
+/// errors in θ are not known. Throws InputError as expected_orders does.
 ErrorConstants error_constants(const Solution& solution, const Beam& beam, double final_time,
                                const std::string& time_scheme, ThermalMass mass);
 

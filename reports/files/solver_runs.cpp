@@ -3,6 +3,7 @@
 #include "mms/text/input_error.hpp"
 #include "reports/files/kept_result.hpp"
 #include "reports/files/output_file.hpp"
+#include "studies/text/number_text.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -69,13 +70,11 @@ std::optional<RungResult> SolverRuns::kept(const Series& series, std::size_t ind
         const auto figure = found->second.figures.find(measure.name);
         if (figure == found->second.figures.end())
             return std::nullopt;
-        result.errors.push_back(figure->second.value);
-        if (figure->second.printed)
-            result.printed.push_back(*figure->second.printed);
+        const auto& [value, printed] = figure->second;
+        result.errors.push_back(value);
+        // A line of an earlier version has no digits: as few as the number needs, then.
+        result.printed.push_back(printed.value_or(printed_digits(shortest(value))));
     }
-    // Those of an earlier version have no digits.
-    if (result.printed.size() < result.errors.size())
-        result.printed.clear();
     return result;
 }
 

@@ -76,32 +76,56 @@ double uncertainty_of(const DataColumn& errors, const std::vector<double>& state
     return !stated.empty() ? of_95 * stated[r] : errors.units.empty() ? 0.0 : errors.units[r] / 2;
 }
 
+/// The next coarser row of other widths that has an error, or, of the coarsest, the next finer.
+std::optional<std::size_t> neighbour_of(const DataAnalysis& data, const std::vector<double>& errors,
+                                        std::size_t row) {
+    const auto is_other = [&](std::size_t r) {
+        return is_positive(errors[r]) &&
+               std::ranges::any_of(data.widths, [&](const DataColumn& width) {
+                   return width.numbers[r] != width.numbers[row];
+               });
+    };
+    for (std::size_t r = row; r-- > 0;)
+        if (is_other(r))
+            return r;
+    for (std::size_t r = row + 1; r < errors.size(); ++r)
+        if (is_other(r))
+            return r;
+    return std::nullopt;
+}
+
 /// What a verdict says of an order of two rows may be what is not known of their errors: of a floor
-/// in 0.002 and 0.001 nobody can tell. A row that is asymptotic has the order of others.
-void leave_open(const DataColumn& errors, const std::vector<double>& stated,
-                std::vector<RowVerdict>& verdicts) {
+/// in 0.002 and 0.001 nobody can tell. A row that is asymptotic has the order of others, and on a
+/// grid each is judged by all.
+void leave_open(const DataAnalysis& data, const DataColumn& errors,
+                const std::vector<double>& stated, ColumnAnalysis& column) {
     // An order on halved widths is then uncertain by 0.2.
     constexpr double of_no_order = 0.1;
+    constexpr std::array events{Verdict::floor, Verdict::cancellation, Verdict::outlier,
+                                Verdict::diverging};
     const auto& error = errors.numbers;
-    for (std::size_t r = 0; r < verdicts.size(); ++r) {
-        const double own = uncertainty_of(errors, stated, r);
-        if (verdicts[r].verdict == Verdict::exact && own > 0 && stated.empty())
-            verdicts[r] = {Verdict::unresolved, "zero to the digits printed"};
-        const std::size_t finer = std::max<std::size_t>(r, 1);
-        if (finer == error.size())
+    const auto unknown = [&](std::size_t r) { return uncertainty_of(errors, stated, r); };
+    for (std::size_t r = 0; r < column.verdicts.size(); ++r) {
+        RowVerdict& row = column.verdicts[r];
+        if (row.verdict == Verdict::exact && unknown(r) > 0)
+            row = {Verdict::unresolved,
+                   stated.empty() ? "zero to the digits printed" : "zero within its deviation"};
+        if (std::ranges::find(events, row.verdict) == events.end())
             continue;
-        const double before = uncertainty_of(errors, stated, finer - 1);
-        const double part = std::max(own / error[r], r > 0 ? before / error[r - 1] : 0.0);
-        const bool surely_grows =
-            error[finer] - uncertainty_of(errors, stated, finer) >= error[finer - 1] + before;
-        constexpr std::array events{Verdict::floor, Verdict::cancellation, Verdict::outlier};
-        if (part > of_no_order &&
-            (verdicts[r].verdict == Verdict::diverging
-                 ? !surely_grows
-                 : std::ranges::find(events, verdicts[r].verdict) != events.end()))
-            verdicts[r] = {Verdict::unresolved,
-                           fmt::format("it, or the row before, is uncertain by {:.0f} %",
-                                       100 * std::min(part, 1.0))};
+        double part = unknown(r) / error[r];
+        const auto other =
+            column.two_term ? std::optional<std::size_t>() : neighbour_of(data, error, r);
+        if (other) {
+            part = std::max(part, unknown(*other) / error[*other]);
+            const auto [coarse, fine] = std::minmax(*other, r);
+            if (row.verdict == Verdict::diverging &&
+                error[fine] - unknown(fine) >= error[coarse] + unknown(coarse))
+                continue; // it grows for certain
+        }
+        if (part > of_no_order)
+            row = {Verdict::unresolved,
+                   fmt::format("it, or the row before, is uncertain by {:.0f} %",
+                               100 * std::min(part, 1.0))};
     }
 }
 
@@ -187,7 +211,7 @@ ColumnAnalysis analyse_errors(const DataAnalysis& data, const DataColumn& errors
     constexpr std::size_t most_widths = 3;
     if (used.size() <= 2) {
         analyse_records(data, used, sigma, column);
-        leave_open(errors, stated, column.verdicts);
+        leave_open(data, errors, stated, column);
     } else if (used.size() > most_widths) {
         for (const auto i : used)
             column.by_width[i].status = "of more than three widths at a time no orders are found";

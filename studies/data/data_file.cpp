@@ -78,12 +78,10 @@ bool is_rule(std::string_view line) {
 
 /// The separator that a line of names has; a blank stands for any run of blanks.
 char separator_of(std::string_view names) {
-    if (is_between_bars(names))
-        return '|';
     for (const char separator : {'\t', ';', ','})
         if (names.find(separator) != std::string_view::npos)
             return separator;
-    return ' ';
+    return is_between_bars(names) ? '|' : ' ';
 }
 
 /// The fields of a line; in quotes, those of RFC 4180.

@@ -57,33 +57,91 @@ std::string literal_start(const std::string& pattern) {
     return pattern.substr(0, optional && end > 0 ? end - 1 : end);
 }
 
+/// Finds the number of a name in the outermost object, as it is written.
+class FigureSearch : public nlohmann::json_sax<nlohmann::json> {
+public:
+    explicit FigureSearch(std::string name) : name_(std::move(name)) {}
+
+    bool null() override { return seen("null"); }
+    bool boolean(bool value) override { return seen(value ? "true" : "false"); }
+    bool number_integer(number_integer_t value) override { return number(std::to_string(value)); }
+    bool number_unsigned(number_unsigned_t value) override { return number(std::to_string(value)); }
+    bool number_float(number_float_t /*value*/, const string_t& text) override {
+        return number(text);
+    }
+    bool string(string_t& value) override { return seen("\"" + value + "\""); }
+    bool binary(binary_t& /*value*/) override { return seen("binary"); }
+    bool key(string_t& value) override {
+        is_wanted_ = depth_ == 1 && value == name_;
+        times_ += is_wanted_ ? 1 : 0;
+        return true;
+    }
+    bool start_object(std::size_t /*count*/) override {
+        is_object_ = is_object_ || depth_ == 0;
+        return deeper("{…}");
+    }
+    bool start_array(std::size_t /*count*/) override { return deeper("[…]"); }
+    bool end_object() override { return --depth_ >= 0; }
+    bool end_array() override { return --depth_ >= 0; }
+    bool parse_error(std::size_t /*at*/, const std::string& /*token*/,
+                     const nlohmann::json::exception& error) override {
+        failure_ = error.what();
+        return false;
+    }
+
+    [[nodiscard]] ReadFigure figure() const {
+        if (!failure_.empty())
+            return {{}, "it is not JSON: " + failure_};
+        if (!is_object_)
+            return {{}, "it is not an object, as {\"" + name_ + "\": 1.2e-3}"};
+        if (times_ == 0)
+            return {{}, "it has no " + name_};
+        if (times_ > 1)
+            return {{}, "it has " + name_ + " more than once; which is meant?"};
+        constexpr std::size_t longest_shown = 40;
+        return is_number_ ? number_of(name_, text_)
+                          : ReadFigure{{},
+                                       name_ + " is " + text_.substr(0, longest_shown) +
+                                           ", which is not one number"};
+    }
+
+private:
+    bool seen(const std::string& text) {
+        if (is_wanted_) {
+            text_ = text;
+            is_number_ = false;
+        }
+        is_wanted_ = false;
+        return true;
+    }
+    bool number(const std::string& text) {
+        const bool wanted = is_wanted_;
+        seen(text);
+        is_number_ = is_number_ || wanted;
+        return true;
+    }
+    bool deeper(const std::string& text) {
+        seen(text);
+        if (depth_++ > deepest_json)
+            failure_ = "it is nested too deep";
+        return failure_.empty();
+    }
+
+    std::string name_;
+    std::string text_; ///< of the value
+    std::string failure_;
+    int depth_ = 0;
+    int times_ = 0; ///< that the name stands there
+    bool is_object_ = false;
+    bool is_wanted_ = false; ///< the value that comes next
+    bool is_number_ = false;
+};
+
 ReadFigure figure_in_json(const std::filesystem::path& file, const std::string& name) {
     std::ifstream stream(file);
-    std::string text;
-    text.assign(std::istreambuf_iterator<char>(stream), {});
-    int times = 0; // that the name stands there
-    try {
-        const auto json =
-            nlohmann::json::parse(text, [&](int depth, auto event, const nlohmann::json& part) {
-                if (depth > deepest_json)
-                    throw std::invalid_argument("it is nested too deep");
-                if (event == nlohmann::json::parse_event_t::key && depth == 1 && part == name)
-                    ++times;
-                return true;
-            });
-        if (!json.is_object())
-            return {{}, "it is not an object, as {\"" + name + "\": 1.2e-3}"};
-        const auto found = json.find(name);
-        if (found == json.end())
-            return {{}, "it has no " + name};
-        if (times > 1)
-            return {{}, "it has " + name + " more than once; which is meant?"};
-        if (!found->is_number())
-            return {{}, name + " is " + found->dump().substr(0, 40) + ", which is not one number"};
-        return {found->get<double>(), {}, printed_digits(found->dump())};
-    } catch (const std::exception& error) {
-        return {{}, std::string("it is not JSON: ") + error.what()};
-    }
+    FigureSearch search(name);
+    nlohmann::json::sax_parse(stream, &search);
+    return search.figure();
 }
 
 std::vector<std::string> fields_of(const std::string& line, char separator) {
@@ -135,8 +193,11 @@ ReadFigure figure_in_csv(const std::filesystem::path& file, const std::string& n
 }
 
 /// Whether the number that a group took goes on behind it: with digits, or with an exponent.
-bool goes_on(const std::string& number, const std::string& behind) {
+bool goes_on(const std::string& pattern, const std::string& number, const std::string& behind) {
     static const std::regex rest(R"(^(\d|\.\d|[eEdD][+-]?\d))");
+    // What is counted off, as (.{11}), is meant so.
+    if (pattern.find('{') != std::string::npos)
+        return false;
     const bool ends_as_one =
         !number.empty() &&
         (std::isdigit(static_cast<unsigned char>(number.back())) != 0 || number.back() == '.');
@@ -186,8 +247,11 @@ void OutputReading::take(const std::string& line) {
     const std::string behind = (*match)[1].second == line.end()
                                    ? std::string()
                                    : std::string((*match)[1].second, line.end());
-    goes_on_ = goes_on(*found_, behind) ? *found_ + behind.substr(0, behind.find_first_of(" \t\r"))
-                                        : std::string();
+    // What the pattern itself names behind the group is meant so, too.
+    const bool ends_match = (*match)[1].second == (*match)[0].second;
+    goes_on_ = ends_match && goes_on(pattern_->text, *found_, behind)
+                   ? *found_ + behind.substr(0, behind.find_first_of(" \t\r"))
+                   : std::string();
     twice_ = ++match != std::sregex_iterator();
 }
 

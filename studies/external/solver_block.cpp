@@ -12,8 +12,8 @@
 #include <cmath>
 #include <fstream>
 #include <iterator>
-#include <limits>
 #include <set>
+#include <system_error>
 
 namespace tvbeam {
 
@@ -210,8 +210,11 @@ void require_those_of_solution(const SolverBlock& solver, const Parameters& para
         const auto own = solver.of_solution.find(name);
         if (own == solver.of_solution.end())
             continue;
-        double number = std::numeric_limits<double>::quiet_NaN();
-        std::from_chars(value.data(), value.data() + value.size(), number);
+        double number = 0.0;
+        const char* const end = value.data() + value.size();
+        const auto [read_to, error] = std::from_chars(value.data(), end, number);
+        if (read_to != end || error != std::errc()) // a text, of which the solver alone knows
+            continue;
         constexpr double last_digits = 1e-12; // as of 1/3 written out
         if (!(std::abs(number - own->second) <= last_digits * std::abs(own->second)))
             throw InputError(place, "parameter " + name + " is " + value + ", and " +

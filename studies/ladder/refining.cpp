@@ -47,9 +47,6 @@ DataAnalysis analysis_of(const Series& series, const std::vector<RungResult>& ru
             column.numbers.push_back(measure.squared ? std::sqrt(figure) : figure);
         }
         column.units = units_of(rungs, k, measure.is_value);
-        if (measure.squared)
-            for (std::size_t i = 0; i < column.units.size(); ++i)
-                column.units[i] /= 2.0 * column.numbers[i]; // d(e²) = 2 e de
         (measure.is_value ? data.values : data.errors).push_back(std::move(column));
     }
     return analyse(data);

@@ -401,8 +401,12 @@ LimitEstimate estimate_limit(std::span<const ValueRow> rows, const LimitTuning& 
     if (is_scattered)
         result.order =
             hull(result.order, order_of_differences(with_scatter(levels, scatter), first));
-    // Its errors are the steps from value to value.
-    if (result.order.status.find("error") != std::string::npos)
+    // The engine's errors are the steps from value to value.
+    std::size_t moves = 0;
+    for (std::size_t i = 1; i < levels.size(); ++i)
+        moves += levels[i].value != levels[i - 1].value ? 1 : 0;
+    constexpr std::size_t fewest_moves = 3;
+    if (!result.order.determined && moves < fewest_moves)
         result.order.status = "an order of values needs three steps that are not zero";
     if (levels.size() < 4)
         result.order.status = "an order of values with an interval needs four widths";

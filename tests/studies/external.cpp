@@ -135,6 +135,9 @@ BOOST_AUTO_TEST_CASE(a_pattern_that_ends_within_a_number_is_a_failure) {
         BOOST_TEST(found.failure.find("ends within the number") != std::string::npos,
                    found.failure);
     }
+    // What the pattern names behind the group, or counts off.
+    BOOST_TEST(*read({"took 2d3h"}, "took ([0-9]+)d").value == 2.0);
+    BOOST_TEST(*read({"0.25000.5"}, "^(.{6})").value == 0.25);
     for (const std::string line :
          {"L2 = 9.7", "L2 = 9.7 e-04", "L2 = 9.7em", "L2 = 9.7, 2", "L2 = 9.7e"})
         BOOST_TEST(*read({line}, "L2 = ([0-9]+\\.?[0-9]?)").value == 9.7, line);
@@ -143,7 +146,11 @@ BOOST_AUTO_TEST_CASE(a_pattern_that_ends_within_a_number_is_a_failure) {
 BOOST_AUTO_TEST_CASE(the_digits_that_were_printed_are_known) {
     BOOST_TEST(read({"L2 = 1.760"}, "L2 = (\\S+)").printed.last_place == -3);
     BOOST_TEST(in_file("e.csv", "L2\n1.50e-2\n").printed.last_place == -4);
-    BOOST_TEST(in_file("e.json", "{\"L2\": 0.125}").printed.significant == 3);
+    // As it is written, and not as the shortest text of the same number.
+    BOOST_TEST(in_file("e.json", "{\"L2\": 1.760}").printed.last_place == -3);
+    BOOST_TEST(in_file("e.json", "{\"L2\": 0.00e+00}").printed.is_zero);
+    BOOST_TEST(in_file("e.json", "{\"L2\": 12}").printed.last_place == 0);
+    BOOST_TEST(*in_file("e.json", "{\"a\": {\"L2\": 1}, \"L2\": -2.5, \"b\": [3]}").value == -2.5);
 }
 
 // What a line must begin a match with is looked for first: it must be no more than that.
@@ -178,6 +185,9 @@ BOOST_AUTO_TEST_CASE(a_file_has_the_number_by_its_name) {
     for (const auto& [name, text, words] : std::vector<std::array<std::string, 3>>{
              {"e.json", "{\"H1\": 1}", "e.json: it has no L2"},
              {"e.json", "{\"L2\": \"1\"}", "L2 is \"1\", which is not one number"},
+             {"e.json", "{\"L2\": [1]}", "L2 is […], which is not one number"},
+             {"e.json", "{\"L2\": 1, \"L2\": 1}", "more than once"},
+             {"e.json", "{\"L2\": null}", "L2 is null, which is not one number"},
              {"e.json", "[1]", "it is not an object"},
              {"e.json", "{", "it is not JSON"},
              {"e.json", std::string(40, '['), "nested too deep"},

@@ -602,6 +602,13 @@ BOOST_AUTO_TEST_CASE(verdicts_know_stated_deviations) {
     };
     BOOST_TEST((growing("0.1") == Verdict::diverging)); // 1.30 is beyond 1.20
     BOOST_TEST((growing("0.2") == Verdict::unresolved));
+    const auto zero = analysis_of("h,error,sigma\n8,1,0.1\n4,0,0.1\n", {.sigma = "sigma"});
+    BOOST_TEST((zero.columns.at(0).verdicts.back().verdict == Verdict::unresolved));
+    // Of rows that failed, or have the same widths, nothing is read.
+    for (const std::string between : {"", "2,nan\n", "4,0.002\n"}) {
+        const auto column = analysis_of("h,error\n4,0.002\n" + between + "1,0.004\n").columns.at(0);
+        BOOST_TEST((column.verdicts.back().verdict == Verdict::diverging), between);
+    }
 }
 
 // On a grid a zero that may be none is left out as what is not known.

@@ -123,7 +123,8 @@ Command add_analyse(CLI::App& app) {
     const auto options = std::make_shared<AnalyseOptions>();
     analyse
         ->add_option("file", options->file,
-                     "the file, fields separated by commas, tabs, semicolons or blanks; -: "
+                     "the file, fields separated by commas, tabs, semicolons or blanks, or a table "
+                     "of Markdown; -: "
                      "standard input")
         ->required();
     add_choice(*analyse, options->choice);
