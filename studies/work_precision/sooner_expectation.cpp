@@ -78,8 +78,9 @@ void expect_sooner(TableReader& table, const WorkPrecisionBlock& block,
         const std::string what = "work_precision: " + schemes[pair.faster] + " sooner than " +
                                  schemes[pair.slower] + " at " + norms[pair.norm] + " = " +
                                  metric_text(*error);
-        const std::string absence = "not compared: an error that a scheme does not reach, or "
-                                    "neither a power of ten nor a target, or a clock that shows 0 s";
+        const std::string absence =
+            "not compared: an error that a scheme does not reach, or "
+            "neither a power of ten nor a target, or a clock that shows 0 s";
         if (const auto band = one.band("ratio"))
             expectations.push_back(in_band(
                 band->lowest, band->highest, one.place("ratio"),
