@@ -6,6 +6,8 @@
 #include "studies/external/solution_formulas.hpp"
 #include "studies/scene/shipped.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -217,10 +219,11 @@ void require_those_of_solution(const SolverBlock& solver, const Parameters& para
             continue;
         constexpr double last_digits = 1e-12; // as of 1/3 written out
         if (!(std::abs(number - own->second) <= last_digits * std::abs(own->second)))
-            throw InputError(place, "parameter " + name + " is " + value + ", and " +
-                                        message_text(own->second) +
-                                        " in the solution, whose sources are derived with that; "
-                                        "give both one value, or one of them another name");
+            throw InputError(
+                place,
+                fmt::format("parameter {} is {}, and {} in the solution, whose sources are derived "
+                            "with that; give both one value, or one of them another name",
+                            name, value, message_text(own->second)));
     }
 }
 
