@@ -89,9 +89,7 @@ double EnergyLaw::end_step(const SolveRecorder& recorder, const SolveRecord& las
         energy_ = 0.5 * square(now);
         const double energy_before = 0.5 * square(before);
         change = energy_ - energy_before;
-        // y^{n−1} may be all that rounding has left of what the step before it went through: where
-        // Δt ≫ ζ, a part ζ/Δt of it.
-        size = energy_ + energy_before + before.curvature_size * before.w.abs().maxCoeff();
+        size = energy_ + energy_before;
         const Dissipation dissipated = dissipation(recorder, step);
         change += dissipated.sum;
         size += dissipated.size;
