@@ -124,7 +124,7 @@ void leave_open(const DataAnalysis& data, const DataColumn& errors,
         }
         if (part > of_no_order)
             row = {Verdict::unresolved,
-                   fmt::format("it, or the row before, is uncertain by {:.0f} %",
+                   fmt::format("it, or the row beside it, is uncertain by {:.0f} %",
                                100 * std::min(part, 1.0))};
     }
 }
