@@ -314,32 +314,20 @@ std::string write_moose(const Dialect& /*dialect*/, const CodeFile& file) {
 const std::array<Dialect, 8>& dialects() {
     using enum CodeLanguage;
     static const std::array<Dialect, 8> all = {
-        Dialect{c, "c", {}, reserved_words(c), false, write_c},
-        Dialect{cpp, "c++", {.function_prefix = "std::"}, reserved_words(cpp), false, write_cpp},
+        Dialect{c, "c", {}, false, write_c},
+        Dialect{cpp, "c++", {.function_prefix = "std::"}, false, write_cpp},
         Dialect{fortran,
                 "fortran",
                 {.number_ending = "_dp", .power = "**"},
-                reserved_words(fortran),
                 true,
                 write_fortran,
                 true,
                 63},
-        Dialect{python, "python", {.power = "**"}, reserved_words(python), false, write_python},
-        Dialect{julia, "julia", {.power = "^"}, reserved_words(julia), false, write_julia},
-        Dialect{freefem,
-                "freefem",
-                {.power = "^"},
-                reserved_words(freefem),
-                false,
-                write_freefem,
-                false},
-        Dialect{ufl, "ufl", {.power = "**"}, reserved_words(ufl), false, write_ufl},
-        Dialect{moose,
-                "moose",
-                {.decimal_point = false, .power = "^"},
-                reserved_words(moose),
-                false,
-                write_moose},
+        Dialect{python, "python", {.power = "**"}, false, write_python},
+        Dialect{julia, "julia", {.power = "^"}, false, write_julia},
+        Dialect{freefem, "freefem", {.power = "^"}, false, write_freefem, false},
+        Dialect{ufl, "ufl", {.power = "**"}, false, write_ufl},
+        Dialect{moose, "moose", {.decimal_point = false, .power = "^"}, false, write_moose},
     };
     return all;
 }
@@ -358,7 +346,7 @@ std::string Dialect::identifier(const std::string& text) const {
     std::string result = text;
     if (!underscores)
         result.erase(std::remove(result.begin(), result.end(), '_'), result.end());
-    if (reserved.contains(folded(result)))
+    if (reserved_words(language).contains(folded(result)))
         result += underscores ? "_" : "0";
     return result;
 }

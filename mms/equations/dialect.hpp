@@ -4,18 +4,15 @@
 #include "mms/equations/code_lines.hpp"
 #include "mms/equations/infix.hpp"
 
-#include <set>
 #include <string>
 
 namespace tvbeam {
 
-/// A language: how expressions look in it, what names it does not leave free, and how a file is
-/// written.
+/// A language: how expressions look in it, what it makes of names, and how a file is written.
 struct Dialect {
     CodeLanguage language;
     std::string name;
     InfixStyle infix;
-    std::set<std::string> reserved;
     bool ignores_case = false;
     std::string (*write)(const Dialect& dialect, const CodeFile& file);
     bool underscores = true; ///< in names

@@ -129,25 +129,39 @@ std::set<std::string> all_words_of_cpp() {
 
 } // namespace
 
-std::set<std::string> reserved_words(CodeLanguage language) {
+const std::set<std::string>& reserved_words(CodeLanguage language) {
+    // Each is made when it is first asked for.
     switch (language) {
-    case CodeLanguage::c:
-        return all_words_of_c();
-    case CodeLanguage::cpp:
-        return all_words_of_cpp();
-    case CodeLanguage::fortran:
-        return words(words_of_fortran);
+    case CodeLanguage::c: {
+        static const auto of_c = all_words_of_c();
+        return of_c;
+    }
+    case CodeLanguage::cpp: {
+        static const auto of_cpp = all_words_of_cpp();
+        return of_cpp;
+    }
+    case CodeLanguage::fortran: {
+        static const auto of_fortran = words(words_of_fortran);
+        return of_fortran;
+    }
     case CodeLanguage::python:
-    case CodeLanguage::ufl:
-        return words(words_of_python);
-    case CodeLanguage::julia:
-        return words(words_of_julia);
-    case CodeLanguage::freefem:
-        return words(words_of_freefem);
+    case CodeLanguage::ufl: {
+        static const auto of_python = words(words_of_python);
+        return of_python;
+    }
+    case CodeLanguage::julia: {
+        static const auto of_julia = words(words_of_julia);
+        return of_julia;
+    }
+    case CodeLanguage::freefem: {
+        static const auto of_freefem = words(words_of_freefem);
+        return of_freefem;
+    }
     case CodeLanguage::moose:
         break;
     }
-    return words(words_of_moose);
+    static const auto of_moose = words(words_of_moose);
+    return of_moose;
 }
 
 std::set<std::string> global_names(CodeLanguage language) {

@@ -8,7 +8,7 @@
 namespace tvbeam {
 
 /// Names that functions, their arguments and what they share may not have in a language.
-std::set<std::string> reserved_words(CodeLanguage language);
+const std::set<std::string>& reserved_words(CodeLanguage language);
 
 /// Names that a module of Fortran, or a namespace of C++, may not have: of its intrinsic functions;
 /// of what headers declare at global scope. Of no other language.

@@ -98,8 +98,8 @@ MatrixXd legendre_integral(Index count) {
     return integral;
 }
 
-DrivenBeam driven_beam(const Beam& beam, bool held, double final_time, Index modes, Index steps,
-                       const DrivingSources& sources) {
+std::vector<DrivenBeam> driven_beams(const Beam& beam, bool held, double final_time, Index modes,
+                                     Index steps, Index problems, const DrivingSources& sources) {
     const Matrices problem = matrices(beam, held, modes);
     const Index of_theta = problem.theta.rows();
     const Index size = problem.mass.rows();
@@ -118,27 +118,37 @@ DrivenBeam driven_beam(const Beam& beam, bool held, double final_time, Index mod
             matrix.block(i * size, j * size, size, size) =
                 inverse(i, j) * problem.mass +
                 (i == j ? problem.stiffness : MatrixXd::Zero(size, size));
-    const Eigen::PartialPivLU<MatrixXd> factors(matrix);
+    // The last stage is the state at the end: what the loads of all stages make of it.
+    const Eigen::PartialPivLU<MatrixXd> factors(matrix.transpose());
+    const MatrixXd last =
+        factors.solve(MatrixXd::Identity(stages * size, stages * size).rightCols(size)).transpose();
 
-    DrivenBeam result;
-    result.t = ArrayXd::LinSpaced(steps + 1, 0.0, final_time);
-    MatrixXd states = MatrixXd::Zero(size, steps + 1);
-    VectorXd loads(stages * size);
+    std::vector<MatrixXd> states(static_cast<std::size_t>(problems),
+                                 MatrixXd::Zero(size, steps + 1));
+    MatrixXd state = MatrixXd::Zero(size, problems);
+    MatrixXd loads(stages * size, problems);
     for (Index n = 0; n < steps; ++n) {
-        const VectorXd before = problem.mass * states.col(n);
+        const MatrixXd before = problem.mass * state;
         for (Index i = 0; i < stages; ++i) {
-            const Eigen::Array2Xd driven =
-                sources(rule.points, result.t(n) + table(i, stages) * dt);
-            loads.segment(i * size, of_theta) = test_theta * driven.row(0).matrix().transpose();
-            loads.segment(i * size + of_theta, size - of_theta) =
-                test_w * driven.row(1).matrix().transpose();
-            loads.segment(i * size, size) += inverse.row(i).sum() * before;
+            const double t = final_time * static_cast<double>(n) / static_cast<double>(steps);
+            const MatrixXd driven =
+                sources(rule.points, t + table(i, stages) * dt).matrix().transpose();
+            for (Index k = 0; k < problems; ++k) {
+                loads.col(k).segment(i * size, of_theta) = test_theta * driven.col(2 * k);
+                loads.col(k).segment(i * size + of_theta, size - of_theta) =
+                    test_w * driven.col(2 * k + 1);
+            }
+            loads.middleRows(i * size, size) += inverse.row(i).sum() * before;
         }
-        states.col(n + 1) = factors.solve(loads).tail(size);
+        state = last * loads;
+        for (Index k = 0; k < problems; ++k)
+            states[static_cast<std::size_t>(k)].col(n + 1) = state.col(k);
     }
-    result.theta = problem.theta.transpose() * states.topRows(of_theta);
-    result.w = problem.w.transpose() * states.bottomRows(size - of_theta);
-    return result;
+    std::vector<DrivenBeam> beams;
+    for (const MatrixXd& one : states)
+        beams.push_back({problem.theta.transpose() * one.topRows(of_theta),
+                         problem.w.transpose() * one.bottomRows(size - of_theta)});
+    return beams;
 }
 
 } // namespace tvbeam

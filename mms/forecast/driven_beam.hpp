@@ -5,21 +5,22 @@
 #include <Eigen/Core>
 
 #include <functional>
+#include <vector>
 
 namespace tvbeam {
 
-/// F and H at points of the beam at one time; shape: 2 × points.
-using DrivingSources = std::function<Eigen::Array2Xd(const Eigen::ArrayXd& x, double t)>;
+/// F and H of one problem after the other at points of the beam at one time; shape: 2 problems ×
+/// points.
+using DrivingSources = std::function<Eigen::ArrayXXd(const Eigen::ArrayXd& x, double t)>;
 
-/// What a driven beam does: coefficients of the Legendre polynomials of [0, 1], one column a time
+/// What a driven beam does: coefficients of the Legendre polynomials of [0, 1], one column a step
 /// from 0 to the final time.
 struct DrivenBeam {
-    Eigen::ArrayXd t;
     Eigen::MatrixXd theta;
     Eigen::MatrixXd w;
 };
 
-/// The linear problem of the model, driven from rest:
+/// Some linear problems of the model, each driven from rest:
 ///
 ///     y_t − y_xx − α w_t = F,     w + ζ w_t + α y − l (1 − x) = H,     y = 0 at both ends
 ///
@@ -27,8 +28,9 @@ struct DrivenBeam {
 /// method with Legendre polynomials up to the degree `modes`, in time by the Radau IIA method of
 /// three stages (Hairer and Wanner, Solving Ordinary Differential Equations II, IV.5): nothing of
 /// it is shared with the schemes whose errors it forecasts.
-DrivenBeam driven_beam(const Beam& beam, bool held, double final_time, Eigen::Index modes,
-                       Eigen::Index steps, const DrivingSources& sources);
+std::vector<DrivenBeam> driven_beams(const Beam& beam, bool held, double final_time,
+                                     Eigen::Index modes, Eigen::Index steps, Eigen::Index problems,
+                                     const DrivingSources& sources);
 
 /// P_0 … P_{count−1} of [0, 1] at points; shape: count × points.
 Eigen::MatrixXd legendre(Eigen::Index count, const Eigen::ArrayXd& x);

@@ -5,7 +5,6 @@
 #include "core/space/quadrature.hpp"
 #include "core/time/time_scheme.hpp"
 #include "mms/derivation.hpp"
-#include "mms/expected_orders.hpp"
 #include "mms/expression/algebra.hpp"
 #include "mms/expression/symbols.hpp"
 #include "mms/expression/tape_compiler.hpp"
@@ -19,6 +18,7 @@
 namespace tvbeam {
 
 using Eigen::ArrayXd;
+using Eigen::ArrayXXd;
 using Eigen::Index;
 using Eigen::MatrixXd;
 using GiNaC::ex;
@@ -84,87 +84,42 @@ ArrayXd moments(const MatrixXd& coefficients) {
     return (coefficients.row(0) / 2.0 - coefficients.row(1) / 6.0).transpose().array();
 }
 
+/// Those of the errors of a mass matrix, and of a time scheme.
+struct Squared {
+    Squares space;
+    Squares time;
+};
+
 class Forecaster {
 public:
-    Forecaster(const Tape& tape, const Beam& beam, bool held, double final_time)
-        : tape_(tape), beam_(beam), held_(held), final_time_(final_time) {}
+    /// coupled: bending has an error of the order of that of heat.
+    Forecaster(const Tape& tape, const Beam& beam, bool held, bool coupled, double final_time)
+        : tape_(tape), beam_(beam), held_(held), coupled_(coupled), final_time_(final_time) {}
 
-    [[nodiscard]] Squares in_time(const TimeScheme& scheme, Index modes, Index steps) const {
-        // Of M y'' (Euler), M y''' and −K y''.
-        double second = 0.0;
-        double third = 0.0;
-        double stiff = 0.0;
-        if (scheme.name == "euler")
-            second = 0.5;
-        else if (scheme.name == "bdf2")
-            third = 1.0 / 3.0;
-        else {
-            // SDIRK2, by its Butcher tableau: A = (γ 0; 1−γ γ), b its last row, c = (γ, 1).
-            const double gamma = 1.0 - std::sqrt(0.5);
-            third = ((1.0 - gamma) * gamma * gamma + gamma) / 2.0 - 1.0 / 6.0;
-            stiff = (1.0 - gamma) * gamma * gamma / 2.0;
-        }
+    /// Of each method.
+    [[nodiscard]] std::vector<Squared> squares(const std::vector<ForecastMethod>& methods,
+                                               Index modes, Index steps) const {
+        const auto count = static_cast<Index>(methods.size());
         const auto sources = [&](const ArrayXd& x, double t) {
-            const Eigen::ArrayXXd y = at(x, t);
-            Eigen::Array2Xd driven(2, x.size());
-            driven.row(0) = second * (y.row(theta_tt) - beam_.alpha * y.row(w_tt)) +
-                            third * (y.row(theta_ttt) - beam_.alpha * y.row(w_ttt)) +
-                            stiff * y.row(theta_xxtt);
-            driven.row(1) = beam_.zeta * (second * y.row(w_tt) + third * y.row(w_ttt)) -
-                            stiff * (y.row(w_tt) + beam_.alpha * y.row(theta_tt));
-            return driven;
-        };
-        const DrivenBeam error = driven_beam(beam_, held_, final_time_, modes, steps, sources);
-        Squares squares{error.t, {}, {}};
-        squares.orders.fill(scheme.order);
-        squares.of(Quantity::theta) = squared_norms(error.theta);
-        squares.of(Quantity::theta_x) = squared_norms(slopes(error.theta));
-        add_deflection(squares, error.w);
-        squares.of(Quantity::stress) = (3.0 * beam_.alpha * moments(error.theta)).square();
-        return squares;
-    }
-
-    /// coupled: d is not zero.
-    [[nodiscard]] Squares in_space(ThermalMass mass, bool coupled, Index modes, Index steps) const {
-        const double sign = mass == ThermalMass::lumped ? 1.0 : -1.0;
-        const auto sources = [&](const ArrayXd& x, double t) {
-            const Eigen::ArrayXXd y = at(x, t);
-            Eigen::Array2Xd driven(2, x.size());
-            driven.row(0) = sign / 12.0 * y.row(theta_xxt);
-            driven.row(1) = -beam_.alpha / 12.0 * y.row(theta_xx);
-            return driven;
-        };
-        const DrivenBeam error = driven_beam(beam_, held_, final_time_, modes, steps, sources);
-        Squares squares{error.t, {}, {2.0, 1.0, 2.0, 2.0, 2.0, 2.0}};
-        add_deflection(squares, error.w);
-        for (ArrayXd& values : squares.values)
-            if (values.size() == 0)
-                values = ArrayXd::Zero(error.t.size());
-        const GaussRule rule = GaussRule::of(2 * modes);
-        const MatrixXd nodal = legendre(modes + 1, rule.points).transpose() * error.theta;
-        for (Index n = 0; n < error.t.size(); ++n) {
-            const Eigen::ArrayXXd y = at(rule.points, error.t(n));
-            const ArrayXd bent = y.row(theta_xx).transpose();
-            const ArrayXd of_w = rule.weights * y.row(w_xx).transpose().square();
-            const ArrayXd node = nodal.col(n).array();
-            squares.of(Quantity::theta)(n) =
-                (rule.weights * (node.square() + node * bent / 6.0 + bent.square() / 120.0)).sum();
-            squares.of(Quantity::theta_x)(n) = (rule.weights * bent.square()).sum() / 12.0;
-            squares.of(Quantity::u_xx)(n) += of_w.sum() / 720.0;
-            if (!coupled) {
-                squares.of(Quantity::u_x)(n) = of_w.sum() / 30240.0;
-                squares.of(Quantity::u)(n) = of_w.sum() / 362880.0;
+            const ArrayXXd y = at(x, t);
+            ArrayXXd driven(4 * count, x.size());
+            for (Index k = 0; k < count; ++k) {
+                const auto& [time, mass] = methods[static_cast<std::size_t>(k)];
+                driven.middleRows<2>(4 * k) = truncated_in_space(mass, y);
+                driven.middleRows<2>(4 * k + 2) = truncated_in_time(time, y);
             }
-            const double force = 3.0 * beam_.alpha *
-                                 (moments(error.theta.col(n))(0) +
-                                  (rule.weights * (1.0 - rule.points) * bent).sum() / 12.0);
-            squares.of(Quantity::stress)(n) = force * force;
+            return driven;
+        };
+        const auto errors =
+            driven_beams(beam_, held_, final_time_, modes, steps, 2 * count, sources);
+        const ArrayXd t = ArrayXd::LinSpaced(steps + 1, 0.0, final_time_);
+        std::vector<Squared> all;
+        for (std::size_t k = 0; k < methods.size(); ++k) {
+            all.push_back({in_space(errors[2 * k], t), in_time(errors[2 * k + 1], t)});
+            all.back().time.orders.fill(TimeScheme::named(methods[k].time_scheme).order);
         }
-        if (!coupled) {
-            squares.order(Quantity::u_x) = 3.0;
-            squares.order(Quantity::u) = 4.0;
-        }
-        return squares;
+        add_interpolation(all, errors, t, modes);
+        return all;
     }
 
     /// Whether the discrete temperature leaves that of the data within a first step of any length.
@@ -175,8 +130,97 @@ public:
     }
 
 private:
-    [[nodiscard]] Eigen::ArrayXXd at(const ArrayXd& x, double t) const {
+    [[nodiscard]] ArrayXXd at(const ArrayXd& x, double t) const {
         return tape_.evaluate(x, ArrayXd::Constant(1, t));
+    }
+
+    [[nodiscard]] Eigen::Array2Xd truncated_in_time(const std::string& scheme,
+                                                    const ArrayXXd& y) const {
+        // Of M y'' (Euler), M y''' and −K y''.
+        double second = 0.0;
+        double third = 0.0;
+        double stiff = 0.0;
+        if (scheme == "euler")
+            second = 0.5;
+        else if (scheme == "bdf2")
+            third = 1.0 / 3.0;
+        else {
+            // SDIRK2, by its Butcher tableau: A = (γ 0; 1−γ γ), b its last row, c = (γ, 1).
+            const double gamma = 1.0 - std::sqrt(0.5);
+            third = ((1.0 - gamma) * gamma * gamma + gamma) / 2.0 - 1.0 / 6.0;
+            stiff = (1.0 - gamma) * gamma * gamma / 2.0;
+        }
+        Eigen::Array2Xd driven(2, y.cols());
+        driven.row(0) = second * (y.row(theta_tt) - beam_.alpha * y.row(w_tt)) +
+                        third * (y.row(theta_ttt) - beam_.alpha * y.row(w_ttt)) +
+                        stiff * y.row(theta_xxtt);
+        driven.row(1) = beam_.zeta * (second * y.row(w_tt) + third * y.row(w_ttt)) -
+                        stiff * (y.row(w_tt) + beam_.alpha * y.row(theta_tt));
+        return driven;
+    }
+
+    [[nodiscard]] Eigen::Array2Xd truncated_in_space(ThermalMass mass, const ArrayXXd& y) const {
+        const double sign = mass == ThermalMass::lumped ? 1.0 : -1.0;
+        Eigen::Array2Xd driven(2, y.cols());
+        driven.row(0) = sign / 12.0 * y.row(theta_xxt);
+        driven.row(1) = -beam_.alpha / 12.0 * y.row(theta_xx);
+        return driven;
+    }
+
+    [[nodiscard]] Squares in_time(const DrivenBeam& error, const ArrayXd& t) const {
+        Squares squares{t, {}, {}};
+        squares.of(Quantity::theta) = squared_norms(error.theta);
+        squares.of(Quantity::theta_x) = squared_norms(slopes(error.theta));
+        add_deflection(squares, error.w);
+        squares.of(Quantity::stress) = (3.0 * beam_.alpha * moments(error.theta)).square();
+        return squares;
+    }
+
+    /// Without what interpolation leaves.
+    [[nodiscard]] Squares in_space(const DrivenBeam& error, const ArrayXd& t) const {
+        Squares squares{t, {}, {2.0, 1.0, 2.0, 2.0, 2.0, 2.0}};
+        add_deflection(squares, error.w);
+        for (ArrayXd& values : squares.values)
+            if (values.size() == 0)
+                values = ArrayXd::Zero(t.size());
+        if (!coupled_) {
+            squares.order(Quantity::u_x) = 3.0;
+            squares.order(Quantity::u) = 4.0;
+        }
+        return squares;
+    }
+
+    void add_interpolation(std::vector<Squared>& all, const std::vector<DrivenBeam>& errors,
+                           const ArrayXd& t, Index modes) const {
+        const GaussRule rule = GaussRule::of(2 * modes);
+        const MatrixXd at_points = legendre(modes + 1, rule.points).transpose();
+        std::vector<MatrixXd> nodal;
+        std::vector<ArrayXd> forces;
+        for (std::size_t k = 0; k < all.size(); ++k) {
+            nodal.emplace_back(at_points * errors[2 * k].theta);
+            forces.push_back(moments(errors[2 * k].theta));
+        }
+        for (Index n = 0; n < t.size(); ++n) {
+            const ArrayXXd y = at(rule.points, t(n));
+            const ArrayXd bent = y.row(theta_xx).transpose();
+            const double of_bent = (rule.weights * bent.square()).sum();
+            const double of_w = (rule.weights * y.row(w_xx).transpose().square()).sum();
+            const double moment = (rule.weights * (1.0 - rule.points) * bent).sum() / 12.0;
+            for (std::size_t k = 0; k < all.size(); ++k) {
+                Squares& squares = all[k].space;
+                const ArrayXd node = nodal[k].col(n).array();
+                squares.of(Quantity::theta)(n) =
+                    (rule.weights * (node.square() + node * bent / 6.0)).sum() + of_bent / 120.0;
+                squares.of(Quantity::theta_x)(n) = of_bent / 12.0;
+                squares.of(Quantity::u_xx)(n) += of_w / 720.0;
+                if (!coupled_) {
+                    squares.of(Quantity::u_x)(n) = of_w / 30240.0;
+                    squares.of(Quantity::u)(n) = of_w / 362880.0;
+                }
+                const double force = 3.0 * beam_.alpha * (forces[k](n) + moment);
+                squares.of(Quantity::stress)(n) = force * force;
+            }
+        }
     }
 
     static void add_deflection(Squares& squares, const MatrixXd& w) {
@@ -189,6 +233,7 @@ private:
     const Tape& tape_;
     const Beam& beam_;
     bool held_;
+    bool coupled_;
     double final_time_;
 };
 
@@ -273,13 +318,8 @@ std::string why_not_of(const Norm& norm, const Forecaster& forecaster, const Tim
     return {};
 }
 
-std::vector<NormConstants> constants_at(const Forecaster& forecaster,
-                                        const ExpectedOrders& expected, const TimeScheme& scheme,
-                                        ThermalMass mass, bool coupled,
-                                        std::pair<Index, Index> resolution) {
-    const auto [modes, steps] = resolution;
-    const Squares space = forecaster.in_space(mass, coupled, modes, steps);
-    const Squares time = forecaster.in_time(scheme, modes, steps);
+std::vector<NormConstants> constants_of(const Squared& squared, const Forecaster& forecaster,
+                                        const ExpectedOrders& expected, const TimeScheme& scheme) {
     std::vector<NormConstants> all;
     for (const auto& name : Norm::names()) {
         const ExpectedOrder* order = row_of(expected, name);
@@ -301,9 +341,9 @@ std::vector<NormConstants> constants_at(const Forecaster& forecaster,
                 term = leading_term(norm, of, squares);
         };
         if (order->in_h.has_error())
-            add(constants.in_h, root * order->in_h.least, space);
+            add(constants.in_h, root * order->in_h.least, squared.space);
         if (order->euler.has_error()) // every scheme or none has an error in time
-            add(constants.in_dt, scheme.order, time);
+            add(constants.in_dt, scheme.order, squared.time);
         all.push_back(constants);
     }
     return all;
@@ -311,6 +351,47 @@ std::vector<NormConstants> constants_at(const Forecaster& forecaster,
 
 double change(const std::optional<LeadingTerm>& before, const std::optional<LeadingTerm>& now) {
     return now && now->constant > 0.0 ? std::abs(before->constant / now->constant - 1.0) : 0.0;
+}
+
+/// The greatest of all sizes; 1 where there is nothing before.
+double change(const std::vector<NormConstants>& before, const std::vector<NormConstants>& now) {
+    double most = before.empty() ? 1.0 : 0.0;
+    for (std::size_t k = 0; k < before.size(); ++k)
+        most = std::max(
+            {most, change(before[k].in_h, now[k].in_h), change(before[k].in_dt, now[k].in_dt)});
+    return most;
+}
+
+/// Finds the sizes of those methods that nothing is said to be unknown of: at the first of the
+/// resolutions at which they have settled.
+void settle(const std::vector<ForecastMethod>& methods, const Forecaster& forecaster,
+            const ExpectedOrders& expected, std::vector<ErrorConstants>& results) {
+    std::vector<std::size_t> left;
+    for (std::size_t k = 0; k < methods.size(); ++k)
+        if (results[k].unknown.empty())
+            left.push_back(k);
+    for (const auto& [modes, steps] : resolutions) {
+        if (left.empty())
+            return;
+        std::vector<ForecastMethod> driven;
+        for (const std::size_t k : left)
+            driven.push_back(methods[k]);
+        const auto squares = forecaster.squares(driven, modes, steps);
+        std::vector<std::size_t> unsettled;
+        for (std::size_t i = 0; i < left.size(); ++i) {
+            auto& norms = results[left[i]].norms;
+            const auto before =
+                std::exchange(norms, constants_of(squares[i], forecaster, expected,
+                                                  TimeScheme::named(driven[i].time_scheme)));
+            if (!(change(before, norms) < settled))
+                unsettled.push_back(left[i]);
+        }
+        left = unsettled;
+    }
+    for (const std::size_t k : left)
+        results[k] = {"the driven problem is not resolved: layers in space or in time, or places "
+                      "where the solution is not smooth, which lower the orders",
+                      {}};
 }
 
 } // namespace
@@ -321,35 +402,27 @@ const NormConstants* ErrorConstants::of(const std::string& norm) const {
     return found == norms.end() ? nullptr : &*found;
 }
 
-ErrorConstants error_constants(const Solution& solution, const Beam& beam, double final_time,
-                               const std::string& time_scheme, ThermalMass mass) {
-    const ExpectedOrders expected = expected_orders(solution, beam, final_time);
+std::vector<ErrorConstants> error_constants(const ExpectedOrders& expected,
+                                            const Solution& solution, const Beam& beam,
+                                            double final_time,
+                                            const std::vector<ForecastMethod>& methods) {
     const DerivedSolution derived = derive_on(solution, beam);
-    ErrorConstants result{why_not(expected, derived, beam, final_time, time_scheme), {}};
-    if (!result.unknown.empty())
-        return result;
+    std::vector<ErrorConstants> results;
+    for (const auto& method : methods)
+        results.push_back({why_not(expected, derived, beam, final_time, method.time_scheme), {}});
+    if (std::ranges::none_of(results, [](const auto& one) { return one.unknown.empty(); }))
+        return results;
     try {
         const Tape tape = derivatives_of(derived.derived.front());
         const Forecaster forecaster(tape, beam, expected.contact.pressed_until.has_value(),
-                                    final_time);
-        const bool coupled = beam.alpha != 0.0 && !expected.theta_is_exact;
-        for (const auto& resolution : resolutions) {
-            const auto before = std::exchange(
-                result.norms, constants_at(forecaster, expected, TimeScheme::named(time_scheme),
-                                           mass, coupled, resolution));
-            double most = before.empty() ? 1.0 : 0.0;
-            for (std::size_t k = 0; k < before.size(); ++k)
-                most = std::max({most, change(before[k].in_h, result.norms[k].in_h),
-                                 change(before[k].in_dt, result.norms[k].in_dt)});
-            if (most < settled)
-                return result;
-        }
+                                    beam.alpha != 0.0 && !expected.theta_is_exact, final_time);
+        settle(methods, forecaster, expected, results);
     } catch (const AlgebraError& error) {
-        return {error.what(), {}};
+        for (auto& result : results)
+            if (result.unknown.empty())
+                result = {error.what(), {}};
     }
-    return {"the driven problem is not resolved: layers in space or in time, or places where the "
-            "solution is not smooth, which lower the orders",
-            {}};
+    return results;
 }
 
 } // namespace tvbeam

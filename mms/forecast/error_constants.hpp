@@ -2,6 +2,7 @@
 
 #include "core/problem.hpp"
 #include "core/space/thermal_mass.hpp"
+#include "mms/expected_orders.hpp"
 #include "mms/solution.hpp"
 
 #include <optional>
@@ -23,7 +24,13 @@ struct NormConstants {
     std::optional<LeadingTerm> in_dt; ///< b Δt^q; likewise
 };
 
-/// The sizes of the leading errors of a solution, forecast without running a scheme.
+/// What the sizes depend on, beside the solution.
+struct ForecastMethod {
+    std::string time_scheme;
+    ThermalMass mass = ThermalMass::consistent;
+};
+
+/// The sizes of the leading errors of a solution by one method, forecast without running it.
 struct ErrorConstants {
     std::string unknown; ///< why they are not known; empty: they are
     std::vector<NormConstants> norms;
@@ -54,8 +61,10 @@ struct ErrorConstants {
 /// and there for BDF2, which it starts, maxima over time of errors in u, where a derivative is no
 /// number, and where the driven problem does not settle to 0.2 %. Without viscosity W jumps to
 /// equilibrium in the first step, and a coupled Θ with it, away from I_hθ̃: maxima over time of
-/// errors in θ are not known. Throws InputError as expected_orders does.
-ErrorConstants error_constants(const Solution& solution, const Beam& beam, double final_time,
-                               const std::string& time_scheme, ThermalMass mass);
+/// errors in θ are not known. One result a method; expected: what expected_orders says of them.
+std::vector<ErrorConstants> error_constants(const ExpectedOrders& expected,
+                                            const Solution& solution, const Beam& beam,
+                                            double final_time,
+                                            const std::vector<ForecastMethod>& methods);
 
 } // namespace tvbeam

@@ -131,39 +131,48 @@ std::string orders_table(const ExpectedOrders& expected) {
 }
 
 /// a of each heat mass matrix, b of each time scheme.
-std::string sizes_table(const SolutionSetting& setting) {
+std::string sizes_table(const SolutionSetting& setting, const ExpectedOrders& expected) {
+    using Size = std::optional<LeadingTerm> NormConstants::*;
+    struct Shown {
+        std::string heading;
+        std::size_t method;
+        Size size;
+    };
+    std::vector<ForecastMethod> methods{{"euler", ThermalMass::lumped}};
+    std::vector<Shown> shown{{"a: consistent", 1, &NormConstants::in_h},
+                             {"lumped", 0, &NormConstants::in_h}};
+    for (const auto& time : TimeScheme::names()) {
+        shown.push_back(
+            {(methods.size() == 1 ? "b: " : "") + time, methods.size(), &NormConstants::in_dt});
+        methods.push_back({time, ThermalMass::consistent});
+    }
+    const auto sizes =
+        error_constants(expected, setting.solution, setting.beam, setting.final_time, methods);
+    if (!sizes[1].unknown.empty())
+        return wrapped("not known: " + sizes[1].unknown);
     Table::Column norm{"norm", {}};
+    for (const NormConstants& row : sizes[1].norms) {
+        const auto known = Norm::named(row.norm);
+        norm.cells.push_back(row.norm + (known && known->squared ? "^(1/2)" : ""));
+    }
     std::vector<Table::Column> columns;
     std::string unknown_norms;
-    const auto add = [&](const std::string& heading, const std::string& time, ThermalMass mass,
-                         std::optional<LeadingTerm> NormConstants::*term) {
-        const ErrorConstants sizes =
-            error_constants(setting.solution, setting.beam, setting.final_time, time, mass);
-        if (!sizes.unknown.empty())
-            return sizes.unknown;
+    std::string unknown;
+    for (const auto& [heading, method, size] : shown) {
+        const ErrorConstants& one = sizes[method];
+        if (!one.unknown.empty()) {
+            if (unknown.find(one.unknown) == std::string::npos)
+                unknown += (unknown.empty() ? "" : "; ") + one.unknown;
+            continue;
+        }
         columns.push_back({heading, {}});
-        norm.cells.clear();
-        for (const NormConstants& row : sizes.norms) {
-            const auto known = Norm::named(row.norm);
-            norm.cells.push_back(row.norm + (known && known->squared ? "^(1/2)" : ""));
-            columns.back().cells.push_back(row.*term ? scientific((row.*term)->constant, 3)
+        for (const NormConstants& row : one.norms) {
+            columns.back().cells.push_back(row.*size ? scientific((row.*size)->constant, 3)
                                            : row.unknown.empty() ? "-"
                                                                  : "?");
             if (!row.unknown.empty())
                 unknown_norms = wrapped("?: not known: " + row.unknown);
         }
-        return std::string();
-    };
-    std::string unknown =
-        add("a: consistent", "euler", ThermalMass::consistent, &NormConstants::in_h);
-    if (!unknown.empty())
-        return wrapped("not known: " + unknown);
-    add("lumped", "euler", ThermalMass::lumped, &NormConstants::in_h);
-    for (const auto& time : TimeScheme::names()) {
-        const std::string why = add((time == "euler" ? "b: " : "") + time, time,
-                                    ThermalMass::consistent, &NormConstants::in_dt);
-        if (!why.empty() && unknown.find(why) == std::string::npos)
-            unknown += (unknown.empty() ? "" : "; ") + why;
     }
     return text_table({"", {"", {norm}}, {{"", columns}}}) + unknown_norms +
            (unknown.empty() ? "" : wrapped("not known: " + unknown));
@@ -180,13 +189,14 @@ std::string solution_report(const SolutionSetting& setting) {
                 wrapped("The exact solution in the discrete equations: the residual in space, and "
                         "in time with space exact.") +
                 "\n" + space_table(setting) + "\n" + time_table(setting);
+        const ExpectedOrders expected = expected_orders(solution, beam, final_time);
         text += "\n" +
                 wrapped("Orders to expect on uniform meshes, where the solution is smooth in x and "
                         "t but at the ends of its phases (-: no error of that kind):") +
-                "\n" + orders_table(expected_orders(solution, beam, final_time));
+                "\n" + orders_table(expected);
         text += "\nSizes a of h^p and b of dt^q to expect on uniform meshes, by modified "
                 "equations:\n\n" +
-                sizes_table(setting);
+                sizes_table(setting, expected);
     } catch (const InputError& error) {
         text += wrapped(std::string("not admissible: ") + error.what());
     }

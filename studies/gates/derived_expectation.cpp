@@ -63,8 +63,10 @@ public:
         if (known == sizes_.end())
             known = sizes_
                         .emplace(time, scene_.mesh.is_uniform()
-                                           ? error_constants(solution_, scene_.beam, final_time_,
-                                                             time, scene_.scheme.thermal_mass)
+                                           ? error_constants(orders(), solution_, scene_.beam,
+                                                             final_time_,
+                                                             {{time, scene_.scheme.thermal_mass}})
+                                                 .front()
                                            : ErrorConstants{"the meshes are not uniform", {}})
                         .first;
         return known->second;

@@ -112,7 +112,8 @@ void require_scene(const TomlDocument& document) {
 }
 
 /// [beam], [mesh], [scheme] and the solution or [data]. wanted: some study runs the problem.
-void read_problem(Scene& scene, TableReader& root, bool wanted, bool own_problem) {
+void read_problem(Scene& scene, TableReader& root, bool wanted, const Reading& reading) {
+    const bool own_problem = reading.own_problem;
     const std::filesystem::path path(scene.file);
     auto beam = root.table("beam");
     if (!beam && wanted)
@@ -139,6 +140,8 @@ void read_problem(Scene& scene, TableReader& root, bool wanted, bool own_problem
                          "the scene has neither a solution nor a [data] block; give one of them");
     if (data)
         scene.problem = read_data(*std::move(data));
+    else if (reading.unrun)
+        static_cast<void>(root.text("solution"));
     else if (root.has("solution"))
         scene.problem = read_scene_solution(root, path.parent_path());
 }
@@ -378,7 +381,7 @@ Scene read_scene(const std::string& name_or_file, const std::vector<std::string>
         if (!reading.unrun)
             require_placeholders(*scene.solver, scene.series());
     } else {
-        read_problem(scene, root, !brings_its_own, reading.own_problem);
+        read_problem(scene, root, !brings_its_own, reading);
         if (reading.solution)
             scene.problem = parse_solution(*reading.solution, "solution");
         read_studies(scene, root);
@@ -430,8 +433,10 @@ ErrorConstants forecast_constants(const Scene& scene, double final_time) {
         return {"the scene has no solution from a text", {}};
     if (!scene.mesh.is_uniform())
         return {"the meshes are not uniform", {}};
-    return error_constants(*solution, scene.beam, final_time, scene.scheme.time.name,
-                           scene.scheme.thermal_mass);
+    return error_constants(expected_orders(*solution, scene.beam, final_time), *solution,
+                           scene.beam, final_time,
+                           {{scene.scheme.time.name, scene.scheme.thermal_mass}})
+        .front();
 }
 
 void require_runnable(const Scene& scene, const ProblemData& data) {

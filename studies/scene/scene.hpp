@@ -77,7 +77,8 @@ struct Reading {
     bool short_form = false; ///< with the block [short], whose keys replace those of the same path
     bool expectations = false; ///< with the block [expect]; otherwise it is passed over
     bool own_problem = false;  ///< without solution and [data]: the caller has the problem
-    bool unrun = false;        ///< for what it says of itself alone: no formulas in templates
+    bool unrun = false;        ///< for what it says of itself alone: without its solution, and
+                               ///< without formulas in templates
     /// Kinds of files that [report] may name; empty: any.
     std::vector<std::string> report_files = {};
     std::string program = {};   ///< tvbeam's own file, which [[expect.commands]] run; empty: none

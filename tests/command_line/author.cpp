@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <filesystem>
 #include <set>
 #include <sstream>
 #include <vector>
@@ -219,6 +220,27 @@ BOOST_AUTO_TEST_CASE(list_names_what_is_shipped) {
          {"\n  table1 ", "\n  table1-consistent ", "\n  table1-fixed-point ",
           "\n  table1-extended ", "\n  copetti-fernandez-2011 "})
         BOOST_TEST(has(called.output, name), name);
+}
+
+// The build keeps the list; what is printed is that of the files as they are now.
+BOOST_AUTO_TEST_CASE(the_list_is_that_of_the_files_as_they_are) {
+    namespace fs = std::filesystem;
+    const TemporaryDirectory directory;
+    const fs::path sources = fs::path(TVBEAM_SCENES).parent_path().parent_path();
+    for (const char* folder : {"studies/scenes", "mms/solutions", "mms/systems"}) {
+        fs::create_directories(directory.path() / folder);
+        fs::copy(sources / folder, directory.path() / folder, fs::copy_options::recursive);
+    }
+    const std::string there = "TVBEAM_DATA=" + directory.path().string() + " ";
+    const std::string shipped = call(directory, "list").output;
+    BOOST_TEST(call(directory, "list", there).output == shipped);
+    fs::copy_file(directory.path() / "mms/solutions/mixed.toml",
+                  directory.path() / "mms/solutions/zz-mine.toml");
+    fs::remove(directory.path() / "studies/scenes/table1.toml");
+    const std::string changed = call(directory, "list", there).output;
+    BOOST_TEST(has(changed, "\n  zz-mine "));
+    BOOST_TEST(!has(changed, "\n  table1 "));
+    BOOST_TEST(call(directory, "list").output == shipped);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

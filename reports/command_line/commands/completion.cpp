@@ -14,6 +14,11 @@ namespace tvbeam {
 
 namespace {
 
+/// That --help has, too.
+bool stands_in_help(const CLI::Option* option) {
+    return !option->get_group().empty();
+}
+
 /// What prints the names that a command takes; empty: it takes none of something that there is.
 std::string names_for(const CLI::App& command) {
     const std::string& name = command.get_name();
@@ -26,7 +31,7 @@ std::string names_for(const CLI::App& command) {
 
 std::vector<std::string> options_of(const CLI::App& command) {
     std::vector<std::string> words;
-    for (const CLI::Option* option : command.get_options())
+    for (const CLI::Option* option : command.get_options(stands_in_help))
         for (const auto& name : option->get_lnames())
             words.push_back("--" + name);
     return words;
@@ -136,7 +141,7 @@ std::string fish_script(const CLI::App& app) {
         lines += fmt::format("complete -c tvbeam -n __fish_use_subcommand -f -a {} -d {}\n", name,
                              quoted(description.substr(0, description.find('\n')), "\\'"));
         const std::string seen = fmt::format("-n '__fish_seen_subcommand_from {}'", name);
-        for (const CLI::Option* option : command->get_options())
+        for (const CLI::Option* option : command->get_options(stands_in_help))
             for (const auto& word : option->get_lnames())
                 lines += fmt::format("complete -c tvbeam {} -l {}{} -d {}\n", seen, word,
                                      option->get_items_expected_max() > 0 ? " -r" : "",

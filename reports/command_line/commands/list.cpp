@@ -6,6 +6,7 @@
 #include "reports/command_line/progress_line.hpp"
 #include "reports/document/text_table.hpp"
 #include "reports/document/visible_text.hpp"
+#include "reports/files/build_ids.hpp"
 #include "reports/files/output_file.hpp"
 #include "studies/evolution/evolution.hpp"
 #include "studies/gates/features.hpp"
@@ -18,9 +19,14 @@
 
 #include <fmt/ranges.h>
 
+#include <sys/stat.h>
+
 #include <algorithm>
 #include <array>
+#include <filesystem>
+#include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <sstream>
 #include <string>
@@ -42,7 +48,8 @@ enum class Names { all, scenes, derived };
 int names_command(Names wanted) {
     std::string text;
     for (const auto& file : shipped_files(Shipped::scene))
-        if (wanted != Names::derived || has_solution(read_scene(file.path.string())))
+        if (wanted != Names::derived ||
+            has_solution(read_scene(file.path.string(), {}, {.unrun = true})))
             text += file.name + "\n";
     if (wanted != Names::scenes)
         for (const auto kind : {Shipped::solution, Shipped::equations})
@@ -112,11 +119,7 @@ std::string aligned(const std::vector<Line>& lines) {
     return text;
 }
 
-int list_command() {
-    if (shipped_files(Shipped::scene).empty() && shipped_files(Shipped::solution).empty())
-        throw InputError({"tvbeam list"}, "the shipped scenes and solutions are not where this "
-                                          "program looks for them; name their directory, which "
-                                          "holds studies/scenes, in TVBEAM_DATA");
+std::string list_text() {
     std::array<std::vector<Line>, groups.size()> grouped;
     for (const auto& file : shipped_files(Shipped::scene)) {
         const Scene scene = read_scene(file.path.string(), {}, {.unrun = true});
@@ -138,7 +141,49 @@ int list_command() {
     for (const auto& file : shipped_files(Shipped::equations))
         systems.push_back({file.name, "", read_equation_system(file.path).purpose});
     text += "\nEquations with a solution: tvbeam derive NAME\n" + aligned(systems);
-    write_standard_output(visible(text));
+    return visible(text);
+}
+
+/// This program, and the files that are listed, as they are now: the first line of a catalogue.
+std::string state_of_files() {
+    std::string state = build_ids().front().second;
+    for (const auto kind : {Shipped::scene, Shipped::solution, Shipped::equations})
+        for (const auto& [name, path] : shipped_files(kind)) {
+            struct stat file {};
+            if (stat(path.c_str(), &file) != 0)
+                return {}; // it went just now: as no catalogue is
+            state += fmt::format(" {} {} {}", name, file.st_size, file.st_mtime);
+        }
+    return fmt::format("{:x}", std::hash<std::string>()(state));
+}
+
+/// The list that the build made beside the program, where no file has changed since.
+std::optional<std::string> kept_list() {
+    std::error_code error;
+    const auto program = std::filesystem::read_symlink("/proc/self/exe", error).parent_path();
+    for (const auto& candidate :
+         {program / "catalogue", program.parent_path() / "share/tvbeam/catalogue"}) {
+        if (!std::filesystem::is_regular_file(candidate, error))
+            continue;
+        const std::string text = file_text(candidate.string(), largest_shipped);
+        const std::size_t end = text.find('\n');
+        if (end != std::string::npos && text.substr(0, end) == state_of_files())
+            return text.substr(end + 1);
+    }
+    return std::nullopt;
+}
+
+int list_command(bool to_keep) {
+    if (shipped_files(Shipped::scene).empty() && shipped_files(Shipped::solution).empty())
+        throw InputError({"tvbeam list"}, "the shipped scenes and solutions are not where this "
+                                          "program looks for them; name their directory, which "
+                                          "holds studies/scenes, in TVBEAM_DATA");
+    if (to_keep)
+        write_standard_output(state_of_files() + "\n" + list_text());
+    else if (const auto kept = kept_list())
+        write_standard_output(*kept);
+    else
+        write_standard_output(list_text());
     return done;
 }
 
@@ -223,6 +268,7 @@ Command add_list(CLI::App& app) {
         std::string name;
         std::string names;
         std::string word;
+        bool to_keep = false;
     };
     const auto options = std::make_shared<Options>();
     auto* name =
@@ -242,6 +288,9 @@ Command add_list(CLI::App& app) {
             ->type_name("[WORD]")
             ->excludes(name)
             ->excludes(names);
+    list->add_flag("--catalogue", options->to_keep,
+                   "with the state of the files, as the build keeps it")
+        ->group(""); // of no use to anybody else
     return {list, [options, name, names, features] {
                 if (features->count() > 0)
                     return features_command(options->word);
@@ -249,7 +298,8 @@ Command add_list(CLI::App& app) {
                     return names_command(options->names == "scenes"   ? Names::scenes
                                          : options->names == "derive" ? Names::derived
                                                                       : Names::all);
-                return name->count() > 0 ? print_command(options->name) : list_command();
+                return name->count() > 0 ? print_command(options->name)
+                                         : list_command(options->to_keep);
             }};
 }
 
