@@ -161,6 +161,9 @@ StudyResult on_solver(const Scene& scene, const Execution& execution, const Cond
     const Keeper keeper;
     const StudiedSolver solver = external_runs(*scene.solver, keeper);
     const Method own = scene.method();
+    if (const std::string remark = remark_on_untold_widths(*scene.solver, scene.series());
+        !remark.empty())
+        result.remarks.push_back(remark);
     const ProblemData no_data;
     const Defects no_defects;
     conduct({scene, no_data, solver, own, execution, no_defects}, result);

@@ -167,32 +167,14 @@ void analyse_records(const DataAnalysis& data, const std::vector<std::size_t>& u
                                               column.name, data.widths[used.front()].name));
 }
 
-/// Standard deviations of errors that were rounded to the digits printed; none where half of the
-/// rows have four digits or more, which an order on halved widths shows by 0.001 at most, or where
-/// rows of equal widths show a scatter of their own. No row is known better than half of them are:
-/// what a model leaves out is no smaller in a row that has more digits.
+/// Of errors that were rounded; none where rows of equal widths show a scatter of their own.
 std::vector<double> rounding(const DataAnalysis& data, const DataColumn& errors) {
     for (std::size_t r = 1; r < data.rows() && !errors.units.empty(); ++r)
         if (std::ranges::all_of(data.widths, [&](const DataColumn& width) {
                 return width.numbers[r] == width.numbers[r - 1];
             }))
             return {};
-    std::vector<double> relative;
-    for (std::size_t r = 0; r < errors.units.size(); ++r)
-        if (is_positive(errors.numbers[r]))
-            relative.push_back(errors.units[r] / errors.numbers[r]);
-    if (relative.empty())
-        return {};
-    const auto half = relative.begin() + static_cast<std::ptrdiff_t>(relative.size() / 2);
-    std::ranges::nth_element(relative, half);
-    constexpr double of_four_digits = 1e-3;
-    if (*half <= of_four_digits)
-        return {};
-    // Of what is uniform over one unit of the last digit.
-    std::vector<double> sigma(errors.units.size());
-    for (std::size_t r = 0; r < sigma.size(); ++r)
-        sigma[r] = std::hypot(errors.units[r], *half * errors.numbers[r]) / std::sqrt(12.0);
-    return sigma;
+    return deviations_of_rounding(errors.numbers, errors.units);
 }
 
 ColumnAnalysis analyse_errors(const DataAnalysis& data, const DataColumn& errors,

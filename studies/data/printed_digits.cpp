@@ -78,4 +78,24 @@ std::vector<double> printed_units_of_errors(const std::vector<double>& errors,
     return units;
 }
 
+std::vector<double> deviations_of_rounding(const std::vector<double>& errors,
+                                           const std::vector<double>& units) {
+    std::vector<double> relative;
+    for (std::size_t i = 0; i < units.size(); ++i)
+        if (errors[i] > 0)
+            relative.push_back(units[i] / errors[i]);
+    if (relative.empty())
+        return {};
+    const auto half = relative.begin() + static_cast<std::ptrdiff_t>(relative.size() / 2);
+    std::ranges::nth_element(relative, half);
+    constexpr double of_four_digits = 1e-3;
+    if (*half <= of_four_digits)
+        return {};
+    // Of what is uniform over one unit of the last digit.
+    std::vector<double> sigma(units.size());
+    for (std::size_t i = 0; i < sigma.size(); ++i)
+        sigma[i] = std::hypot(units[i], *half * errors[i]) / std::sqrt(12.0);
+    return sigma;
+}
+
 } // namespace tvbeam

@@ -7,6 +7,8 @@
 #include <boost/uuid/uuid_io.hpp>
 #include <nlohmann/json.hpp>
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <atomic>
@@ -329,6 +331,33 @@ void require_programs(const SolverBlock& solver, const std::vector<Series>& all)
             program_of(solver, word);
         else
             require_at_hand(solver, solver.command[i].place, word);
+}
+
+std::string remark_on_untold_widths(const SolverBlock& solver, const std::vector<Series>& all) {
+    for (const auto& series : all) {
+        std::map<std::vector<std::string>, Rung> told;
+        for (std::size_t level = 0; level < series.rungs.size(); ++level) {
+            const Rung& rung = series.rungs[level];
+            const auto values =
+                placeholders_of(rung, level, series.final_time, parameters_of(series.method));
+            std::vector<std::string> texts;
+            for (const auto& word : solver.command)
+                texts.push_back(word.filled(values));
+            for (const auto& file : solver.files)
+                if (file.contents)
+                    texts.push_back(file.contents->filled(values));
+            const auto [known, is_new] = told.emplace(std::move(texts), rung);
+            const Rung& other = known->second;
+            const bool meshes_differ = other.elements != rung.elements;
+            if (is_new || (!meshes_differ && other.dt == rung.dt))
+                continue;
+            return fmt::format(
+                "In the runs with {} and with {} the program is told the same, by its command and "
+                "its files: they cannot show an order in {}.",
+                other.name(shortest), rung.name(shortest), meshes_differ ? "h" : "dt");
+        }
+    }
+    return {};
 }
 
 StudiedSolver external_runs(const SolverBlock& solver, const Keeper& keeper) {

@@ -16,6 +16,10 @@ namespace tvbeam {
 void require_placeholders(const SolverBlock& solver, const std::vector<Series>& all);
 void require_programs(const SolverBlock& solver, const std::vector<Series>& all);
 
+/// Says of runs that differ in elements or dt, of which the program is told nothing: its command
+/// and files are the same in both. Empty where there are none.
+std::string remark_on_untold_widths(const SolverBlock& solver, const std::vector<Series>& all);
+
 /// An external program as a solver under study. Each run has a directory of its own, with the
 /// block's files in it, which is removed after it. A run fails, with the reason and the last lines
 /// that it wrote, where it exits with another code than 0, is killed, takes too long, or does not

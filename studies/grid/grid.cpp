@@ -1,5 +1,6 @@
 #include "studies/grid/grid.hpp"
 
+#include "studies/data/printed_digits.hpp"
 #include "studies/grid/grid_refining.hpp"
 
 #include <algorithm>
@@ -43,6 +44,15 @@ std::optional<Refinement> reference_of(const std::optional<ReferenceBlock>& agai
     return reference;
 }
 
+/// Of errors that a program printed: none is a square.
+std::vector<double> rounding(std::span<const Refinement> records,
+                             const std::vector<double>& units) {
+    std::vector<double> errors;
+    for (const auto& record : records)
+        errors.push_back(record.error);
+    return deviations_of_rounding(errors, units);
+}
+
 } // namespace
 
 const TwoTermFit* OrdersResult::fit_of(const Measure& norm) const {
@@ -66,7 +76,9 @@ OrdersResult analyse_grid(const std::vector<RungResult>& runs, const std::vector
             continue;
         }
         const auto roots = root_records_of(runs, k, norm);
-        result.norms.push_back({norm.root(), fit_two_term(roots, reference_of(reference, roots))});
+        const auto sigma = rounding(roots, units_of(runs, k, false));
+        result.norms.push_back(
+            {norm.root(), fit_two_term(roots, reference_of(reference, roots), sigma)});
         if (!norm.theorem.empty())
             result.corollary = constants_of(norm.theorem, records_of(runs, k));
     }
