@@ -4,6 +4,7 @@
 #include "core/run.hpp"
 #include "studies/evolution/evolution_block.hpp"
 #include "studies/external/external_runs.hpp"
+#include "studies/ladder/ladder_block.hpp"
 #include "studies/phase_remarks.hpp"
 #include "studies/runs/beam_runs.hpp"
 #include "studies/runs/defects.hpp"
@@ -143,10 +144,29 @@ std::string remark_on(const SeparationResult& separation) {
                      separation.reason + ".";
 }
 
+/// Published figures stay those of the file's problem, meshes and steps.
+std::string remark_on_published(const Scene& scene) {
+    const auto* ladder = scene.get<LadderBlock>();
+    if (ladder == nullptr || !ladder->printed || ladder->printed->figures.empty())
+        return {};
+    std::string others;
+    for (const auto& assignment : scene.overrides) {
+        if (assignment.starts_with("ladder.printed"))
+            return {};
+        for (const char* key : {"beam", "solution", "data", "mesh", "ladder.elements", "ladder.dt",
+                                "ladder.final_time", "solver"})
+            if (assignment.starts_with(key))
+                others += " --set " + assignment;
+    }
+    return others.empty() ? "" : "The published figures are of the scene without" + others + ".";
+}
+
 void run_studies(const StudyContext& context, StudyResult& result) {
     const Scene& scene = context.scene;
     for (const auto* entry : in_running_order(scene, context.method))
         result.records.set(*entry->kind, entry->kind->run(entry->value, context));
+    if (std::string remark = remark_on_published(scene); !remark.empty())
+        result.remarks.push_back(std::move(remark));
     for (auto& [kind, record] : result.records.entries())
         kind->conclude(*scene.blocks.find(*kind), record, result, context);
 }

@@ -4,6 +4,7 @@
 #include "mms/text/input_error.hpp"
 #include "studies/ladder/ladder.hpp"
 #include "studies/scene/shipped.hpp"
+#include "studies/study.hpp"
 #include "tests/temporary_directory.hpp"
 
 #include <boost/test/data/monomorphic.hpp>
@@ -263,6 +264,24 @@ BOOST_AUTO_TEST_CASE(overrides_replace_and_add_keys) {
     BOOST_TEST(scene.beam.theta_A == 0.5);
     BOOST_TEST(scene.get<LadderBlock>()->rungs.size() == 1);
     BOOST_TEST((scene.scheme.thermal_mass == ThermalMass::consistent));
+}
+
+// Published figures stand beside errors of another problem only with a word of it.
+BOOST_AUTO_TEST_CASE(published_figures_of_another_problem_are_said_to_be) {
+    const TemporaryDirectory directory;
+    const std::string file = directory.write("my.toml", good);
+    const auto remarks = [&](const std::vector<std::string>& overrides) {
+        return run_study(read_scene(file, overrides)).remarks;
+    };
+    BOOST_TEST(remarks({}).empty());
+    BOOST_TEST(remarks({"scheme.time=bdf2", "title=beam"}).empty());
+    BOOST_TEST(remarks({"beam.alpha=0.02", "ladder.printed.theta_L2L2_sq=[1, 2]"}).empty());
+    for (const std::string own : {"beam.alpha=0.02", "ladder.dt=[0.1, 0.05]"}) {
+        const auto said = remarks({"scheme.time=bdf2", own});
+        BOOST_REQUIRE(said.size() == 1U);
+        BOOST_TEST(said.front() ==
+                   "The published figures are of the scene without --set " + own + ".");
+    }
 }
 
 BOOST_AUTO_TEST_CASE(a_part_of_a_key_in_quotes_may_hold_dots) {
