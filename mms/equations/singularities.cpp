@@ -314,9 +314,15 @@ private:
             const std::string place = same ? "everywhere" : text_of(point);
             return Singularity{kind, said(critical) + place, place};
         };
-        if (crosses)
-            return with(one_sided ? Kind::no_value : Kind::pole,
-                        crossing(critical, seen.at_least, seen.at_greatest));
+        if (crosses) {
+            Singularity found = with(one_sided ? Kind::no_value : Kind::pole,
+                                     crossing(critical, seen.at_least, seen.at_greatest));
+            if (one_sided)
+                found.text += critical.rule == Critical::Rule::positive
+                                  ? ", and negative on one side"
+                                  : ", and greater on one side";
+            return found;
+        }
         if (one_sided && seen.least < -zero)
             return Singularity{Kind::no_value, said(critical) + "or beyond everywhere",
                                "everywhere"};
