@@ -166,6 +166,19 @@ private:
         return false;
     }
 
+    /// Where a tip that is on a stop leaves it on the way to another time, to rounding; around a
+    /// flat touch such times are far from it, and as far on both sides.
+    [[nodiscard]] double last_on_stop(const Interval& phase, double on, double away) const {
+        if (is_on_stop(phase, away))
+            return on;
+        constexpr int halvings = 60;
+        for (int step = 0; step < halvings; ++step) {
+            const double middle = 0.5 * (on + away);
+            (is_on_stop(phase, middle) ? on : away) = middle;
+        }
+        return on;
+    }
+
     /// Where the gap has a minimum that is nothing; next to an end on a stop it belongs to that
     /// end.
     [[nodiscard]] std::optional<double> touch_inside(const Interval& phase) const {
@@ -182,7 +195,8 @@ private:
             const double nearest = least_between([&](double t) { return gap(phase, t); },
                                                  times(before), times(behind));
             if (is_on_stop(phase, nearest) && nearest > begin && nearest < end)
-                return nearest;
+                return 0.5 * (last_on_stop(phase, nearest, times(before)) +
+                              last_on_stop(phase, nearest, times(behind)));
         }
         return std::nullopt;
     }

@@ -206,7 +206,9 @@ private:
     [[nodiscard]] Forecast in_time(Method method, double Switch::*own, double until) const {
         if (method == Method::euler)
             return exactly(1.0);
-        if (method == Method::bdf2 && known_.is_quadratic)
+        const bool of_theta = own == &Switch::theta_t_jump;
+        if (method == Method::bdf2 &&
+            (of_theta ? known_.theta_is_quadratic : known_.u_is_quadratic))
             return exactly(3.0);
         const bool kink =
             std::any_of(known_.switches.begin(), known_.switches.end(), [&](const Switch& change) {
@@ -380,14 +382,16 @@ std::vector<std::string> reasons(const ExpectedOrders& known, const Beam& beam) 
                                            : "u_xx is linear in t, and alpha = 0: no scheme has a "
                                              "time error in u, and no order in dt is visible "
                                              "there.");
-    if (known.is_quadratic) {
+    if (known.theta_is_quadratic || known.u_is_quadratic) {
         const std::string what = coupled ? "theta and u_xx are of degree 2 at most in t"
-                                 : !known.u_has_time_error ? "theta is quadratic in t"
-                                 : !known.theta_has_time_error
-                                     ? "u_xx is quadratic in t"
-                                     : "theta and u_xx are quadratic in t";
-        text.push_back(what + ": BDF2 has no error but that of its first step, which SDIRK2 makes: "
-                              "order 3.");
+                                 : !known.u_is_quadratic     ? "theta is quadratic in t"
+                                 : !known.theta_is_quadratic ? "u_xx is quadratic in t"
+                                                             : "theta and u_xx are quadratic in t";
+        const std::string where = known.is_quadratic()       ? ""
+                                  : known.theta_is_quadratic ? " in theta"
+                                                             : " in u";
+        text.push_back(what + ": BDF2 has no error" + where +
+                       " but that of its first step, which SDIRK2 makes: order 3.");
     }
     for (const Switch& change : known.switches)
         if (change.theta_t_jump > 0.0 || change.u_xxt_jump > 0.0)
@@ -470,10 +474,14 @@ ExpectedOrders expected_orders(const Solution& solution, const Beam& beam, doubl
         result.theta_has_time_error = !theta_is_linear || (coupled && !u_is_linear);
         result.u_has_time_error =
             coupled ? result.theta_has_time_error : beam.zeta != 0.0 && !u_is_linear;
-        result.is_quadratic = result.switches.empty() &&
-                              (result.theta_has_time_error || result.u_has_time_error) &&
-                              vanishes(derived, &DerivedPhase::theta, s.t, 3) &&
-                              vanishes(derived, &DerivedPhase::u_xx, s.t, 3);
+        const auto quadratic = [&](bool has_time_error, ex DerivedPhase::*field) {
+            return result.switches.empty() && has_time_error && vanishes(derived, field, s.t, 3);
+        };
+        result.theta_is_quadratic = quadratic(result.theta_has_time_error, &DerivedPhase::theta);
+        result.u_is_quadratic = quadratic(result.u_has_time_error, &DerivedPhase::u_xx);
+        if (coupled)
+            result.theta_is_quadratic = result.u_is_quadratic =
+                result.theta_is_quadratic && result.u_is_quadratic;
         result.orders = Orders(result, beam).all();
         result.reasons = reasons(result, beam);
         return result;

@@ -62,8 +62,14 @@ struct ExpectedOrders {
     bool u_is_exact = false;     ///< u is cubic in x: the C¹ cubics hold it
     bool theta_has_time_error = true;
     bool u_has_time_error = true;
-    bool is_quadratic =
-        false; ///< in t, what is differenced: BDF2 differs from it by its start alone
+    /// Of degree 2 at most in t, so that BDF2 has no error but that of its first step: both
+    /// fields, where they are coupled; else each by itself.
+    bool theta_is_quadratic = false;
+    bool u_is_quadratic = false;
+    [[nodiscard]] bool is_quadratic() const {
+        return (theta_is_quadratic || !theta_has_time_error) &&
+               (u_is_quadratic || !u_has_time_error) && (theta_is_quadratic || u_is_quadratic);
+    }
     std::vector<Switch> switches; ///< those before final_time
     std::optional<Kink> kink;
     ContactHistory contact;    ///< at rigid stops; at penalised ones touch alone

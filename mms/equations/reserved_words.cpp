@@ -114,8 +114,33 @@ std::set<std::string> all_functions_of_c() {
     return all;
 }
 
+/// Of stdio.h, string.h, time.h, ctype.h, signal.h, unistd.h and the like: a function of C that has
+/// such a name takes its place in the whole program, without a word of the linker.
+constexpr const char* linked_functions_of_c =
+    "accept access alarm asctime asprintf assert basename bcmp bcopy bind brk bzero chdir chmod "
+    "chown chroot clearerr clock clock_gettime close closedir confstr connect creat crypt ctime "
+    "daemon difftime dirname dlopen dlsym dprintf dup dup2 environ errno err errx execl execle "
+    "execlp execv execve execvp fclose fcntl fdopen feof ferror fflush fgetc fgetpos fgets fileno "
+    "flock fopen fork fprintf fputc fputs fread freopen fscanf fseek fsetpos fstat fsync ftell "
+    "ftime ftruncate fwrite getc getchar getcwd getline getopt getpid getppid gets gettimeofday "
+    "getuid glob gmtime htonl htons ioctl isalnum isalpha isascii isatty isblank iscntrl isdigit "
+    "isgraph islower isprint ispunct isspace isupper isxdigit kill lchown link listen localtime "
+    "lockf longjmp lseek lstat memccpy memchr memcmp memcpy memmem memmove memset mkdir mkfifo "
+    "mknod mktime mlock mmap mount mprotect munmap nanosleep nice open opendir pause pclose perror "
+    "pipe poll popen pread printf psignal putc putchar puts pwrite raise read readdir readlink "
+    "recv regcomp remove rename rewind rewinddir rmdir sbrk scanf send setbuf setjmp setlocale "
+    "setuid setvbuf shutdown sigaction signal sleep snprintf socket splice sprintf sscanf stat "
+    "stderr stdin stdout stime stpcpy strcat strchr strcmp strcoll strcpy strcspn strdup strerror "
+    "strftime strlen strncat strncmp strncpy strndup strnlen strpbrk strptime strrchr strsep "
+    "strsignal strspn strstr strtok strxfrm swab symlink sync syscall sysconf syslog tee "
+    "tcgetattr tempnam time times timezone tmpfile tmpnam tolower toupper truncate ttyname tzname "
+    "tzset ualarm umask umount uname ungetc unlink usleep utime vfork vfprintf vprintf vscanf "
+    "vsnprintf vsprintf wait waitpid warn warnx wcscat wcschr wcscmp wcscpy wcslen write";
+
 std::set<std::string> all_words_of_c() {
     std::set<std::string> all = words(words_of_c);
+    all.merge(words(other_functions_of_c));
+    all.merge(words(linked_functions_of_c));
     all.merge(all_macros());
     all.merge(all_functions_of_c());
     return all;

@@ -280,7 +280,7 @@ std::string why_not(const ExpectedOrders& expected, const DerivedSolution& deriv
         return "a phase ends at t = " + number_text(derived.phases.front().end_value);
     if (!expected.switches.empty())
         return "theta_t or u_xxt jumps at t = " + number_text(expected.switches.front().t);
-    if (time_scheme == "bdf2" && expected.is_quadratic)
+    if (time_scheme == "bdf2" && expected.is_quadratic())
         return "theta and u_xx are quadratic in t: BDF2 has the error of its first step alone";
     if (time_scheme == "sdirk2" && beam.zeta == 0.0)
         return "SDIRK2 without viscosity";
@@ -307,7 +307,20 @@ bool has_maximum_of(const Norm& norm, Quantity first, Quantity last) {
 }
 
 /// Why the sizes of a norm are not known, though those of others are; empty where they are.
-std::string why_not_of(const Norm& norm, const Forecaster& forecaster, const TimeScheme& scheme) {
+std::string why_not_of(const Norm& norm, const ExpectedOrders& expected,
+                       const Forecaster& forecaster, const TimeScheme& scheme) {
+    const auto measures = [&](Quantity first, Quantity last) {
+        return std::ranges::any_of(norm.parts, [&](const TimeNorm& part) {
+            bool does = false;
+            for (std::size_t q = index(first); q <= index(last); ++q)
+                does = does || part.quantities[q];
+            return does;
+        });
+    };
+    if (scheme.name == "bdf2" &&
+        ((expected.theta_is_quadratic && measures(Quantity::theta, Quantity::theta_x)) ||
+         (expected.u_is_quadratic && measures(Quantity::u, Quantity::u_xx))))
+        return "what is quadratic in t has the error of BDF2's first step alone";
     if (forecaster.jumps_at_first() && has_maximum_of(norm, Quantity::theta, Quantity::theta_x))
         return "without viscosity the temperature jumps in the first step, where a maximum over "
                "time may stand";
@@ -328,7 +341,7 @@ std::vector<NormConstants> constants_of(const Squared& squared, const Forecaster
         const Norm norm = *Norm::named(name);
         const double root = norm.squared ? 0.5 : 1.0;
         NormConstants constants{name, {}, std::nullopt, std::nullopt};
-        constants.unknown = why_not_of(norm, forecaster, scheme);
+        constants.unknown = why_not_of(norm, expected, forecaster, scheme);
         if (!constants.unknown.empty()) {
             all.push_back(constants);
             continue;

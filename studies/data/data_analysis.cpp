@@ -167,14 +167,36 @@ void analyse_records(const DataAnalysis& data, const std::vector<std::size_t>& u
                                               column.name, data.widths[used.front()].name));
 }
 
-/// Of errors that were rounded; none where rows of equal widths show a scatter of their own.
-std::vector<double> rounding(const DataAnalysis& data, const DataColumn& errors) {
-    for (std::size_t r = 1; r < data.rows() && !errors.units.empty(); ++r)
-        if (std::ranges::all_of(data.widths, [&](const DataColumn& width) {
+/// The first and the end of each run of rows of one point of all widths.
+std::vector<std::pair<std::size_t, std::size_t>> points_of(const DataAnalysis& data) {
+    std::vector<std::pair<std::size_t, std::size_t>> points;
+    for (std::size_t r = 0; r < data.rows(); ++r)
+        if (r > 0 && std::ranges::all_of(data.widths, [&](const DataColumn& width) {
                 return width.numbers[r] == width.numbers[r - 1];
             }))
-            return {};
-    return deviations_of_rounding(errors.numbers, errors.units);
+            points.back().second = r + 1;
+        else
+            points.emplace_back(r, r + 1);
+    return points;
+}
+
+/// Of errors that were rounded; none where rows of one point scatter by more than that. Those that
+/// do not are rounded alike: their mean is known no better than each.
+std::vector<double> rounding(const DataAnalysis& data, const DataColumn& errors) {
+    double ratio = std::numeric_limits<double>::infinity();
+    for (const auto& width : data.widths)
+        ratio = std::min(ratio, level_ratio(width.numbers));
+    auto sigma = deviations_of_rounding(errors.numbers, errors.units, ratio);
+    if (sigma.empty())
+        return {};
+    for (const auto& [first, end] : points_of(data))
+        for (std::size_t r = first; r < end; ++r) {
+            constexpr double of_one_unit = 1.01;
+            if (std::abs(errors.numbers[r] - errors.numbers[first]) > of_one_unit * errors.units[r])
+                return {};
+            sigma[r] *= std::sqrt(static_cast<double>(end - first));
+        }
+    return sigma;
 }
 
 ColumnAnalysis analyse_errors(const DataAnalysis& data, const DataColumn& errors,

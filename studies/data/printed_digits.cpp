@@ -79,7 +79,7 @@ std::vector<double> printed_units_of_errors(const std::vector<double>& errors,
 }
 
 std::vector<double> deviations_of_rounding(const std::vector<double>& errors,
-                                           const std::vector<double>& units) {
+                                           const std::vector<double>& units, double level_ratio) {
     std::vector<double> relative;
     for (std::size_t i = 0; i < units.size(); ++i)
         if (errors[i] > 0)
@@ -89,13 +89,22 @@ std::vector<double> deviations_of_rounding(const std::vector<double>& errors,
     const auto half = relative.begin() + static_cast<std::ptrdiff_t>(relative.size() / 2);
     std::ranges::nth_element(relative, half);
     constexpr double of_four_digits = 1e-3;
-    if (*half <= of_four_digits)
+    if (*half <= of_four_digits * std::min(1.0, std::log2(level_ratio)))
         return {};
     // Of what is uniform over one unit of the last digit.
     std::vector<double> sigma(units.size());
     for (std::size_t i = 0; i < sigma.size(); ++i)
         sigma[i] = std::hypot(units[i], *half * errors[i]) / std::sqrt(12.0);
     return sigma;
+}
+
+double level_ratio(std::vector<double> widths) {
+    std::erase_if(widths, [](double width) { return !(width > 0); });
+    std::ranges::sort(widths);
+    widths.erase(std::unique(widths.begin(), widths.end()), widths.end());
+    if (widths.size() < 2)
+        return std::numeric_limits<double>::infinity();
+    return std::pow(widths.back() / widths.front(), 1.0 / static_cast<double>(widths.size() - 1));
 }
 
 } // namespace tvbeam

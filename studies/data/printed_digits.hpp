@@ -31,10 +31,13 @@ std::vector<double> printed_units_of_errors(const std::vector<double>& errors,
                                             const std::vector<PrintedDigits>& digits);
 
 /// Standard deviations of errors that were rounded to these units; none without them, and where
-/// half of the errors have four digits or more, which an order on halved widths shows by 0.001 at
-/// most. No error is known better than half of them are: what a model leaves out is no smaller in
-/// one that has more digits.
+/// half of the errors are known so well that an order between two levels, whose widths have this
+/// ratio, shows it by 0.001 at most: on halved widths, to four digits. No error is known better
+/// than half of them are: what a model leaves out is no smaller in one that has more digits.
 std::vector<double> deviations_of_rounding(const std::vector<double>& errors,
-                                           const std::vector<double>& units);
+                                           const std::vector<double>& units, double level_ratio);
+
+/// The mean ratio of one width to the next finer; infinity where all are the same.
+double level_ratio(std::vector<double> widths);
 
 } // namespace tvbeam

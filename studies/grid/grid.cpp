@@ -48,9 +48,14 @@ std::optional<Refinement> reference_of(const std::optional<ReferenceBlock>& agai
 std::vector<double> rounding(std::span<const Refinement> records,
                              const std::vector<double>& units) {
     std::vector<double> errors;
-    for (const auto& record : records)
+    std::vector<double> meshes;
+    std::vector<double> steps;
+    for (const auto& record : records) {
         errors.push_back(record.error);
-    return deviations_of_rounding(errors, units);
+        meshes.push_back(record.h);
+        steps.push_back(record.dt);
+    }
+    return deviations_of_rounding(errors, units, std::min(level_ratio(meshes), level_ratio(steps)));
 }
 
 } // namespace

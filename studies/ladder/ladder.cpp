@@ -111,6 +111,17 @@ std::string quadrature_remark(const std::vector<RungResult>& rungs,
            ". Orders that these errors enter say nothing.";
 }
 
+/// Whether some error is printed in so few digits that an order of two of them may be 0.1 off: why
+/// it moves is not to be guessed then.
+bool is_coarsely_printed(const std::vector<RungResult>& rungs, std::size_t k) {
+    constexpr double coarse = 0.05;
+    const auto units = units_of(rungs, k, false);
+    for (std::size_t i = 0; i < units.size(); ++i)
+        if (!rungs[i].errors.empty() && units[i] > coarse * rungs[i].errors[k])
+            return true;
+    return false;
+}
+
 } // namespace
 
 Series series_of(const LadderBlock& block, const Method& method) {
@@ -145,7 +156,8 @@ LadderResult analyse_ladder(const LadderBlock& block, const Method& method,
         auto remark = solver.remark ? solver.remark(series, result.rungs, k) : "";
         if (!norm.is_value)
             shown.remarks = order_remarks(norm, roots, fit != nullptr ? &fit->model : nullptr,
-                                          solver.has_defect || !remark.empty());
+                                          solver.has_defect || !remark.empty() ||
+                                              is_coarsely_printed(result.rungs, k));
         if (result.analysis) {
             const ColumnAnalysis& column = result.analysis->columns[k];
             if (norm.is_value)
@@ -158,8 +170,12 @@ LadderResult analyse_ladder(const LadderBlock& block, const Method& method,
         }
         if (!remark.empty())
             shown.remarks.push_back(std::move(remark));
-        if (auto exact = solver.exact ? solver.exact(series, result.rungs, k) : ""; !exact.empty())
+        if (auto exact = solver.exact ? solver.exact(series, result.rungs, k) : "";
+            !exact.empty()) {
             shown.remarks = {std::move(exact)};
+            for (auto& row : shown.verdicts)
+                row = {Verdict::unresolved, "its error is rounding"};
+        }
     }
     result.quadrature_remark = quadrature_remark(result.rungs, series.measures);
     if (!series.measures.empty() && solver.reference)

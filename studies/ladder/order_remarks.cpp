@@ -211,8 +211,11 @@ std::string from_model(const Measure& norm, std::span<const Refinement> roots,
     const std::string last = rung_name(roots, roots.back());
     std::string text = norm.name + ": ";
     if (fast_order - slow_order < 0.1)
-        return text + "space and time error fall alike along this ladder, with order " +
-               order(slow_order) + ".";
+        return text + "space and time error fall alike along this ladder, with order" +
+               (fast_order - slow_order < 0.03
+                    ? " " + order(slow_order)
+                    : "s " + order(view.spatial_order) + " and " + order(view.temporal_order)) +
+               ".";
     if (at_last < 1.0)
         text += fmt::format("the order {}{} is that of the {} error; the {} error, of order {} "
                             "along this ladder, is {} times as large at {}{}",
@@ -234,7 +237,9 @@ std::string from_model(const Measure& norm, std::span<const Refinement> roots,
     if (view.cancellation)
         text += " The two have opposite signs and cancel in part about " +
                 rung_name(roots, {.h = view.cancellation->h, .dt = view.cancellation->dt}) + ".";
-    if (view.asymptotic_from && at_first < 1.0)
+    // Of orders that are nearly one nobody sees which it is.
+    const bool are_apart = fast_order - slow_order > 0.25;
+    if (view.asymptotic_from && at_first < 1.0 && are_apart)
         text +=
             " The order that remains, " + order(slow_order) + ", appears " +
             (view.asymptotic_from->row < roots.size() ? "for " : "only for ") +

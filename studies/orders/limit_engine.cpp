@@ -332,7 +332,11 @@ LimitEstimate estimate_limit(std::span<const ValueRow> rows, const LimitTuning& 
             "a limit needs values at three different widths";
         return result;
     }
-    result.finest_step = coarsely_printed_step(given, tuning.units_of_exact_steps);
+    // Rounding counts for more between levels that are closer than halved widths.
+    const double halvings =
+        std::log2(given.front().h / given.back().h) / static_cast<double>(given.size() - 1);
+    result.finest_step =
+        coarsely_printed_step(given, tuning.units_of_exact_steps / std::min(1.0, halvings));
     if (result.finest_step)
         add_rounding(given);
     if ((is_significant(given) || goes_further_than_digits(given)) && runs_apart(given)) {

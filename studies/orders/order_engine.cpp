@@ -101,6 +101,14 @@ std::vector<double> levels_of(Eigen::VectorXd log_widths, double one_level) {
     return levels;
 }
 
+/// What is left of a drift after one level, over that on halved widths: of a next term half an
+/// order away, which falls by r^(-1/2) from level to level, Σ r^(-k/2) = 1/(1 - r^(-1/2)). 1 on
+/// coarser ladders.
+double drift_left(const std::vector<double>& levels) {
+    const double step = (levels.front() - levels.back()) / static_cast<double>(levels.size() - 1);
+    return std::max(1.0, (1 - std::sqrt(0.5)) / (1 - std::exp(-step / 2)));
+}
+
 int level_of(const std::vector<double>& levels, double log_width) {
     const auto finer = std::upper_bound(levels.begin(), levels.end(), log_width, std::greater<>());
     // The last level that is not finer than the width.
@@ -167,6 +175,9 @@ OrderEnsemble::OrderEnsemble(std::span<const ErrorRow> rows, std::vector<double>
                                      : "one width alone has a positive error";
     if (!failure_.empty())
         return;
+    // Known scatter hides from the models with a next term what they would say of it.
+    for (const auto& levels : levels_)
+        stretch_.push_back(rows_.scatter > 0 ? drift_left(levels) : 1.0);
     if (rows_.widths() == 1) {
         fit_sequence(rows_);
         return;
@@ -261,7 +272,7 @@ void OrderEnsemble::fit_each_alone(const TermRows& rows) {
 /// has no other window another model of the same window stands in, with the change of its own. None
 /// where there is nothing to compare with.
 std::optional<double> OrderEnsemble::change_of(const Numbers& numbers, int family,
-                                               const std::vector<int>& place) {
+                                               const std::vector<int>& place) const {
     const double value = numbers.at({family, place}).value;
     double change = 0;
     for (std::size_t i = 0; i < place.size(); ++i) {
@@ -270,7 +281,7 @@ std::optional<double> OrderEnsemble::change_of(const Numbers& numbers, int famil
             auto beside = place;
             beside[i] += step;
             if (const auto found = numbers.find({family, beside}); found != numbers.end()) {
-                change = std::max(change, std::abs(found->second.value - value));
+                change = std::max(change, stretch_[i] * std::abs(found->second.value - value));
                 compared = true;
             }
         }
@@ -283,7 +294,7 @@ std::optional<double> OrderEnsemble::change_of(const Numbers& numbers, int famil
         const auto found = numbers.find({stand_in, place});
         if (found == numbers.end())
             return std::nullopt;
-        change = std::max(change, std::abs(found->second.value - value));
+        change = std::max(change, stretch_[i] * std::abs(found->second.value - value));
         if (family != leading) {
             const auto further = change_of(numbers, leading, place);
             if (!further)
@@ -321,7 +332,8 @@ std::optional<OrderEnsemble::Mixture> OrderEnsemble::mix(const Functional& numbe
         auto change = change_of(numbers, where.first, where.second);
         // All of it, also where known scatter may have made it: it may as well hide some.
         if (change && rows_.scatter > 0)
-            change = std::hypot(*change, tuning_.hidden_drift * one.error);
+            change = std::hypot(*change, tuning_.hidden_drift *
+                                             *std::ranges::max_element(stretch_) * one.error);
         if (!change || !std::isfinite(std::hypot(one.error, *change)))
             continue;
         const double unit = std::hypot(one.error, *change) + tuning_.agreement;
@@ -348,7 +360,14 @@ std::optional<OrderEnsemble::Mixture> OrderEnsemble::mix(const Functional& numbe
 }
 
 double OrderEnsemble::sequence_factor() const {
-    const auto spare = static_cast<double>(levels_.front().size()) - 2;
+    constexpr double fewest = 4;
+    const auto& levels = levels_.front();
+    auto count = static_cast<double>(levels.size());
+    // Under known scatter levels closer than halved widths are not as many.
+    if (rows_.scatter > 0)
+        count = std::min(count, std::max(std::min(count, fewest),
+                                         1 + (levels.front() - levels.back()) / std::log(2)));
+    const double spare = count - 2;
     return tuning_.sequence * (1 + tuning_.few_levels / (spare * spare));
 }
 
@@ -458,8 +477,8 @@ std::string OrderEnsemble::motion(Index width) const {
     for (std::size_t i = 1; i < means.size(); ++i)
         if ((means[i].value - means[i - 1].value) * step <= 0)
             return {};
-    return step > 0 ? fmt::format("rising past {:.2f}", last)
-                    : fmt::format("falling below {:.2f}", last);
+    return fmt::format("its order {} over finer windows, to {:.2f}", step > 0 ? "rises" : "falls",
+                       last);
 }
 
 std::vector<OrderInterval> OrderEnsemble::orders() const {

@@ -87,7 +87,8 @@ struct OrderInterval {
     double high = std::numeric_limits<double>::infinity();
     bool determined = false;
     double share = 0; ///< the greatest part of a row's error that the term is
-    /// Why it is not determined, as "rising past 1.68"; empty where it is.
+    /// Why it is not determined, as "its order rises over finer windows, to 1.68"; empty where it
+    /// is.
     std::string status = {};
 
     double half_width() const { return (high - low) / 2; }
@@ -138,8 +139,8 @@ private:
     void fit_all_widths(const TermRows& rows);
     void fit_each_alone(const TermRows& rows);
     using Numbers = std::map<std::pair<int, std::vector<int>>, FittedNumber>;
-    static std::optional<double> change_of(const Numbers& numbers, int family,
-                                           const std::vector<int>& place);
+    std::optional<double> change_of(const Numbers& numbers, int family,
+                                    const std::vector<int>& place) const;
     Numbers numbers_of(const Functional& number) const;
     int place_of(Eigen::Index width, double log_width) const;
     std::optional<Mixture> mix(const Functional& number) const;
@@ -156,6 +157,7 @@ private:
     OrderTuning tuning_;
     TermRows rows_;
     std::vector<std::vector<double>> levels_; ///< ln of each width's levels, coarse to fine
+    std::vector<double> stretch_;             ///< of a change along each width
     std::vector<EnsembleMember> members_;
     std::string failure_;
 };

@@ -59,14 +59,37 @@ double greatest_of(const ProblemData& data, const Field& field, double final_tim
     return std::sqrt(greatest);
 }
 
-/// What rounding is measured by: the exact solution, or, where that is zero, what its sources are.
+/// The greatest contact stress over some times.
+double greatest_stress(const ProblemData& data, double final_time) {
+    return data.exact->stress ? data.amplitudes(Eigen::ArrayXd::LinSpaced(17, 0.0, final_time))
+                                    .row(*data.exact->stress)
+                                    .abs()
+                                    .maxCoeff()
+                              : 0.0;
+}
+
+/// What rounding is measured by: the exact solution, and what is as large beside it that it comes
+/// from; where all of that is zero, the sources.
 struct Scale {
     double size;
     std::string words;
 };
 
-Scale scale_of(const ProblemData& data, const Norm& norm, double final_time) {
-    const double size = size_of_exact(data, norm, final_time);
+Scale scale_of(const Beam& beam, const ProblemData& data, const Norm& norm, double final_time) {
+    const QuantitySet measured = quantities_of({norm});
+    const auto has = [&](tvbeam::Quantity quantity) { return measured[index(quantity)]; };
+    const double duration = std::max(1.0, std::sqrt(final_time)); // of norms in L² over time
+    double size = size_of_exact(data, norm, final_time);
+    if (has(tvbeam::Quantity::stress))
+        size = std::max({size, duration * greatest_stress(data, final_time),
+                         duration * greatest_of(data, data.moment_load, final_time),
+                         duration * greatest_of(data, data.exact->u_xx, final_time)});
+    if (has(tvbeam::Quantity::theta) || has(tvbeam::Quantity::theta_x))
+        size = std::max(size, std::abs(beam.alpha) * duration *
+                                  greatest_of(data, data.exact->u_xx, final_time));
+    else
+        size = std::max(size, std::abs(beam.alpha) * duration *
+                                  greatest_of(data, data.exact->theta, final_time));
     if (size > 0.0)
         return {size, fmt::format("of {:.2g}", size)};
     const double sources = std::max(greatest_of(data, data.heat_source, final_time),
@@ -104,13 +127,13 @@ std::string round_off_remark(const Beam& beam, const ProblemData& data, const Se
     return {};
 }
 
-std::string exact_remark(const ProblemData& data, const Series& series,
+std::string exact_remark(const Beam& beam, const ProblemData& data, const Series& series,
                          const std::vector<RungResult>& rungs, std::size_t k) {
     const Measure& measure = series.measures[k];
     const auto norm = Norm::named(measure.root());
     if (!data.exact || !norm)
         return {};
-    const auto [size, words] = scale_of(data, *norm, series.final_time);
+    const auto [size, words] = scale_of(beam, data, *norm, series.final_time);
     std::vector<double> errors;
     for (const auto& rung : rungs)
         if (!rung.errors.empty())

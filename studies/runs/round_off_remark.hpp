@@ -16,10 +16,11 @@ namespace tvbeam {
 std::string round_off_remark(const Beam& beam, const ProblemData& data, const Series& series,
                              const std::vector<RungResult>& rungs, std::size_t k);
 
-/// A sentence where every error is below 16 ε of the norm of the exact solution, or, where that is
-/// zero, of the greatest source, not all are 0 and they do not fall from row to row: the scheme is
-/// exact for it. Empty otherwise, and where no exact solution is known.
-std::string exact_remark(const ProblemData& data, const Series& series,
+/// A sentence where every error is below 16 ε of the norm of the exact solution, or of what that
+/// comes from (α u_xx beside θ, α θ beside u, u_xx beside σ; the sources where all of that is
+/// zero), not all are 0 and they do not fall from row to row: the scheme is exact for it. Empty
+/// otherwise, and where no exact solution is known.
+std::string exact_remark(const Beam& beam, const ProblemData& data, const Series& series,
                          const std::vector<RungResult>& rungs, std::size_t k);
 
 } // namespace tvbeam

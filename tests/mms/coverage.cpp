@@ -316,6 +316,12 @@ BOOST_AUTO_TEST_CASE(bdf2_has_order_three_where_a_solution_is_quadratic_in_time)
     BOOST_TEST(of_bdf2("t", "t^2") == 3.0);
     BOOST_TEST(of_bdf2("t^2", "t^3") == 2.0);
     BOOST_TEST(of_bdf2("t^3", "t") == 2.0);
+    // Without coupling each field has its own.
+    const Solution apart =
+        parse_solution("theta = 'x*(1 - x)*t^2'\nu = 'x^2*t^3/100'\n", "my.toml");
+    for (const auto& row : expected_orders(apart, {0.0, 0.15, 0.0, {}}, 1.0).orders)
+        if (row.norm.starts_with("theta") || row.norm.starts_with("u_"))
+            BOOST_TEST(row.bdf2.least == (row.norm.starts_with("theta") ? 3.0 : 2.0), row.norm);
     const Solution solution =
         parse_solution("theta = 'sin(pi*x)*t^2'\nu = 'x^2*t^2/100'\n", "my.toml");
     BOOST_TEST(
