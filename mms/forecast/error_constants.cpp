@@ -125,6 +125,13 @@ public:
     /// Whether the discrete temperature leaves that of the data within a first step of any length.
     [[nodiscard]] bool jumps_at_first() const { return beam_.zeta == 0.0 && beam_.alpha != 0.0; }
 
+    /// Whether it leaves it in a layer that steps may be longer than: in about ζ/(1 + α²).
+    [[nodiscard]] bool leaves_soon() const {
+        constexpr double of_final_time = 5e-3;
+        return beam_.alpha != 0.0 &&
+               beam_.zeta < of_final_time * final_time_ * (1.0 + beam_.alpha * beam_.alpha);
+    }
+
     [[nodiscard]] bool is_hardly_viscous() const {
         return beam_.zeta > 0.0 && beam_.zeta < least_viscosity * final_time_;
     }
@@ -324,6 +331,10 @@ std::string why_not_of(const Norm& norm, const ExpectedOrders& expected,
     if (forecaster.jumps_at_first() && has_maximum_of(norm, Quantity::theta, Quantity::theta_x))
         return "without viscosity the temperature jumps in the first step, where a maximum over "
                "time may stand";
+    if (forecaster.leaves_soon() && has_maximum_of(norm, Quantity::theta, Quantity::theta_x))
+        return "zeta/(1 + alpha^2) is below T/200: in about that time the temperature's error "
+               "leaves "
+               "what it begins with, where a maximum over time stands for shorter steps alone";
     if (scheme.name == "bdf2" && forecaster.is_hardly_viscous() &&
         has_maximum_of(norm, Quantity::u, Quantity::u_xx))
         return "with zeta below T/100 a maximum over time of BDF2 may stand in its first step, "

@@ -61,7 +61,8 @@ struct ErrorConstants {
 /// and there for BDF2, which it starts, maxima over time of errors in u, where a derivative is no
 /// number, and where the driven problem does not settle to 0.2 %. Without viscosity W jumps to
 /// equilibrium in the first step, and a coupled Θ with it, away from I_hθ̃: maxima over time of
-/// errors in θ are not known. One result a method; expected: what expected_orders says of them.
+/// errors in θ are not known; nor where ζ/(1 + α²), the time that this takes, is below T/200. One
+/// result a method; expected: what expected_orders says of them.
 std::vector<ErrorConstants> error_constants(const ExpectedOrders& expected,
                                             const Solution& solution, const Beam& beam,
                                             double final_time,

@@ -272,7 +272,8 @@ ColumnAnalysis analyse_values(const DataAnalysis& data, const DataColumn& values
         else if (!values.units.empty())
             rows[r].unit = values.units[r];
     }
-    if (is_one_path(data.widths, along)) {
+    const bool on_one_path = is_one_path(data.widths, along);
+    if (on_one_path) {
         column.limit = estimate_limit(rows);
     } else {
         column.limit.emplace();
@@ -283,9 +284,10 @@ ColumnAnalysis analyse_values(const DataAnalysis& data, const DataColumn& values
     column.by_width[along] = order;
     for (std::size_t i = 0; i < data.widths.size(); ++i)
         if (i != along)
-            column.by_width[i].status = varies(data.widths[i].numbers)
-                                            ? "it is refined with " + data.widths[along].name
-                                            : "it is the same in all rows";
+            column.by_width[i].status =
+                !varies(data.widths[i].numbers) ? "it is the same in all rows"
+                : on_one_path                   ? "it is refined with " + data.widths[along].name
+                                                : column.limit->order.status;
     column.findings.push_back(
         column.name + ": " +
         (limit.determined
