@@ -145,6 +145,7 @@ std::vector<DrivenBeam> driven_beams(const Beam& beam, bool held, double final_t
             states[static_cast<std::size_t>(k)].col(n + 1) = state.col(k);
     }
     std::vector<DrivenBeam> beams;
+    beams.reserve(states.size());
     for (const MatrixXd& one : states)
         beams.push_back({problem.theta.transpose() * one.topRows(of_theta),
                          problem.w.transpose() * one.bottomRows(size - of_theta)});

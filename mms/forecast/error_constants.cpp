@@ -398,6 +398,7 @@ void settle(const std::vector<ForecastMethod>& methods, const Forecaster& foreca
         if (left.empty())
             return;
         std::vector<ForecastMethod> driven;
+        driven.reserve(left.size());
         for (const std::size_t k : left)
             driven.push_back(methods[k]);
         const auto squares = forecaster.squares(driven, modes, steps);
@@ -432,6 +433,7 @@ std::vector<ErrorConstants> error_constants(const ExpectedOrders& expected,
                                             const std::vector<ForecastMethod>& methods) {
     const DerivedSolution derived = derive_on(solution, beam);
     std::vector<ErrorConstants> results;
+    results.reserve(methods.size());
     for (const auto& method : methods)
         results.push_back({why_not(expected, derived, beam, final_time, method.time_scheme), {}});
     if (std::ranges::none_of(results, [](const auto& one) { return one.unknown.empty(); }))

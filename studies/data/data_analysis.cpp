@@ -1,5 +1,6 @@
 #include "studies/data/data_analysis.hpp"
 
+#include "studies/data/printed_digits.hpp"
 #include "studies/text/number_text.hpp"
 
 #include <fmt/format.h>

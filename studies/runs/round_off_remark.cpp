@@ -1,5 +1,6 @@
 #include "studies/runs/round_off_remark.hpp"
 
+#include "core/norms/norm_sums.hpp"
 #include "core/norms/norms.hpp"
 #include "core/round_off.hpp"
 #include "core/space/linear_elements.hpp"
