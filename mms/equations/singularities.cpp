@@ -382,7 +382,8 @@ private:
             of_greatest * std::max(std::abs(extremes_[of].least), std::abs(extremes_[of].greatest)))
             return false;
         return std::ranges::any_of(point, [&](const auto& coordinate) {
-            const auto& [name, at] = coordinate;
+            const std::string& name = coordinate.first;
+            const double at = coordinate.second;
             const DomainInterval range = derived_.system.domain.at(name);
             const double step = std::ldexp(range.end - range.begin, -halvings);
             return std::ranges::all_of(std::array{at - step, at + step}, [&](double beside) {
