@@ -190,13 +190,24 @@ std::vector<double> rounding(const DataAnalysis& data, const DataColumn& errors)
     auto sigma = deviations_of_rounding(errors.numbers, errors.units, ratio);
     if (sigma.empty())
         return {};
-    for (const auto& [first, end] : points_of(data))
-        for (std::size_t r = first; r < end; ++r) {
-            constexpr double of_one_unit = 1.01;
-            if (std::abs(errors.numbers[r] - errors.numbers[first]) > of_one_unit * errors.units[r])
-                return {};
-            sigma[r] *= std::sqrt(static_cast<double>(end - first));
-        }
+    for (const auto& [first, end] : points_of(data)) {
+        double least = std::numeric_limits<double>::infinity();
+        double greatest = 0;
+        double unit = 0;
+        double count = 0;
+        for (std::size_t r = first; r < end; ++r)
+            if (is_positive(errors.numbers[r])) {
+                least = std::min(least, errors.numbers[r]);
+                greatest = std::max(greatest, errors.numbers[r]);
+                unit = std::max(unit, errors.units[r]);
+                ++count;
+            }
+        constexpr double of_one_unit = 1.01;
+        if (count > 1 && greatest - least > of_one_unit * unit)
+            return {};
+        for (std::size_t r = first; r < end; ++r)
+            sigma[r] *= std::sqrt(count);
+    }
     return sigma;
 }
 

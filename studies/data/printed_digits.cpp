@@ -82,7 +82,7 @@ std::vector<double> deviations_of_rounding(const std::vector<double>& errors,
                                            const std::vector<double>& units, double level_ratio) {
     std::vector<double> relative;
     for (std::size_t i = 0; i < units.size(); ++i)
-        if (errors[i] > 0)
+        if (errors[i] > 0 && std::isfinite(errors[i]))
             relative.push_back(units[i] / errors[i]);
     if (relative.empty())
         return {};

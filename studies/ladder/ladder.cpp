@@ -174,7 +174,8 @@ LadderResult analyse_ladder(const LadderBlock& block, const Method& method,
             !exact.empty()) {
             shown.remarks = {std::move(exact)};
             for (auto& row : shown.verdicts)
-                row = {Verdict::unresolved, "its error is rounding"};
+                if (row.verdict != Verdict::failed && row.verdict != Verdict::exact)
+                    row = {Verdict::unresolved, "its error is rounding"};
         }
     }
     result.quadrature_remark = quadrature_remark(result.rungs, series.measures);

@@ -161,14 +161,21 @@ std::string state_of_files() {
 std::optional<std::string> kept_list() {
     std::error_code error;
     const auto program = std::filesystem::read_symlink("/proc/self/exe", error).parent_path();
+    if (error)
+        return std::nullopt;
     for (const auto& candidate :
          {program / "catalogue", program.parent_path() / "share/tvbeam/catalogue"}) {
         if (!std::filesystem::is_regular_file(candidate, error))
             continue;
-        const std::string text = file_text(candidate.string(), largest_shipped);
-        const std::size_t end = text.find('\n');
-        if (end != std::string::npos && text.substr(0, end) == state_of_files())
-            return text.substr(end + 1);
+        try { // what is not the build's may have the name
+            const std::string text = file_text(candidate.string(), largest_shipped);
+            const std::size_t end = text.find('\n');
+            const std::string state = state_of_files();
+            if (end != std::string::npos && !state.empty() && text.substr(0, end) == state)
+                return text.substr(end + 1);
+        } catch (const InputError&) {
+            continue;
+        }
     }
     return std::nullopt;
 }
