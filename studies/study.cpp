@@ -149,13 +149,16 @@ std::string remark_on_published(const Scene& scene) {
     const auto* ladder = scene.get<LadderBlock>();
     if (ladder == nullptr || !ladder->printed || ladder->printed->figures.empty())
         return {};
+    const auto sets = [](const std::string& assignment, const std::string& key) {
+        return assignment.starts_with(key + ".") || assignment.starts_with(key + "=");
+    };
     std::string others;
     for (const auto& assignment : scene.overrides) {
-        if (assignment.starts_with("ladder.printed"))
+        if (assignment.starts_with("ladder=") || sets(assignment, "ladder.printed"))
             return {};
         for (const char* key : {"beam", "solution", "data", "mesh", "ladder.elements", "ladder.dt",
                                 "ladder.final_time", "solver"})
-            if (assignment.starts_with(key))
+            if (sets(assignment, key))
                 others += " --set " + assignment;
     }
     return others.empty() ? "" : "The published figures are of the scene without" + others + ".";

@@ -303,40 +303,34 @@ const ExpectedOrder* row_of(const ExpectedOrders& expected, const std::string& n
     return found == expected.orders.end() ? nullptr : &*found;
 }
 
-/// Whether the norm has the maximum over time of a quantity, from `first` to `last`.
-bool has_maximum_of(const Norm& norm, Quantity first, Quantity last) {
+/// Whether a part of the norm has a quantity, from `first` to `last`; of maxima over time alone.
+bool measures(const Norm& norm, Quantity first, Quantity last, bool maxima) {
     return std::ranges::any_of(norm.parts, [&](const TimeNorm& part) {
         bool has = false;
         for (std::size_t q = index(first); q <= index(last); ++q)
             has = has || part.quantities[q];
-        return part.kind == TimeNorm::Kind::Linf && has;
+        return has && (!maxima || part.kind == TimeNorm::Kind::Linf);
     });
 }
 
 /// Why the sizes of a norm are not known, though those of others are; empty where they are.
 std::string why_not_of(const Norm& norm, const ExpectedOrders& expected,
                        const Forecaster& forecaster, const TimeScheme& scheme) {
-    const auto measures = [&](Quantity first, Quantity last) {
-        return std::ranges::any_of(norm.parts, [&](const TimeNorm& part) {
-            bool does = false;
-            for (std::size_t q = index(first); q <= index(last); ++q)
-                does = does || part.quantities[q];
-            return does;
-        });
-    };
+    const bool of_theta = measures(norm, Quantity::theta, Quantity::theta_x, false);
+    const bool of_u = measures(norm, Quantity::u, Quantity::u_xx, false);
+    const bool peak_of_theta = measures(norm, Quantity::theta, Quantity::theta_x, true);
+    const bool peak_of_u = measures(norm, Quantity::u, Quantity::u_xx, true);
     if (scheme.name == "bdf2" &&
-        ((expected.theta_is_quadratic && measures(Quantity::theta, Quantity::theta_x)) ||
-         (expected.u_is_quadratic && measures(Quantity::u, Quantity::u_xx))))
+        ((expected.theta_is_quadratic && of_theta) || (expected.u_is_quadratic && of_u)))
         return "what is quadratic in t has the error of BDF2's first step alone";
-    if (forecaster.jumps_at_first() && has_maximum_of(norm, Quantity::theta, Quantity::theta_x))
+    if (forecaster.jumps_at_first() && peak_of_theta)
         return "without viscosity the temperature jumps in the first step, where a maximum over "
                "time may stand";
-    if (forecaster.leaves_soon() && has_maximum_of(norm, Quantity::theta, Quantity::theta_x))
+    if (forecaster.leaves_soon() && peak_of_theta)
         return "zeta/(1 + alpha^2) is below T/200: in about that time the temperature's error "
                "leaves "
                "what it begins with, where a maximum over time stands for shorter steps alone";
-    if (scheme.name == "bdf2" && forecaster.is_hardly_viscous() &&
-        has_maximum_of(norm, Quantity::u, Quantity::u_xx))
+    if (scheme.name == "bdf2" && forecaster.is_hardly_viscous() && peak_of_u)
         return "with zeta below T/100 a maximum over time of BDF2 may stand in its first step, "
                "which is one of SDIRK2";
     return {};

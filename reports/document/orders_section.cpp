@@ -48,7 +48,8 @@ std::vector<Block> rejections(const std::string& norm, const TwoTermFit& fit,
 /// What the fit's row of the table says, as a sentence.
 Finding finding(const std::string& norm, const TwoTermFit& fit) {
     const auto order = [](const OrderInterval& of) {
-        return of.determined ? "of order " + order_text(of) : "not determined: " + of.status;
+        return of.determined ? "of order " + order_text(of)
+                             : "of an order that is not determined: " + of.status;
     };
     return {fmt::format("{}: the error in space is {}; the error in time is {}.", norm,
                         order(fit.p), order(fit.q)),

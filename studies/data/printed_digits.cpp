@@ -1,5 +1,7 @@
 #include "studies/data/printed_digits.hpp"
 
+#include "studies/orders/order_engine.hpp"
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -99,12 +101,19 @@ std::vector<double> deviations_of_rounding(const std::vector<double>& errors,
 }
 
 double level_ratio(std::vector<double> widths) {
-    std::erase_if(widths, [](double width) { return !(width > 0); });
+    const double one_level = OrderTuning{}.one_level;
+    std::erase_if(widths, [](double width) { return !(width > 0) || !std::isfinite(width); });
     std::ranges::sort(widths);
-    widths.erase(std::unique(widths.begin(), widths.end()), widths.end());
-    if (widths.size() < 2)
-        return std::numeric_limits<double>::infinity();
-    return std::pow(widths.back() / widths.front(), 1.0 / static_cast<double>(widths.size() - 1));
+    std::size_t levels = 0;
+    double last = 0;
+    for (const double width : widths)
+        if (levels == 0 || width > one_level * last) {
+            ++levels;
+            last = width;
+        }
+    return levels < 2
+               ? std::numeric_limits<double>::infinity()
+               : std::pow(widths.back() / widths.front(), 1.0 / static_cast<double>(levels - 1));
 }
 
 } // namespace tvbeam

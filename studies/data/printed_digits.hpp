@@ -37,7 +37,8 @@ std::vector<double> printed_units_of_errors(const std::vector<double>& errors,
 std::vector<double> deviations_of_rounding(const std::vector<double>& errors,
                                            const std::vector<double>& units, double level_ratio);
 
-/// The mean ratio of one width to the next finer; infinity where all are the same.
+/// The mean ratio of one level to the next finer, widths within an eighth being one; infinity where
+/// there is one level alone.
 double level_ratio(std::vector<double> widths);
 
 } // namespace tvbeam

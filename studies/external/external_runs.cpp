@@ -348,13 +348,17 @@ std::string remark_on_untold_widths(const SolverBlock& solver, const std::vector
                     texts.push_back(file.contents->filled(values));
             const auto [known, is_new] = told.emplace(std::move(texts), rung);
             const Rung& other = known->second;
-            const bool meshes_differ = other.elements != rung.elements;
-            if (is_new || (!meshes_differ && other.dt == rung.dt))
+            const bool in_h = other.elements != rung.elements;
+            const bool in_dt = other.dt != rung.dt;
+            if (is_new || (!in_h && !in_dt))
                 continue;
             return fmt::format(
                 "In the runs with {} and with {} the program is told the same, by its command and "
                 "its files: they cannot show an order in {}.",
-                other.name(shortest), rung.name(shortest), meshes_differ ? "h" : "dt");
+                other.name(shortest), rung.name(shortest),
+                in_h && in_dt ? "h or dt"
+                : in_h        ? "h"
+                              : "dt");
         }
     }
     return {};

@@ -332,11 +332,12 @@ LimitEstimate estimate_limit(std::span<const ValueRow> rows, const LimitTuning& 
             "a limit needs values at three different widths";
         return result;
     }
-    // Rounding counts for more between levels that are closer than halved widths.
+    // Rounding counts for more between levels that are closer than halved widths; closer ones than
+    // an eighth show no order.
     const double halvings =
         std::log2(given.front().h / given.back().h) / static_cast<double>(given.size() - 1);
     result.finest_step =
-        coarsely_printed_step(given, tuning.units_of_exact_steps / std::min(1.0, halvings));
+        coarsely_printed_step(given, tuning.units_of_exact_steps / std::clamp(halvings, 0.15, 1.0));
     if (result.finest_step)
         add_rounding(given);
     if ((is_significant(given) || goes_further_than_digits(given)) && runs_apart(given)) {

@@ -176,8 +176,10 @@ OrderEnsemble::OrderEnsemble(std::span<const ErrorRow> rows, std::vector<double>
     if (!failure_.empty())
         return;
     // Known scatter hides from the models with a next term what they would say of it.
+    // Three levels make intervals as wide as that already.
     for (const auto& levels : levels_)
-        stretch_.push_back(rows_.scatter > 0 ? drift_left(levels) : 1.0);
+        stretch_.push_back(rows_.scatter > 0 && levels.size() > fewest_levels ? drift_left(levels)
+                                                                              : 1.0);
     if (rows_.widths() == 1) {
         fit_sequence(rows_);
         return;
@@ -328,12 +330,12 @@ std::optional<OrderEnsemble::Mixture> OrderEnsemble::mix(const Functional& numbe
     std::vector<Weighed> all;
     double weights = 0;
     double mean = 0;
+    const double hidden_drift = tuning_.hidden_drift * std::ranges::max(stretch_); // of all widths
     for (const auto& [where, one] : numbers) {
         auto change = change_of(numbers, where.first, where.second);
         // All of it, also where known scatter may have made it: it may as well hide some.
         if (change && rows_.scatter > 0)
-            change = std::hypot(*change, tuning_.hidden_drift *
-                                             *std::ranges::max_element(stretch_) * one.error);
+            change = std::hypot(*change, hidden_drift * one.error);
         if (!change || !std::isfinite(std::hypot(one.error, *change)))
             continue;
         const double unit = std::hypot(one.error, *change) + tuning_.agreement;
@@ -360,7 +362,7 @@ std::optional<OrderEnsemble::Mixture> OrderEnsemble::mix(const Functional& numbe
 }
 
 double OrderEnsemble::sequence_factor() const {
-    constexpr double fewest = 4;
+    constexpr double fewest = 4.3;
     const auto& levels = levels_.front();
     auto count = static_cast<double>(levels.size());
     // Under known scatter levels closer than halved widths are not as many.
@@ -477,8 +479,7 @@ std::string OrderEnsemble::motion(Index width) const {
     for (std::size_t i = 1; i < means.size(); ++i)
         if ((means[i].value - means[i - 1].value) * step <= 0)
             return {};
-    return fmt::format("its order {} over finer windows, to {:.2f}", step > 0 ? "rises" : "falls",
-                       last);
+    return fmt::format("it {} over finer windows, to {:.2f}", step > 0 ? "rises" : "falls", last);
 }
 
 std::vector<OrderInterval> OrderEnsemble::orders() const {

@@ -87,7 +87,7 @@ struct OrderInterval {
     double high = std::numeric_limits<double>::infinity();
     bool determined = false;
     double share = 0; ///< the greatest part of a row's error that the term is
-    /// Why it is not determined, as "its order rises over finer windows, to 1.68"; empty where it
+    /// Why it is not determined, as "it rises over finer windows, to 1.68"; empty where it
     /// is.
     std::string status = {};
 

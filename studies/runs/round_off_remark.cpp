@@ -79,7 +79,9 @@ struct Scale {
 Scale scale_of(const Beam& beam, const ProblemData& data, const Norm& norm, double final_time) {
     const QuantitySet measured = quantities_of({norm});
     const auto has = [&](tvbeam::Quantity quantity) { return measured[index(quantity)]; };
-    const double duration = std::max(1.0, std::sqrt(final_time)); // of norms in L² over time
+    const bool sums_up = std::ranges::any_of(
+        norm.parts, [](const TimeNorm& part) { return part.kind == TimeNorm::Kind::L2; });
+    const double duration = sums_up ? std::max(1.0, std::sqrt(final_time)) : 1.0;
     double size = size_of_exact(data, norm, final_time);
     if (has(tvbeam::Quantity::stress))
         size = std::max({size, duration * greatest_stress(data, final_time),

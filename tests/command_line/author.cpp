@@ -222,25 +222,42 @@ BOOST_AUTO_TEST_CASE(list_names_what_is_shipped) {
         BOOST_TEST(has(called.output, name), name);
 }
 
-// The build keeps the list; what is printed is that of the files as they are now.
+// A list that is kept beside the program is printed as it stands, while no file has changed and it
+// is the same program's.
 BOOST_AUTO_TEST_CASE(the_list_is_that_of_the_files_as_they_are) {
     namespace fs = std::filesystem;
     const TemporaryDirectory directory;
+    const fs::path top = directory.path();
     const fs::path sources = fs::path(TVBEAM_SCENES).parent_path().parent_path();
     for (const char* folder : {"studies/scenes", "mms/solutions", "mms/systems"}) {
-        fs::create_directories(directory.path() / folder);
-        fs::copy(sources / folder, directory.path() / folder, fs::copy_options::recursive);
+        fs::create_directories(top / folder);
+        fs::copy(sources / folder, top / folder, fs::copy_options::recursive);
     }
-    const std::string there = "TVBEAM_DATA=" + directory.path().string() + " ";
-    const std::string shipped = call(directory, "list").output;
-    BOOST_TEST(call(directory, "list", there).output == shipped);
-    fs::copy_file(directory.path() / "mms/solutions/mixed.toml",
-                  directory.path() / "mms/solutions/zz-mine.toml");
-    fs::remove(directory.path() / "studies/scenes/table1.toml");
-    const std::string changed = call(directory, "list", there).output;
+    fs::create_directory(top / "bin");
+    fs::copy_file(tvbeam_binary, top / "bin/tvbeam");
+    const auto listed = [&](const std::string& arguments = "") {
+        const std::string program = (top / "bin/tvbeam").string();
+        return call(directory, "list > /dev/null; TVBEAM_DATA=" + top.string() + " " + program +
+                                   " list " + arguments)
+            .output;
+    };
+    const std::string now = call(directory, "list").output;
+    BOOST_TEST(listed() == now);
+    const std::string kept = listed("--catalogue");
+    BOOST_TEST(kept.ends_with(now));
+    directory.write("bin/catalogue", kept + "kept\n");
+    BOOST_TEST(listed() == now + "kept\n");
+    for (const std::string& foreign : {std::string("0\nkept\n"), std::string(2 << 20, 'x')}) {
+        directory.write("bin/catalogue", foreign);
+        BOOST_TEST(listed() == now);
+    }
+    directory.write("bin/catalogue", kept + "kept\n");
+    fs::copy_file(top / "mms/solutions/mixed.toml", top / "mms/solutions/zz-mine.toml");
+    fs::remove(top / "studies/scenes/table1.toml");
+    const std::string changed = listed();
     BOOST_TEST(has(changed, "\n  zz-mine "));
     BOOST_TEST(!has(changed, "\n  table1 "));
-    BOOST_TEST(call(directory, "list").output == shipped);
+    BOOST_TEST(!has(changed, "kept\n"));
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -124,12 +124,12 @@ BOOST_AUTO_TEST_CASE(the_beam_s_own_derivation_and_its_equations_agree) {
     }
 }
 
-// A second or two of processor time: far more would be algebra that grows without bound.
-BOOST_AUTO_TEST_CASE(compressible_flow_in_space_is_derived_in_a_moment) {
+// Of processor time, which other programs do not take.
+BOOST_AUTO_TEST_CASE(compressible_flow_in_space_is_derived_within_five_seconds) {
     const std::clock_t start = std::clock();
     DerivedSystem derived = shipped("compressible-navier-stokes");
     BOOST_TEST(checked_system(derived).empty());
-    BOOST_TEST(static_cast<double>(std::clock() - start) < 30.0 * CLOCKS_PER_SEC);
+    BOOST_TEST(static_cast<double>(std::clock() - start) < 5.0 * CLOCKS_PER_SEC);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -119,7 +119,7 @@ def stress_floor(march, scene):
 def floor(case, march, name, sizes):
     scene = case.scene
     found = round_off(march, scene) * root(name, sizes[name])
-    if name.startswith("theta"):  # what bending takes from heat is as large where the temperature is zero
+    if name.startswith("theta") and not sizes[name]:  # of a temperature of zero: what bending takes from heat
         found += round_off(march, scene) * abs(march.beam["alpha"]) * abs(march.U).max()
     if name.startswith("sigma"):
         return found + stress_floor(march, scene) * math.sqrt(float(march.times[-1]))

@@ -71,7 +71,7 @@ BOOST_AUTO_TEST_CASE(
         rows.push_back({{rows.back().widths[0] / 2}, rows.back().error * std::exp2(-order)});
     const auto order = estimate_orders(rows).front();
     BOOST_TEST(!order.determined);
-    BOOST_TEST(order.status == "its order rises over finer windows, to 1.68");
+    BOOST_TEST(order.status == "it rises over finer windows, to 1.68");
 }
 
 // √h/10 beside h: at the coarsest level a fifth of the error, at the finest of nine a factor
@@ -332,7 +332,7 @@ BOOST_AUTO_TEST_CASE(what_stated_scatter_makes_of_an_order_is_no_motion) {
     std::vector<ErrorRow> bent;
     for (int k = 0; k < 5; ++k)
         bent.push_back({{std::exp2(-k)}, std::exp2(-2 * k - 0.3 * k * k), 0.02});
-    BOOST_TEST(estimate_orders(bent).front().status.starts_with("its order rises"));
+    BOOST_TEST(estimate_orders(bent).front().status.starts_with("it rises"));
 }
 
 // h^p + b h^q with 1 % of scatter, which may hide the drift of the order: where that was taken for
@@ -362,7 +362,7 @@ BOOST_AUTO_TEST_CASE(drift_that_stated_scatter_may_hide_is_in_the_interval) {
         determined += order.determined ? 1 : 0;
         missed += order.determined && std::abs(order.value - p) > order.half_width() ? 1 : 0;
     }
-    BOOST_TEST(determined >= 120);
+    BOOST_TEST(determined >= 150);
     BOOST_TEST(missed <= 0.05 * determined + 2 * std::sqrt(0.05 * 0.95 * determined));
     BOOST_TEST_MESSAGE(missed << " of " << determined);
 }

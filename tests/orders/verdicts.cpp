@@ -137,11 +137,11 @@ BOOST_AUTO_TEST_CASE(orders_that_agree_on_their_way_to_another_one_are_not_asymp
     const auto cut = judge(ladder, {.order = &longer});
     BOOST_TEST(cut.window.has_value() == (std::abs(longer.value - 1.115) <= 0.1));
     // Of what is not determined nothing is asymptotic.
-    const OrderInterval open{.value = 1.1, .status = "its order rises over finer windows, to 1.1"};
+    const OrderInterval open{.value = 1.1, .status = "it rises over finer windows, to 1.1"};
     const auto none = judge(ladder, {.order = &open});
     BOOST_TEST(word(none) == "pppppp");
-    BOOST_TEST(none.rows[1].reason == "order 1.23 here, and that of the end is not determined: its "
-                                      "order rises over finer windows, to 1.1");
+    BOOST_TEST(none.rows[1].reason == "order 1.23 here, and that of the end is not determined: it "
+                                      "rises over finer windows, to 1.1");
     // Who expects an order has it taken for that of the end.
     BOOST_TEST(word(judge(ladder, {.expected_order = 1.15, .order = &open})) != "pppppp");
 }

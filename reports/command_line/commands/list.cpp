@@ -147,6 +147,8 @@ std::string list_text() {
 /// This program, and the files that are listed, as they are now: the first line of a catalogue.
 std::string state_of_files() {
     std::string state = build_ids().front().second;
+    if (state == "unknown")
+        return {}; // any program's
     for (const auto kind : {Shipped::scene, Shipped::solution, Shipped::equations})
         for (const auto& [name, path] : shipped_files(kind)) {
             struct stat file {};
