@@ -3,7 +3,9 @@
 #include "studies/data/printed_digits.hpp"
 #include "studies/text/number_text.hpp"
 
+#include <boost/algorithm/string/join.hpp>
 #include <fmt/format.h>
+#include <gsl/gsl_fit.h>
 
 #include <algorithm>
 #include <array>
@@ -181,13 +183,47 @@ std::vector<std::pair<std::size_t, std::size_t>> points_of(const DataAnalysis& d
     return points;
 }
 
-/// Of errors that were rounded; none where rows of one point scatter by more than that. Those that
-/// do not are rounded alike: their mean is known no better than each.
+/// The slope of ln error on ln width: an order as far as rounding needs one.
+double rough_order(const std::vector<double>& widths, const std::vector<double>& errors) {
+    std::vector<double> x, y;
+    for (std::size_t r = 0; r < widths.size(); ++r)
+        if (is_positive(errors[r])) {
+            x.push_back(std::log(widths[r]));
+            y.push_back(std::log(errors[r]));
+        }
+    if (!varies(x))
+        return 0;
+    double intercept, slope, c00, c01, c11, squares;
+    gsl_fit_linear(x.data(), 1, y.data(), 1, x.size(), &intercept, &slope, &c00, &c01, &c11,
+                   &squares);
+    constexpr double greatest = 8;
+    return std::clamp(std::abs(slope), 0.0, greatest);
+}
+
+/// The units of the last digits printed, as they are seen in the errors: those of a width change an
+/// error of order p by p times what they are of the width. None where all is exact.
+std::vector<double> units_seen(const DataAnalysis& data, const DataColumn& errors) {
+    auto units = errors.units;
+    for (const auto& width : data.widths) {
+        if (width.units.empty())
+            continue;
+        units.resize(data.rows());
+        const double order = rough_order(width.numbers, errors.numbers);
+        for (std::size_t r = 0; r < units.size(); ++r)
+            units[r] =
+                std::hypot(units[r], order * errors.numbers[r] * width.units[r] / width.numbers[r]);
+    }
+    return units;
+}
+
+/// Of errors that were rounded, or whose widths were; none where rows of one point scatter by more
+/// than that. Those that do not are rounded alike: their mean is known no better than each.
 std::vector<double> rounding(const DataAnalysis& data, const DataColumn& errors) {
     double ratio = std::numeric_limits<double>::infinity();
     for (const auto& width : data.widths)
         ratio = std::min(ratio, level_ratio(width.numbers));
-    auto sigma = deviations_of_rounding(errors.numbers, errors.units, ratio);
+    const auto units = units_seen(data, errors);
+    auto sigma = deviations_of_rounding(errors.numbers, units, ratio);
     if (sigma.empty())
         return {};
     for (const auto& [first, end] : points_of(data)) {
@@ -199,7 +235,7 @@ std::vector<double> rounding(const DataAnalysis& data, const DataColumn& errors)
             if (is_positive(errors.numbers[r])) {
                 least = std::min(least, errors.numbers[r]);
                 greatest = std::max(greatest, errors.numbers[r]);
-                unit = std::max(unit, errors.units[r]);
+                unit = std::max(unit, units[r]);
                 ++count;
             }
         constexpr double of_one_unit = 1.01;
@@ -209,6 +245,18 @@ std::vector<double> rounding(const DataAnalysis& data, const DataColumn& errors)
             sigma[r] *= std::sqrt(count);
     }
     return sigma;
+}
+
+/// What is known to the digits printed: "its errors are", "h is", "its errors and h are".
+std::string known_to_digits(const DataAnalysis& data, const DataColumn& errors) {
+    std::vector<std::string> words;
+    if (!errors.units.empty())
+        words.emplace_back("its errors");
+    for (const auto& width : data.widths)
+        if (!width.units.empty())
+            words.push_back(width.name);
+    return boost::algorithm::join(words, " and ") +
+           (words.size() == 1 && errors.units.empty() ? " is" : " are");
 }
 
 ColumnAnalysis analyse_errors(const DataAnalysis& data, const DataColumn& errors,
@@ -249,9 +297,9 @@ ColumnAnalysis analyse_errors(const DataAnalysis& data, const DataColumn& errors
         words += (words.empty() ? "" : "; ") + order_words(data.widths[i].name, column.by_width[i]);
     column.findings.insert(column.findings.begin(), column.name + ": " + words);
     if (stated.empty() && !sigma.empty())
-        column.findings.push_back(column.name +
-                                  ": its errors are known to the digits printed, as the intervals "
-                                  "count");
+        column.findings.push_back(
+            fmt::format("{}: {} known to the digits printed, as the intervals count", column.name,
+                        known_to_digits(data, errors)));
     return column;
 }
 
@@ -330,7 +378,7 @@ DataAnalysis analyse(const DataFile& data) {
         return false;
     });
     for (const auto& width : data.widths)
-        analysis.widths.push_back({width.name, in_order(width.numbers, order)});
+        analysis.widths.push_back(in_order(width, order));
     const auto sigma = data.sigma.empty() ? std::vector<double>() : in_order(data.sigma, order);
     for (const auto& errors : data.errors)
         analysis.columns.push_back(analyse_errors(analysis, in_order(errors, order), sigma));

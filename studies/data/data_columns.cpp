@@ -204,6 +204,7 @@ void take_whole_sizes_for_counts(const DataChoice& choice, DataFile& data) {
             continue;
         for (double& number : width->numbers)
             number = 1.0 / number;
+        width->units.clear();
         const std::string name = choice.sizes.size() == 1 ? "h" : "h_" + size;
         if (named(name) == data.widths.end())
             width->name = name;

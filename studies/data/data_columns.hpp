@@ -31,7 +31,7 @@ struct ColumnUse {
     double power = 1; ///< the width is the number to this power
     DataColumn* target = nullptr;
     std::vector<double>* plain = nullptr;    ///< in place of it, of deviations
-    std::vector<PrintedDigits> printed = {}; ///< of an error or a value, one a record
+    std::vector<PrintedDigits> printed = {}; ///< one a record
 
     [[nodiscard]] bool is_figure() const { return !is_width && plain == nullptr; }
 };

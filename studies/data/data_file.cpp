@@ -285,8 +285,7 @@ void read_record(const Lines& lines, const std::vector<TextField>& fields, const
                                  " it is too small for a double");
         auto& target = use.plain != nullptr ? *use.plain : use.target->numbers;
         target.push_back(width);
-        if (use.is_figure())
-            use.printed.push_back(printed_digits(field.text));
+        use.printed.push_back(printed_digits(field.text));
         found = found || (use.is_figure() && std::isfinite(number));
         if (use.plain != nullptr && found && !(number > 0 && std::isfinite(number)))
             throw InputError(lines.place(field.column),
@@ -361,6 +360,9 @@ DataFile read_data(const std::string& file, const DataChoice& choice) {
         }
     }
     require_records(data, head.place, conditions);
+    for (const auto& use : uses)
+        if (use.is_width && use.power == 1)
+            use.target->units = printed_units_of_widths(use.target->numbers, use.printed);
     take_whole_sizes_for_counts(choice, data);
     require_one_series(data, head.place, unread);
     require_squares_of(data);

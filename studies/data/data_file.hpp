@@ -31,8 +31,10 @@ struct DataChoice {
 
 struct DataColumn {
     std::string name;
-    std::vector<double> numbers;    ///< one a record; NaN: failed
-    std::vector<double> units = {}; ///< of the last digits printed, one a record; empty: exact
+    std::vector<double> numbers; ///< one a record; NaN: failed
+    /// Of the last digits printed, one a record; empty: exact, as widths are whose ratios are
+    /// (printed_units_of_widths).
+    std::vector<double> units = {};
 };
 
 struct DataFile {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <functional>
 #include <limits>
 
 namespace tvbeam {
@@ -78,6 +79,26 @@ std::vector<double> printed_units_of_errors(const std::vector<double>& errors,
         if (errors[i] == 0 && digits[i].is_zero)
             units[i] = 0;
     return units;
+}
+
+std::vector<double> printed_units_of_widths(const std::vector<double>& widths,
+                                            const std::vector<PrintedDigits>& digits) {
+    constexpr int greatest_denominator = 12;
+    constexpr double rounding = 1e-12;
+    const auto is_fraction = [](double ratio) {
+        for (int denominator = 1; denominator <= greatest_denominator; ++denominator) {
+            const double numerator = ratio * denominator;
+            if (std::abs(numerator - std::round(numerator)) <= rounding * numerator)
+                return true;
+        }
+        return false;
+    };
+    auto sorted = widths;
+    std::ranges::sort(sorted, std::greater());
+    for (std::size_t i = 1; i < sorted.size(); ++i)
+        if (!is_fraction(sorted[i - 1] / sorted[i]))
+            return printed_units(widths, digits);
+    return {};
 }
 
 std::vector<double> deviations_of_rounding(const std::vector<double>& errors,

@@ -30,6 +30,11 @@ std::vector<double> printed_units(const std::vector<double>& numbers,
 std::vector<double> printed_units_of_errors(const std::vector<double>& errors,
                                             const std::vector<PrintedDigits>& digits);
 
+/// The same of widths. They are exact, to whatever digits, where the ratio of each to the next
+/// finer one is a fraction of small numbers: 0.1, 0.05 and 0.025 are, 0.33, 0.17 and 0.083 are not.
+std::vector<double> printed_units_of_widths(const std::vector<double>& widths,
+                                            const std::vector<PrintedDigits>& digits);
+
 /// Standard deviations of errors that were rounded to these units; none without them, and where
 /// half of the errors are known so well that an order between two levels, whose widths have this
 /// ratio, shows it by 0.001 at most: on halved widths, to four digits. No error is known better

@@ -13,6 +13,8 @@ namespace {
 constexpr double least_time_ratio = 1.2;
 /// The same of single runs, whose scatter is not known.
 constexpr double least_ratio_of_one_run = 2.0;
+/// Of a lower quartile: a step of the clock that is worth a word.
+constexpr double least_part_of_a_step = 0.01;
 
 bool has_error(const TimedError& row) {
     return std::isfinite(row.error) && row.error > 0.0;
@@ -32,12 +34,13 @@ Timing between(const Timing& a, const Timing& b, double weight) {
             .q1 = at(&Timing::q1),
             .median = at(&Timing::median),
             .q3 = at(&Timing::q3),
-            .runs = std::min(a.runs, b.runs)};
+            .runs = std::min(a.runs, b.runs),
+            .clock_step = std::max(a.clock_step, b.clock_step)};
 }
 
 } // namespace
 
-Timing timing_of(std::vector<double> seconds) {
+Timing timing_of(std::vector<double> seconds, double clock_step) {
     std::sort(seconds.begin(), seconds.end());
     const auto quantile = [&](double fraction) {
         return gsl_stats_quantile_from_sorted_data(seconds.data(), 1, seconds.size(), fraction);
@@ -46,7 +49,22 @@ Timing timing_of(std::vector<double> seconds) {
             .q1 = quantile(0.25),
             .median = quantile(0.5),
             .q3 = quantile(0.75),
-            .runs = static_cast<int>(seconds.size())};
+            .runs = static_cast<int>(seconds.size()),
+            .clock_step = clock_step};
+}
+
+double clock_step_of(const std::vector<double>& seconds) {
+    constexpr int most_decimals = 6;
+    constexpr double rounding = 1e-6; // of a step, in what was read
+    for (int decimals = 0; decimals <= most_decimals; ++decimals) {
+        const double steps_a_second = std::pow(10.0, decimals);
+        if (std::ranges::all_of(seconds, [&](double time) {
+                const double steps = time * steps_a_second;
+                return std::abs(steps - std::round(steps)) <= rounding;
+            }))
+            return 1.0 / steps_a_second;
+    }
+    return 0.0;
 }
 
 std::optional<Timing> time_to_reach(std::span<const TimedError> rows, double error) {
@@ -79,8 +97,10 @@ Comparison compare(const Timing& first, const Timing& second) {
     const Timing& fast = result.first_is_faster ? first : second;
     const Timing& slow = result.first_is_faster ? second : first;
     result.ratio = slow.median / fast.median;
-    result.lowest = slow.q1 / fast.q3;
-    result.highest = slow.q3 / fast.q1;
+    result.lowest = std::max(slow.q1 - slow.clock_step, 0.0) / (fast.q3 + fast.clock_step);
+    result.highest = (slow.q3 + slow.clock_step) / std::max(fast.q1 - fast.clock_step, 0.0);
+    const double step = std::max(slow.clock_step, fast.clock_step);
+    result.clock_step = step > least_part_of_a_step * fast.q1 ? step : 0.0;
     const bool once = first.runs == 1 || second.runs == 1;
     result.distinguishable =
         result.ratio > (once ? least_ratio_of_one_run : least_time_ratio) && result.lowest > 1.0;

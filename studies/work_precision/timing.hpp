@@ -12,13 +12,19 @@ struct Timing {
     double min = 0.0;
     double q1 = 0.0; ///< lower quartile
     double median = 0.0;
-    double q3 = 0.0; ///< upper quartile
-    int runs = 0;    ///< 1: there are no quartiles to speak of, all four are the same
+    double q3 = 0.0;         ///< upper quartile
+    int runs = 0;            ///< 1: there are no quartiles to speak of, all four are the same
+    double clock_step = 0.0; ///< of the clock that showed it; see clock_step_of
 };
 
 /// Of one run or more. Quartiles lie between the sorted values as GSL has it: at (n − 1)/4 and
 /// 3(n − 1)/4, counted from 0.
-Timing timing_of(std::vector<double> seconds);
+Timing timing_of(std::vector<double> seconds, double clock_step = 0.0);
+
+/// The greatest power of ten, from 1 s to 1 µs, of which all that a clock showed are whole
+/// multiples: a program prints two decimals, or its clock ticks a hundred times a second. 0 where
+/// there is none. Unit: s.
+double clock_step_of(const std::vector<double>& seconds);
 
 /// What one run of a ladder gave.
 struct TimedError {
@@ -40,11 +46,13 @@ inline constexpr double same_error = 0.01;
 /// interpolated across a row without an error > 0, one that failed say.
 std::optional<Timing> time_to_reach(std::span<const TimedError> rows, double error);
 
-/// Two times for the same thing.
+/// Two times for the same thing. Quartiles reach a step of their clock further: a time of t may be
+/// of anything between t − step and t + step, as both its ends are seen late.
 struct Comparison {
     double ratio = 1.0;           ///< median of the slower / median of the faster
     double lowest = 1.0;          ///< lower quartile of the slower / upper quartile of the faster
     double highest = 1.0;         ///< upper quartile of the slower / lower quartile of the faster
+    double clock_step = 0.0;      ///< of the clock that showed them, where it counts for 1 %
     bool first_is_faster = false; ///< by the medians
     /// The ratio is above 1.2 and the quartiles are disjoint; where one of the two is of one run,
     /// the ratio is above 2, as nothing says how that time scatters.

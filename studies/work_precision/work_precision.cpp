@@ -66,6 +66,8 @@ public:
           one_run_above_(one_run_above) {
         run_ = [this, run](const RunTask& task) {
             RungResult result = run(task);
+            if (result.status == RungStatus::ok)
+                shown_.push_back(result.seconds);
             interrupted_ = interrupted_ || result.status == RungStatus::interrupted;
             return result;
         };
@@ -81,11 +83,13 @@ public:
                 if (contestant.warm_up <= one_run_above_ &&
                     contestant.takes_part(round, block_.runs))
                     time(contestant);
+        const double clock_step = clock_step_of(shown_);
         for (const auto& contestant : contestants_)
             if (result_[contestant.scheme].runs[contestant.run].status == RungStatus::ok)
                 result_[contestant.scheme].timings[contestant.run] =
                     timing_of(contestant.seconds.empty() ? std::vector<double>{contestant.warm_up}
-                                                         : contestant.seconds);
+                                                         : contestant.seconds,
+                              clock_step);
         return std::move(result_);
     }
 
@@ -146,6 +150,7 @@ private:
     const Execution& execution_;
     double one_run_above_;
     bool interrupted_ = false;
+    std::vector<double> shown_; ///< by the clock, of all runs
     std::vector<SchemeRuns> result_;
     std::vector<Contestant> contestants_;
 };

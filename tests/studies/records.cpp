@@ -691,6 +691,33 @@ BOOST_AUTO_TEST_CASE(the_last_digits_of_values_are_read) {
     BOOST_TEST(units("h,value\n4,0\n2,0\n").empty());
 }
 
+BOOST_AUTO_TEST_CASE(widths_are_exact_where_their_ratios_are_fractions_of_small_numbers) {
+    const auto units = [](const std::string& widths) {
+        const auto data = data_of("h,error\n" + widths);
+        return data.widths.at(0).units;
+    };
+    BOOST_TEST(units("0.1,1\n0.05,2\n0.025,3\n").empty());
+    BOOST_TEST(units("0.3,1\n0.2,2\n0.15,3\n").empty());
+    // Whole ones count something, where it is not said that they are widths.
+    BOOST_TEST(data_of("n,error\n67,2\n100,1\n", {.sizes = {"n"}}).widths.at(0).units.empty());
+    const auto rounded = units("0.33,1\n0.083,3\n0.17,2\n");
+    BOOST_REQUIRE(rounded.size() == 3);
+    for (std::size_t i = 0; i < rounded.size(); ++i)
+        BOOST_TEST(rounded[i] == (i == 1 ? 0.001 : 0.01), boost::test_tools::tolerance(1e-12));
+}
+
+// h/11.5 exactly, h = 1/7, 1/14, 1/28 to two digits.
+BOOST_AUTO_TEST_CASE(an_interval_counts_the_digits_of_the_widths) {
+    const auto column = analysis_of("h,error\n0.14,1.244950931e-02\n0.071,6.224754653e-03\n"
+                                    "0.036,3.112377326e-03\n")
+                            .columns[0];
+    BOOST_REQUIRE(column.by_width[0].determined);
+    BOOST_TEST(column.by_width[0].low <= 1);
+    BOOST_TEST(column.by_width[0].high >= 1);
+    BOOST_TEST(column.findings.back() ==
+               "error: its errors and h are known to the digits printed, as the intervals count");
+}
+
 // The values are 5.7891 − 5.21 h², so that 5.7891 is their limit.
 BOOST_AUTO_TEST_CASE(a_finding_says_where_the_digits_printed_limit_it) {
     const std::string printed =

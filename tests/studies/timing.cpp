@@ -186,6 +186,35 @@ BOOST_AUTO_TEST_CASE(single_runs_are_distinguishable_from_twice_the_time_on) {
     BOOST_TEST(compare(many, once).distinguishable);
 }
 
+BOOST_AUTO_TEST_CASE(the_step_of_a_clock_is_the_greatest_power_of_ten_that_divides_its_times) {
+    BOOST_TEST(clock_step_of({0.12, 0.3, 7.0}) == 0.01);
+    BOOST_TEST(clock_step_of({3.0, 12.0}) == 1.0);
+    BOOST_TEST(clock_step_of({0.12, 0.123456}) == 1e-6);
+    BOOST_TEST(clock_step_of({0.12, 0.1234567}) == 0.0);
+    BOOST_TEST(clock_step_of({1234567.89}) == 0.01);
+}
+
+BOOST_AUTO_TEST_CASE(times_that_a_step_of_the_clock_may_have_made_are_not_distinguishable) {
+    // 0.026 s and 0.024 s, to two decimals, as often as one likes.
+    Timing fast = timing(0.02, 0.02, 0.02);
+    Timing slow = timing(0.04, 0.04, 0.04);
+    BOOST_TEST(compare(fast, slow).distinguishable);
+    fast.clock_step = slow.clock_step = 0.01;
+    const Comparison coarse = compare(fast, slow);
+    BOOST_TEST(!coarse.distinguishable);
+    BOOST_TEST(coarse.lowest == 1.0, tight);
+    BOOST_TEST(coarse.highest == 5.0, tight);
+    BOOST_TEST(coarse.clock_step == 0.01);
+    // What shows one step may have taken no time at all.
+    fast = timing(0.01, 0.01, 0.01);
+    fast.clock_step = 0.01;
+    BOOST_TEST(compare(fast, slow).highest == std::numeric_limits<double>::infinity());
+    // A step that is small beside the times has no word.
+    BOOST_TEST(compare(timing(2.0, 2.0, 2.0),
+                       {.q1 = 4, .median = 4, .q3 = 4, .runs = 5, .clock_step = 0.01})
+                   .clock_step == 0.0);
+}
+
 BOOST_AUTO_TEST_CASE(the_order_of_two_schemes_changes_only_which_is_called_faster) {
     const Timing a = timing(1.0, 2.0, 3.0);
     const Timing b = timing(7.0, 8.0, 9.0);
