@@ -123,7 +123,8 @@ int most_dropped(std::size_t levels) {
     return std::max(0, std::min({spare, static_cast<int>(levels) / 2, most}));
 }
 
-/// The leading terms; next terms in one width; next terms in all.
+/// The leading terms; next terms in one width; next terms in all; next terms half an order on, and
+/// logarithms, in one width.
 std::vector<TermShape> shapes_of(std::size_t widths) {
     const std::vector<double> plain(widths, TermShape::none);
     std::vector<TermShape> shapes{{plain}};
@@ -136,6 +137,12 @@ std::vector<TermShape> shapes_of(std::size_t widths) {
         if (widths > 1)
             shapes.push_back({std::vector<double>(widths, power)});
     }
+    for (const double power : {0.5, TermShape::logarithm})
+        for (std::size_t i = 0; i < widths; ++i) {
+            auto next = plain;
+            next[i] = power;
+            shapes.push_back({next});
+        }
     return shapes;
 }
 
@@ -211,34 +218,57 @@ void OrderEnsemble::fit_sequence(const TermRows& rows) {
     }
 }
 
+/// The rows that are in a window of all widths.
+TermRows OrderEnsemble::rows_from(const TermRows& rows, const std::vector<int>& place) const {
+    std::vector<Index> chosen;
+    for (Index r = 0; r < rows.size(); ++r) {
+        bool inside = true;
+        for (std::size_t i = 0; i < place.size(); ++i)
+            inside = inside &&
+                     level_of(levels_[i], rows.log_widths(r, static_cast<Index>(i))) >= place[i];
+        if (inside)
+            chosen.push_back(r);
+    }
+    return rows.subset(chosen);
+}
+
 void OrderEnsemble::fit_all_widths(const TermRows& rows) {
     std::vector<int> most;
     for (const auto& levels : levels_)
         most.push_back(most_dropped(levels.size()));
     const auto shapes = shapes_of(levels_.size());
+    // Where the search from nothing ends in a false valley, that from another window's fit does
+    // not.
+    constexpr double far_better = 10;
+    constexpr double to_rounding = 1e-7;
+    std::vector<std::optional<TermFit>> closest(
+        shapes.size()); // of the widest window, if it can be
+    const auto is_far_off = [&](const TermFit& fit, const TermFit& other) {
+        return fit.scale > far_better * std::max(other.scale, to_rounding);
+    };
     for (const auto& place : places_within(most)) {
-        std::vector<Index> chosen;
-        for (Index r = 0; r < rows.size(); ++r) {
-            bool inside = true;
-            for (std::size_t i = 0; i < place.size(); ++i)
-                inside = inside && level_of(levels_[i],
-                                            rows.log_widths(r, static_cast<Index>(i))) >= place[i];
-            if (inside)
-                chosen.push_back(r);
-        }
-        const auto window = rows.subset(chosen);
+        const auto window = rows_from(rows, place);
         std::optional<TermFit> plain;
         for (std::size_t k = 0; k < shapes.size(); ++k) {
             if (window.size() <= shapes[k].parameters())
                 continue;
-            auto fit = fit_terms(window, shapes[k], plain ? &*plain : nullptr);
+            auto fit = fit_terms(window, shapes[k], plain ? &*plain : nullptr,
+                                 closest[k] ? &*closest[k] : nullptr);
             if (!fit)
                 continue;
             if (k == 0)
                 plain = fit;
+            if (!closest[k] || is_far_off(*closest[k], *fit))
+                closest[k] = fit;
             members_.push_back({std::move(*fit), static_cast<int>(k), place});
         }
     }
+    for (auto& member : members_)
+        if (const auto& best = *closest[static_cast<std::size_t>(member.family)];
+            is_far_off(member.fit, best))
+            if (auto fit = fit_terms(rows_from(rows, member.place), best.shape, &member.fit, &best);
+                fit && fit->scale < member.fit.scale)
+                member.fit = std::move(*fit);
 }
 
 void OrderEnsemble::fit_each_alone(const TermRows& rows) {

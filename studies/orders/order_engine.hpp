@@ -136,6 +136,7 @@ private:
         double half = 0;
     };
     void fit_sequence(const TermRows& rows);
+    TermRows rows_from(const TermRows& rows, const std::vector<int>& place) const;
     void fit_all_widths(const TermRows& rows);
     void fit_each_alone(const TermRows& rows);
     using Numbers = std::map<std::pair<int, std::vector<int>>, FittedNumber>;

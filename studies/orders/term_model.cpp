@@ -203,13 +203,46 @@ std::vector<Eigen::VectorXd> starts_of(const Layout& layout, const TermRows& row
     return starts;
 }
 
-/// A shorter model's θ with next terms of size zero, and a floor far below.
-Eigen::VectorXd lengthened(const Layout& layout, const TermRows& rows, const TermFit& simpler) {
+/// A shorter model's θ with next terms of size zero, and a floor far below; beside it, where a term
+/// has a logarithm, those with one of either sign that has the same slope in the middle: from zero
+/// alone one valley in four is missed.
+std::vector<Eigen::VectorXd> lengthened(const Layout& layout, const TermRows& rows,
+                                        const TermFit& simpler) {
     Eigen::VectorXd theta = Eigen::VectorXd::Zero(layout.size());
     const Eigen::Index shared = layout.pair(layout.widths() - 1, layout.widths());
     theta.head(shared) = simpler.theta.head(shared);
     if (layout.floor() >= 0)
         theta[layout.floor()] = rows.log_errors.minCoeff() - 1;
+    std::vector<Eigen::VectorXd> starts{theta};
+    constexpr double part = 0.25; // T stays positive over three halvings to either side
+    for (Eigen::Index i = 0; i < layout.widths(); ++i)
+        if (layout.next(i) >= 0 && layout.power(i) == TermShape::logarithm)
+            for (const double c : {-part, part}) {
+                starts.push_back(theta);
+                starts.back()[layout.next(i)] = c;
+                starts.back()[2 * i + 1] -= c;
+            }
+    return starts;
+}
+
+/// θ of a fit to other rows, in the units of these: the same curve.
+Eigen::VectorXd in_units(const Layout& layout, const TermFit& fit, const Eigen::VectorXd& centre) {
+    Eigen::VectorXd theta = fit.theta;
+    for (Eigen::Index i = 0; i < layout.widths(); ++i) {
+        const double shift = centre[i] - fit.log_centre[i];
+        theta[2 * i] += theta[2 * i + 1] * shift;
+        const Eigen::Index k = layout.next(i);
+        if (k < 0)
+            continue;
+        if (layout.power(i) != TermShape::logarithm) {
+            theta[k] *= std::exp(layout.power(i) * shift);
+            continue;
+        }
+        // 1 + c ln(x/x₀) = (1 + c ln(x₁/x₀)) (1 + c₁ ln(x/x₁))
+        const double part = 1 + theta[k] * shift;
+        theta[2 * i] += std::log(part); // NaN where the term has its zero there: no start then
+        theta[k] /= part;
+    }
     return theta;
 }
 
@@ -333,7 +366,7 @@ FittedNumber TermFit::log_error(const Eigen::VectorXd& log_widths, bool against_
 }
 
 std::optional<TermFit> fit_terms(const TermRows& given, const TermShape& shape,
-                                 const TermFit* simpler) {
+                                 const TermFit* simpler, const TermFit* beside) {
     TermRows rows = given;
     const Eigen::VectorXd centre = rows.log_widths.colwise().mean();
     rows.log_widths.rowwise() -= centre.transpose();
@@ -343,9 +376,18 @@ std::optional<TermFit> fit_terms(const TermRows& given, const TermShape& shape,
     if (rows.size() < layout.size())
         return std::nullopt;
     const ModelFunction model = model_of(layout, rows);
-    const auto starts = simpler != nullptr ? std::vector{lengthened(layout, rows, *simpler)}
-                                           : starts_of(layout, rows);
+    const auto starts =
+        simpler != nullptr ? lengthened(layout, rows, *simpler) : starts_of(layout, rows);
     auto best = least_squares(model, rows.log_errors, rows.weights, starts, rows.scatter);
+    if (beside != nullptr) {
+        const std::vector<Eigen::VectorXd> start{in_units(layout, *beside, centre)};
+        auto same = start[0].allFinite()
+                        ? least_squares(model, rows.log_errors, rows.weights, start, rows.scatter)
+                        : std::nullopt;
+        // Of two that fit to rounding, as rows of few levels allow, the one of more rows.
+        if (same && (!best || same->scale() <= std::max(best->scale(), least_scatter)))
+            best = std::move(same);
+    }
     if (!best)
         return std::nullopt;
     *best = reweighted(model, rows, std::move(*best));

@@ -81,8 +81,8 @@ struct TermFit {
 /// The robust fit: least squares, reweighted by Cauchy's function of residual over scatter, so that
 /// a row far out of line counts for nothing. None where there are fewer rows than parameters, or no
 /// start comes to an end. With `simpler`, a fit of the same rows without next terms, the search
-/// starts there.
+/// starts there; with `beside`, a fit of this shape to other rows, there, too.
 std::optional<TermFit> fit_terms(const TermRows& rows, const TermShape& shape,
-                                 const TermFit* simpler = nullptr);
+                                 const TermFit* simpler = nullptr, const TermFit* beside = nullptr);
 
 } // namespace tvbeam

@@ -14,6 +14,11 @@ constexpr std::size_t fewest_records = 7;
 /// A row is out of line where it is further off than this many times the scatter, and than what no
 /// model shows (OrderTuning::narrowest).
 constexpr double out_of_line = 6;
+/// Residuals that are more alike in neighbouring rows than this, and larger than that, are none of
+/// scatter. Of grids of 16 with scatter, none of 300 has both, and all of 200 whose error is a
+/// product of its terms, or has three times the root of that product beside them.
+constexpr double most_alike = 0.3;
+constexpr double least_misfit = 0.05;
 
 /// Why a record has no logarithm that a fit may use; none where it has.
 std::optional<RejectedRecord> unusable(const Refinement& record, std::size_t i) {
@@ -65,6 +70,54 @@ void sort_records(std::span<const Refinement> records, const std::vector<std::si
     }
     std::sort(fit.rejected.begin(), fit.rejected.end(),
               [](const auto& left, const auto& right) { return left.record < right.record; });
+}
+
+/// The mean product of residuals of rows that are neighbours along one width, over their mean
+/// square: about −0.2 for scatter, as the fit takes up what is smooth; 1 where they go one way. And
+/// the root of that mean square.
+struct Misfit {
+    double alike = 0;
+    double rms = 0;
+};
+
+Misfit misfit_of(std::span<const Refinement> records, const std::vector<std::size_t>& usable,
+                 const EnsembleMember& member, const OrderEnsemble& ensemble) {
+    struct Residual {
+        double h, dt, off;
+    };
+    std::vector<Residual> rows;
+    for (const auto i : usable)
+        if (ensemble.holds(member, {records[i].h, records[i].dt})) {
+            const Eigen::Vector2d at(std::log(records[i].h), std::log(records[i].dt));
+            rows.push_back({records[i].h, records[i].dt,
+                            std::log(records[i].error) - member.fit.log_error(at, true).value});
+        }
+    double squares = 0;
+    for (const auto& row : rows)
+        squares += row.off * row.off;
+    double products = 0;
+    int pairs = 0;
+    // The next finer row of one width with the same other.
+    const auto add_next = [&](const Residual& row, double Residual::*same,
+                              double Residual::*finer) {
+        const Residual* next = nullptr;
+        for (const auto& other : rows)
+            if (other.*same == row.*same && other.*finer < row.*finer &&
+                (next == nullptr || other.*finer > next->*finer))
+                next = &other;
+        if (next != nullptr) {
+            products += row.off * next->off;
+            ++pairs;
+        }
+    };
+    for (const auto& row : rows) {
+        add_next(row, &Residual::h, &Residual::dt);
+        add_next(row, &Residual::dt, &Residual::h);
+    }
+    if (pairs == 0 || !(squares > 0))
+        return {};
+    const double mean = squares / static_cast<double>(rows.size());
+    return {products / pairs / mean, std::sqrt(mean)};
 }
 
 } // namespace
@@ -127,6 +180,13 @@ TwoTermFit fit_two_term(std::span<const Refinement> records,
         steadiest == nullptr) {
         fit.failure = "the two-term model needs seven finite, positive errors in three h and "
                       "three dt, each an eighth or more apart";
+        return fit;
+    }
+    if (const Misfit misfit = misfit_of(records, usable, *steadiest, *fit.ensemble);
+        misfit.alike > most_alike && misfit.rms > least_misfit) {
+        fit.failure = fmt::format("the sum of two terms does not fit: it is off by {:.0f} %, and "
+                                  "alike in neighbouring rows",
+                                  100 * misfit.rms);
         return fit;
     }
     const auto orders = fit.ensemble->orders();
