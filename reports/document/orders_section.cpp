@@ -51,8 +51,8 @@ Finding finding(const std::string& norm, const TwoTermFit& fit) {
         return of.determined ? "of order " + order_text(of)
                              : "of an order that is not determined: " + of.status;
     };
-    return {fmt::format("{}: the error in space is {}; the error in time is {}.", norm,
-                        order(fit.p), order(fit.q)),
+    return {fmt::format("{}: the error in space is {}; the error in time is {}{}.", norm,
+                        order(fit.p), order(fit.q), fit.misfit.empty() ? "" : "; " + fit.misfit),
             2, !fit.predicts()};
 }
 
@@ -94,8 +94,8 @@ Table fit_table(const std::vector<std::pair<std::string, const TwoTermFit*>>& fi
     for (const auto& [norm, fit] : fits) {
         name.cells.push_back(norm);
         const TwoTermModel& model = fit->model;
-        const bool in_space = fit->p_determined();
-        const bool in_time = fit->q_determined();
+        const bool in_space = fit->has_sizes() && fit->p_determined();
+        const bool in_time = fit->has_sizes() && fit->q_determined();
         p.cells.push_back(order_text(fit->p));
         q.cells.push_back(order_text(fit->q));
         // A size is one of h^p: without p it has no unit, and ρ is between two terms.

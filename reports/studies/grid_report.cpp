@@ -40,6 +40,9 @@ Json json_of(const OrdersResult& orders, const OrdersBlock& block) {
         const auto known = [](const OrderInterval& order, double value) {
             return number_json(order.determined ? std::optional(value) : std::nullopt);
         };
+        const auto size = [&](const OrderInterval& order, double value) {
+            return fit.has_sizes() ? known(order, value) : Json();
+        };
         const auto& model = fit.model;
         norms[norm] = {{"status", "ok"},
                        {"p", known(fit.p, model.p)},
@@ -50,10 +53,10 @@ Json json_of(const OrdersResult& orders, const OrdersBlock& block) {
                        {"q_se", known(fit.q, fit.q_se)},
                        {"q_uncertainty", known(fit.q, fit.q_uncertainty())},
                        {"q_determined", fit.q_determined()},
-                       {"a", known(fit.p, model.a)},
-                       {"b", known(fit.q, model.b)},
-                       {"rho", known(fit.p_determined() ? fit.q : fit.p, model.rho)},
-                       {"rho_se", known(fit.p_determined() ? fit.q : fit.p, fit.rho_se)},
+                       {"a", size(fit.p, model.a)},
+                       {"b", size(fit.q, model.b)},
+                       {"rho", size(fit.p_determined() ? fit.q : fit.p, model.rho)},
+                       {"rho_se", size(fit.p_determined() ? fit.q : fit.p, fit.rho_se)},
                        {"rms", fit.rms},
                        {"used", fit.used.size()},
                        {"rejected", std::move(rejected)}};
@@ -61,6 +64,8 @@ Json json_of(const OrdersResult& orders, const OrdersBlock& block) {
             norms[norm]["p_status"] = fit.p.status;
         if (!fit.q_determined())
             norms[norm]["q_status"] = fit.q.status;
+        if (!fit.has_sizes())
+            norms[norm]["misfit"] = fit.misfit;
     }
     Json runs = Json::array();
     for (const auto& run : orders.runs) {

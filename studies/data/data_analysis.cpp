@@ -64,9 +64,10 @@ int digits_of(double value, double half) {
 std::vector<RowVerdict> verdicts_of(const TwoTermFit& fit, std::size_t rows) {
     const bool known = fit.predicts();
     std::vector<RowVerdict> verdicts(rows, {known ? Verdict::asymptotic : Verdict::pre_asymptotic,
-                                            known         ? "in the window where both orders stand"
-                                            : fit.holds() ? "an order is not determined"
-                                                          : fit.failure});
+                                            known          ? "in the window where both orders stand"
+                                            : !fit.holds() ? fit.failure
+                                            : !fit.misfit.empty() ? fit.misfit
+                                                                  : "an order is not determined"});
     for (const auto& [row, why, reason] : fit.rejected)
         verdicts[row] = {verdict_of(why), reason};
     return verdicts;

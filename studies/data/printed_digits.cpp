@@ -95,10 +95,11 @@ std::vector<double> printed_units_of_widths(const std::vector<double>& widths,
     };
     auto sorted = widths;
     std::ranges::sort(sorted, std::greater());
+    sorted.erase(std::unique(sorted.begin(), sorted.end()), sorted.end());
+    std::size_t others = 0;
     for (std::size_t i = 1; i < sorted.size(); ++i)
-        if (!is_fraction(sorted[i - 1] / sorted[i]))
-            return printed_units(widths, digits);
-    return {};
+        others += is_fraction(sorted[i - 1] / sorted[i]) ? 0 : 1;
+    return 2 * others > sorted.size() - 1 ? printed_units(widths, digits) : std::vector<double>();
 }
 
 std::vector<double> deviations_of_rounding(const std::vector<double>& errors,

@@ -21,14 +21,15 @@ struct FitMetric {
     double TwoTermModel::*value;
     bool in_h;
     bool in_dt;
+    bool is_of_leading_terms;
 };
 
 constexpr FitMetric fit_metrics[] = {
-    {"p", "p, the order in h", &TwoTermModel::p, true, false},
-    {"q", "q, the order in dt", &TwoTermModel::q, false, true},
-    {"a", "a, the constant of h^p", &TwoTermModel::a, true, false},
-    {"b", "b, the constant of dt^q", &TwoTermModel::b, false, true},
-    {"rho", "rho", &TwoTermModel::rho, true, true}};
+    {"p", "p, the order in h", &TwoTermModel::p, true, false, false},
+    {"q", "q, the order in dt", &TwoTermModel::q, false, true, false},
+    {"a", "a, the constant of h^p", &TwoTermModel::a, true, false, true},
+    {"b", "b, the constant of dt^q", &TwoTermModel::b, false, true, true},
+    {"rho", "rho", &TwoTermModel::rho, true, true, true}};
 
 /// A parameter of an order that the grid does not determine meets no band.
 Metric metric_of(const FitMetric& metric, const NormOrders& orders) {
@@ -39,6 +40,8 @@ Metric metric_of(const FitMetric& metric, const NormOrders& orders) {
              {std::pair(metric.in_h, &fit.p), std::pair(metric.in_dt, &fit.q)})
             if (wanted && !order->determined && absence.empty())
                 absence = "not determined: " + order->status;
+    if (absence.empty() && metric.is_of_leading_terms)
+        absence = fit.misfit;
     return {"orders." + orders.norm + ": " + metric.words,
             absence.empty() ? std::optional(fit.model.*metric.value) : std::nullopt, absence};
 }

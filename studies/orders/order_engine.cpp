@@ -123,8 +123,8 @@ int most_dropped(std::size_t levels) {
     return std::max(0, std::min({spare, static_cast<int>(levels) / 2, most}));
 }
 
-/// The leading terms; next terms in one width; next terms in all; next terms half an order on, and
-/// logarithms, in one width.
+/// The leading terms; next terms in one width; next terms in all; next terms half an order on,
+/// logarithms and constants, in one width.
 std::vector<TermShape> shapes_of(std::size_t widths) {
     const std::vector<double> plain(widths, TermShape::none);
     std::vector<TermShape> shapes{{plain}};
@@ -137,13 +137,27 @@ std::vector<TermShape> shapes_of(std::size_t widths) {
         if (widths > 1)
             shapes.push_back({std::vector<double>(widths, power)});
     }
-    for (const double power : {0.5, TermShape::logarithm})
+    for (const double power : {0.5, TermShape::logarithm, TermShape::constant})
         for (std::size_t i = 0; i < widths; ++i) {
             auto next = plain;
             next[i] = power;
             shapes.push_back({next});
         }
     return shapes;
+}
+
+/// Whether two terms are far larger than the error in every row: their orders are then close to
+/// each other, or to zero, and stand for a curve that no power has.
+bool is_a_difference(const TermFit& fit, const TermRows& rows) {
+    constexpr double far_larger = 10;
+    for (Index r = 0; r < rows.size(); ++r) {
+        double largest = 0;
+        for (Index i = 0; i < rows.widths(); ++i)
+            largest = std::max(largest, fit.term(i, rows.log_widths(r, i)));
+        if (largest <= far_larger * std::exp(rows.log_errors[r]))
+            return false;
+    }
+    return true;
 }
 
 /// All combinations of 0 … most[i].
@@ -254,7 +268,7 @@ void OrderEnsemble::fit_all_widths(const TermRows& rows) {
                 continue;
             auto fit = fit_terms(window, shapes[k], plain ? &*plain : nullptr,
                                  closest[k] ? &*closest[k] : nullptr);
-            if (!fit)
+            if (!fit || is_a_difference(*fit, window))
                 continue;
             if (k == 0)
                 plain = fit;
@@ -267,7 +281,8 @@ void OrderEnsemble::fit_all_widths(const TermRows& rows) {
         if (const auto& best = *closest[static_cast<std::size_t>(member.family)];
             is_far_off(member.fit, best))
             if (auto fit = fit_terms(rows_from(rows, member.place), best.shape, &member.fit, &best);
-                fit && fit->scale < member.fit.scale)
+                fit && fit->scale < member.fit.scale &&
+                !is_a_difference(*fit, rows_from(rows, member.place)))
                 member.fit = std::move(*fit);
 }
 

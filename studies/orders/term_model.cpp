@@ -60,6 +60,10 @@ Term term_at(const Layout& layout, const Eigen::VectorXd& theta, Eigen::Index i,
     const Eigen::Index k = layout.next(i);
     if (k < 0)
         return {plain, plain * log_x, 0};
+    if (layout.power(i) == TermShape::constant) {
+        const double size = std::exp(theta[2 * i]);
+        return {plain + size * theta[k], plain * log_x, size};
+    }
     const double next =
         layout.power(i) == TermShape::logarithm ? log_x : std::exp(layout.power(i) * log_x);
     const double value = plain * (1 + theta[k] * next);
@@ -235,7 +239,8 @@ Eigen::VectorXd in_units(const Layout& layout, const TermFit& fit, const Eigen::
         if (k < 0)
             continue;
         if (layout.power(i) != TermShape::logarithm) {
-            theta[k] *= std::exp(layout.power(i) * shift);
+            theta[k] *= std::exp(layout.power(i) == TermShape::constant ? -theta[2 * i + 1] * shift
+                                                                        : layout.power(i) * shift);
             continue;
         }
         // 1 + c ln(x/x₀) = (1 + c ln(x₁/x₀)) (1 + c₁ ln(x/x₁))

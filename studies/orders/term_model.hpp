@@ -7,8 +7,9 @@
 ///     g_i(x_i)),
 ///
 /// where g_i is the next term of the series, x_i^{k_i}, or ln x_i where the term has a logarithm,
-/// and T_f is a floor, which no width removes. For d = 2 this is the model of two_term_model.hpp.
-/// It is fitted on ln e; x_i is in units of the geometric mean of its values.
+/// or x_i^{-p_i} where it has a constant, and T_f is a floor, which no width removes. For d = 2
+/// this is the model of two_term_model.hpp. It is fitted on ln e; x_i is in units of the geometric
+/// mean of its values.
 #pragma once
 
 #include "studies/orders/least_squares.hpp"
@@ -41,7 +42,8 @@ struct TermRows {
 struct TermShape {
     static constexpr double none = -1;
     static constexpr double logarithm = 0;
-    /// One a width: the power k > 0 of the next term, `logarithm`, or `none`.
+    static constexpr double constant = -2;
+    /// One a width: the power k > 0 of the next term, `logarithm`, `constant`, or `none`.
     std::vector<double> next;
     bool floor = false;
 

@@ -184,10 +184,16 @@ TwoTermFit fit_two_term(std::span<const Refinement> records,
     }
     if (const Misfit misfit = misfit_of(records, usable, *steadiest, *fit.ensemble);
         misfit.alike > most_alike && misfit.rms > least_misfit) {
-        fit.failure = fmt::format("the sum of two terms does not fit: it is off by {:.0f} %, and "
-                                  "alike in neighbouring rows",
-                                  100 * misfit.rms);
-        return fit;
+        fit.misfit = fmt::format("the sum of two terms does not fit: it is off by {:.0f} %, and "
+                                 "alike in neighbouring rows",
+                                 100 * misfit.rms);
+        if (std::ranges::none_of(fit.ensemble->members(), [&](const EnsembleMember& member) {
+                return member.along < 0 && member.place == steadiest->place &&
+                       member.fit.scale < least_misfit;
+            })) {
+            fit.failure = fit.misfit;
+            return fit;
+        }
     }
     const auto orders = fit.ensemble->orders();
     fit.p = orders[0];

@@ -44,6 +44,9 @@ struct TwoTermFit {
     TwoTermModel model; ///< of the error itself, against the exact solution
     /// Why there is no model; empty where there is one.
     std::string failure;
+    /// Why the leading terms alone are none, though a model with next terms, a logarithm or a
+    /// constant has orders: a, b and ρ then stand for nothing. Empty where they fit.
+    std::string misfit = {};
     std::optional<OrderEnsemble> ensemble;
     OrderInterval p;
     OrderInterval q;
@@ -64,8 +67,9 @@ struct TwoTermFit {
     bool p_determined() const { return p.determined; }
     bool q_determined() const { return q.determined; }
     bool holds() const { return failure.empty(); }
+    bool has_sizes() const { return holds() && misfit.empty(); }
     /// Both orders are determined: the model may be drawn and predict.
-    bool predicts() const { return holds() && p.determined && q.determined; }
+    bool predicts() const { return has_sizes() && p.determined && q.determined; }
 };
 
 /// Needs seven finite, positive records in three h and three Δt; with fewer the fit says so in
