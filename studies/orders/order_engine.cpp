@@ -137,6 +137,8 @@ std::vector<TermShape> shapes_of(std::size_t widths) {
         if (widths > 1)
             shapes.push_back({std::vector<double>(widths, power)});
     }
+    if (widths == 1)
+        return shapes;
     for (const double power : {0.5, TermShape::logarithm, TermShape::constant})
         for (std::size_t i = 0; i < widths; ++i) {
             auto next = plain;
@@ -158,6 +160,17 @@ bool is_a_difference(const TermFit& fit, const TermRows& rows) {
             return false;
     }
     return true;
+}
+
+/// Whether a fit with a logarithm has none: it is then that of the leading terms, and nothing tells
+/// its order from the size of the logarithm.
+bool has_lost_its_logarithm(const TermFit& fit) {
+    constexpr double least = 1e-3;
+    for (std::size_t i = 0; i < fit.shape.next.size(); ++i)
+        if (fit.shape.next[i] == TermShape::logarithm &&
+            std::abs(fit.next(static_cast<Index>(i))) < least)
+            return true;
+    return false;
 }
 
 /// All combinations of 0 … most[i].
@@ -268,7 +281,7 @@ void OrderEnsemble::fit_all_widths(const TermRows& rows) {
                 continue;
             auto fit = fit_terms(window, shapes[k], plain ? &*plain : nullptr,
                                  closest[k] ? &*closest[k] : nullptr);
-            if (!fit || is_a_difference(*fit, window))
+            if (!fit || is_a_difference(*fit, window) || has_lost_its_logarithm(*fit))
                 continue;
             if (k == 0)
                 plain = fit;

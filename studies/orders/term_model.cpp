@@ -83,58 +83,77 @@ double reference_of(const Eigen::VectorXd& log_reference, Eigen::Index i) {
     return log_reference.size() == 0 ? std::numeric_limits<double>::quiet_NaN() : log_reference[i];
 }
 
-/// ln e at one row, and its gradient where that is not null; NaN where the model has no error.
-double log_error_at(const Layout& layout, const Eigen::VectorXd& theta,
-                    const Eigen::Ref<const Eigen::VectorXd, 0, Eigen::InnerStride<>>& log_widths,
-                    const Eigen::VectorXd& log_reference,
-                    const std::function<void(Eigen::Index, double)>* gradient) {
-    constexpr Eigen::Index most = 8;
-    const Eigen::Index d = layout.widths();
-    Term terms[most];
-    double pull[most]; // Σ_j ρ_ij T_j, half the derivative of e² by T_i
-    for (Eigen::Index i = 0; i < d; ++i) {
-        terms[i] = term_of(layout, theta, i, log_widths[i], reference_of(log_reference, i));
-        pull[i] = terms[i].value;
+/// The model at one θ.
+class ModelAt {
+public:
+    ModelAt(const Layout& layout, const Eigen::VectorXd& theta) : layout_(layout), theta_(theta) {
+        const Eigen::Index first = 2 * layout.widths();
+        const Eigen::Index pairs = layout.pair(layout.widths() - 1, layout.widths()) - first;
+        rho_ = theta.segment(first, pairs).array().sin();
+        by_angle_ = theta.segment(first, pairs).array().cos();
     }
-    for (Eigen::Index i = 0; i < d; ++i)
-        for (Eigen::Index j = i + 1; j < d; ++j) {
-            const double rho = std::sin(theta[layout.pair(i, j)]);
-            pull[i] += rho * terms[j].value;
-            pull[j] += rho * terms[i].value;
-        }
-    const double floor = layout.floor() < 0 ? 0.0 : std::exp(2 * theta[layout.floor()]);
-    double square = floor;
-    for (Eigen::Index i = 0; i < d; ++i) {
-        square += terms[i].value * pull[i];
-        if (!(terms[i].value > 0))
-            return std::numeric_limits<double>::quiet_NaN();
-    }
-    if (gradient != nullptr) {
+
+    /// ln e at one row; NaN where the model has no error. Its derivative by θ_k goes to
+    /// gradient[k · stride] where that is not null.
+    double log_error(const Eigen::Ref<const Eigen::VectorXd, 0, Eigen::InnerStride<>>& log_widths,
+                     const Eigen::VectorXd& log_reference, double* gradient,
+                     Eigen::Index stride) const {
+        const Eigen::Index d = layout_.widths();
+        Term terms[most_widths];
+        double pull[most_widths]; // Σ_j ρ_ij T_j, half the derivative of e² by T_i
         for (Eigen::Index i = 0; i < d; ++i) {
-            const double by_term = pull[i] / square;
-            (*gradient)(2 * i, by_term * terms[i].value);
-            (*gradient)(2 * i + 1, by_term * terms[i].by_order);
-            if (layout.next(i) >= 0)
-                (*gradient)(layout.next(i), by_term * terms[i].by_next);
-            for (Eigen::Index j = i + 1; j < d; ++j)
-                (*gradient)(layout.pair(i, j), std::cos(theta[layout.pair(i, j)]) * terms[i].value *
-                                                   terms[j].value / square);
+            terms[i] = term_of(layout_, theta_, i, log_widths[i], reference_of(log_reference, i));
+            if (!(terms[i].value > 0))
+                return std::numeric_limits<double>::quiet_NaN();
+            pull[i] = terms[i].value;
         }
-        if (layout.floor() >= 0)
-            (*gradient)(layout.floor(), floor / square);
+        Eigen::Index pair = 0;
+        for (Eigen::Index i = 0; i < d; ++i)
+            for (Eigen::Index j = i + 1; j < d; ++j, ++pair) {
+                pull[i] += rho_[pair] * terms[j].value;
+                pull[j] += rho_[pair] * terms[i].value;
+            }
+        const double floor = layout_.floor() < 0 ? 0.0 : std::exp(2 * theta_[layout_.floor()]);
+        double square = floor;
+        for (Eigen::Index i = 0; i < d; ++i)
+            square += terms[i].value * pull[i];
+        if (gradient != nullptr) {
+            pair = 0;
+            for (Eigen::Index i = 0; i < d; ++i) {
+                const double by_term = pull[i] / square;
+                gradient[2 * i * stride] = by_term * terms[i].value;
+                gradient[(2 * i + 1) * stride] = by_term * terms[i].by_order;
+                if (layout_.next(i) >= 0)
+                    gradient[layout_.next(i) * stride] = by_term * terms[i].by_next;
+                for (Eigen::Index j = i + 1; j < d; ++j, ++pair)
+                    gradient[layout_.pair(i, j) * stride] =
+                        by_angle_[pair] * terms[i].value * terms[j].value / square;
+            }
+            if (layout_.floor() >= 0)
+                gradient[layout_.floor() * stride] = floor / square;
+        }
+        return square > 0 ? std::log(square) / 2 : std::numeric_limits<double>::quiet_NaN();
     }
-    return square > 0 ? std::log(square) / 2 : std::numeric_limits<double>::quiet_NaN();
-}
+
+private:
+    static constexpr Eigen::Index most_widths = 8;
+    static constexpr int most_pairs = most_widths * (most_widths - 1) / 2;
+    using Pairs = Eigen::Array<double, Eigen::Dynamic, 1, 0, most_pairs, 1>;
+
+    const Layout& layout_;
+    const Eigen::VectorXd& theta_;
+    Pairs rho_;
+    Pairs by_angle_; ///< ∂ρ/∂φ
+};
 
 ModelFunction model_of(const Layout& layout, const TermRows& rows) {
     return [&layout, &rows](const Eigen::VectorXd& theta, Eigen::VectorXd& values,
                             Eigen::MatrixXd* jacobian) {
-        for (Eigen::Index r = 0; r < rows.size(); ++r) {
-            const std::function<void(Eigen::Index, double)> set =
-                [r, jacobian](Eigen::Index k, double value) { (*jacobian)(r, k) = value; };
-            values[r] = log_error_at(layout, theta, rows.log_widths.row(r).transpose(),
-                                     rows.log_reference, jacobian == nullptr ? nullptr : &set);
-        }
+        const ModelAt model(layout, theta);
+        for (Eigen::Index r = 0; r < rows.size(); ++r)
+            values[r] =
+                model.log_error(rows.log_widths.row(r).transpose(), rows.log_reference,
+                                jacobian == nullptr ? nullptr : &(*jacobian)(r, 0), rows.size());
     };
 }
 
@@ -207,9 +226,9 @@ std::vector<Eigen::VectorXd> starts_of(const Layout& layout, const TermRows& row
     return starts;
 }
 
-/// A shorter model's θ with next terms of size zero, and a floor far below; beside it, where a term
-/// has a logarithm, those with one of either sign that has the same slope in the middle: from zero
-/// alone one valley in four is missed.
+/// A shorter model's θ with next terms of size zero, and a floor far below; where a term has a
+/// logarithm, with one of either sign and the same slope in the middle: at zero its derivative and
+/// that by the order are one.
 std::vector<Eigen::VectorXd> lengthened(const Layout& layout, const TermRows& rows,
                                         const TermFit& simpler) {
     Eigen::VectorXd theta = Eigen::VectorXd::Zero(layout.size());
@@ -220,12 +239,14 @@ std::vector<Eigen::VectorXd> lengthened(const Layout& layout, const TermRows& ro
     std::vector<Eigen::VectorXd> starts{theta};
     constexpr double part = 0.25; // T stays positive over three halvings to either side
     for (Eigen::Index i = 0; i < layout.widths(); ++i)
-        if (layout.next(i) >= 0 && layout.power(i) == TermShape::logarithm)
+        if (layout.next(i) >= 0 && layout.power(i) == TermShape::logarithm) {
+            starts.clear();
             for (const double c : {-part, part}) {
                 starts.push_back(theta);
                 starts.back()[layout.next(i)] = c;
                 starts.back()[2 * i + 1] -= c;
             }
+        }
     return starts;
 }
 
@@ -352,6 +373,11 @@ FittedNumber TermFit::correlation(Eigen::Index first, Eigen::Index second) const
     return {std::sin(theta[at]), std::abs(std::cos(theta[at])) * std::sqrt(covariance(at, at))};
 }
 
+double TermFit::next(Eigen::Index width) const {
+    const auto at = Layout(shape, log_centre.size()).next(width);
+    return at < 0 ? 0.0 : theta[at];
+}
+
 double TermFit::term(Eigen::Index width, double log_width) const {
     const Layout layout(shape, log_centre.size());
     return term_at(layout, theta, width, log_width - log_centre[width]).value;
@@ -360,13 +386,11 @@ double TermFit::term(Eigen::Index width, double log_width) const {
 FittedNumber TermFit::log_error(const Eigen::VectorXd& log_widths, bool against_reference) const {
     const Layout layout(shape, log_centre.size());
     Eigen::VectorXd gradient = Eigen::VectorXd::Zero(layout.size());
-    const std::function<void(Eigen::Index, double)> set = [&](Eigen::Index k, double value) {
-        gradient[k] = value;
-    };
     const Eigen::VectorXd reference = against_reference && log_reference.size() > 0
                                           ? Eigen::VectorXd(log_reference - log_centre)
                                           : Eigen::VectorXd();
-    const double value = log_error_at(layout, theta, log_widths - log_centre, reference, &set);
+    const double value =
+        ModelAt(layout, theta).log_error(log_widths - log_centre, reference, gradient.data(), 1);
     return {value, std::sqrt(gradient.dot(covariance * gradient))};
 }
 
@@ -384,12 +408,15 @@ std::optional<TermFit> fit_terms(const TermRows& given, const TermShape& shape,
     const auto starts =
         simpler != nullptr ? lengthened(layout, rows, *simpler) : starts_of(layout, rows);
     auto best = least_squares(model, rows.log_errors, rows.weights, starts, rows.scatter);
-    if (beside != nullptr) {
+    // Where the search may have ended in a false valley; and where two fit to rounding, as rows of
+    // few levels allow: then that of other rows.
+    constexpr double worse = 2;
+    if (beside != nullptr &&
+        (!best || best->scale() > worse * beside->scale || best->scale() <= least_scatter)) {
         const std::vector<Eigen::VectorXd> start{in_units(layout, *beside, centre)};
         auto same = start[0].allFinite()
                         ? least_squares(model, rows.log_errors, rows.weights, start, rows.scatter)
                         : std::nullopt;
-        // Of two that fit to rounding, as rows of few levels allow, the one of more rows.
         if (same && (!best || same->scale() <= std::max(best->scale(), least_scatter)))
             best = std::move(same);
     }

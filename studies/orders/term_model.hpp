@@ -74,6 +74,7 @@ struct TermFit {
 
     FittedNumber order(Eigen::Index width) const;                            ///< p_i
     FittedNumber correlation(Eigen::Index first, Eigen::Index second) const; ///< ρ
+    double next(Eigen::Index width) const; ///< c_i; 0 without a next term
     /// T_i at a row.
     double term(Eigen::Index width, double log_width) const;
     /// ln e at a row, against the exact solution or against the reference.

@@ -133,6 +133,38 @@ BOOST_DATA_TEST_CASE(both_orders_of_a_grid_are_held_with_next_terms_and_correlat
     BOOST_TEST(holds(orders[1], 1.0));
 }
 
+// What a term of a grid may have beside its power: a next term half an order on, a logarithm, or a
+// floor that no width removes; with either sign of the other term.
+BOOST_DATA_TEST_CASE(the_orders_of_a_grid_hold_beside_half_orders_logarithms_and_floors,
+                     data::make({1, 2, 3}) * data::make({1, 2}) * data::make({-1.0, 1.0}), p, q,
+                     sign) {
+    const double a = 2;
+    const double b = a * std::pow(0.05, p - q); // as large in the middle
+    const auto in_time = [&](double dt) { return sign * b * std::pow(dt, q); };
+    const std::vector<std::pair<std::string, std::function<double(double, double)>>> laws{
+        {"half an order on",
+         [&](double h, double dt) {
+             return std::abs(a * std::pow(h, p) * (1 + 3 * std::sqrt(h)) + in_time(dt));
+         }},
+        {"logarithm",
+         [&](double h, double dt) {
+             return std::abs(a * std::pow(h, p) * -std::log(h) + in_time(dt));
+         }},
+        {"floor", [&](double h, double dt) {
+             const double floor = a * std::pow(0.0125, p);
+             return a * std::pow(h, p) + std::abs(in_time(dt)) + floor;
+         }}};
+    for (const auto& [name, law] : laws) {
+        const auto orders = estimate_orders(grid(law));
+        for (const auto& [order, truth] : {std::pair(orders[0], p), std::pair(orders[1], q)})
+            if (order.determined) {
+                BOOST_TEST_CONTEXT(name << ": " << order.low << " to " << order.high)
+                BOOST_TEST((order.low <= truth && order.high >= truth));
+            }
+        BOOST_TEST((orders[0].determined || orders[1].determined), name);
+    }
+}
+
 BOOST_AUTO_TEST_CASE(a_product_of_both_widths_does_not_pass_for_an_order) {
     const auto orders =
         estimate_orders(grid([](double h, double dt) { return h * h + 0.3 * dt + h * h * dt; }));

@@ -4,6 +4,7 @@
 #include <boost/test/unit_test.hpp>
 
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numbers>
 #include <random>
@@ -283,6 +284,35 @@ BOOST_AUTO_TEST_CASE(a_term_far_below_the_other_s_next_term_is_not_determined) {
         fit_two_term(grid([](double h, double dt) { return cancelling.error(h, dt); }));
     BOOST_TEST(clear.p_determined());
     BOOST_TEST(clear.q_determined());
+}
+
+// A product of its terms, or three times the root of it beside their sum, is no sum of two terms;
+// scatter of a tenth about such a sum is.
+BOOST_AUTO_TEST_CASE(where_the_sum_of_two_terms_does_not_fit_there_is_no_model) {
+    const auto fitted = [](const std::function<double(double, double)>& law) {
+        std::vector<Refinement> records;
+        for (const double h : {0.1, 0.05, 0.025, 0.0125})
+            for (const double dt : {0.1, 0.05, 0.025, 0.0125})
+                records.push_back({.h = h, .dt = dt, .error = law(h, dt)});
+        return fit_two_term(records);
+    };
+    const auto product = fitted([](double h, double dt) { return 5 * h * h * dt; });
+    BOOST_TEST(product.failure.find("does not fit") != std::string::npos);
+    BOOST_TEST(!product.predicts());
+    const auto root = fitted(
+        [](double h, double dt) { return h * h + 0.05 * dt + 3 * std::sqrt(h * h * 0.05 * dt); });
+    BOOST_TEST(root.failure.find("does not fit") != std::string::npos);
+    // A floor is none of the two, and yet the orders are known: the sizes are not.
+    const auto floor = fitted([](double h, double dt) { return h * h + 0.05 * dt + 3e-3; });
+    BOOST_TEST(floor.failure == "");
+    std::mt19937 random(7);
+    std::normal_distribution<double> scatter(0.0, 0.1);
+    for (int k = 0; k < 20; ++k) {
+        const auto noisy = fitted(
+            [&](double h, double dt) { return (h * h + 0.05 * dt) * std::exp(scatter(random)); });
+        BOOST_TEST(noisy.failure == "");
+        BOOST_TEST(noisy.misfit == "");
+    }
 }
 
 BOOST_AUTO_TEST_CASE(too_little_data_are_no_fit) {
