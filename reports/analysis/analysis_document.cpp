@@ -89,11 +89,14 @@ void add_limit(const ColumnAnalysis& column, std::vector<Block>& blocks) {
 }
 
 /// Whose names h and dt of the model are.
-std::string names_in_model(const DataAnalysis& analysis) {
+std::string names_in_model(const DataAnalysis& analysis, const ColumnAnalysis& column) {
     std::vector<std::string> names;
-    for (const auto& width : analysis.widths)
-        if (width.numbers.front() != width.numbers.back())
+    for (std::size_t i = 0; i < analysis.widths.size(); ++i) {
+        const DataColumn& width = analysis.widths[i];
+        if (width.numbers.front() != width.numbers.back() &&
+            !column.by_width[i].status.starts_with("it is refined with"))
             names.push_back(width.name);
+    }
     if (names.size() != 2 || (names[0] == "h" && names[1] == "dt"))
         return {};
     return fmt::format(", {} for h and {} for dt", names[0], names[1]);
@@ -110,7 +113,7 @@ Section section_of(const DataAnalysis& analysis, const ColumnAnalysis& column) {
         blocks.emplace_back(
             Paragraph{fmt::format("a grid of {} runs: e^2 = a^2 h^2p + 2 rho a b h^p dt^q + b^2 "
                                   "dt^2q{}",
-                                  analysis.rows(), names_in_model(analysis))});
+                                  analysis.rows(), names_in_model(analysis, column))});
         if (column.two_term->holds())
             blocks.emplace_back(fit_table({{column.name, &*column.two_term}}, analysis.rows()));
     }

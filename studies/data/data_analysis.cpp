@@ -12,6 +12,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <set>
 
 namespace tvbeam {
 
@@ -43,6 +44,19 @@ std::vector<std::size_t> refined(const std::vector<DataColumn>& widths) {
         if (varies(widths[i].numbers))
             result.push_back(i);
     return result;
+}
+
+/// Whether two widths have as many levels together as each has alone: none changes without the
+/// other.
+bool are_refined_together(const DataColumn& first, const DataColumn& second) {
+    std::set<double> of_first, of_second;
+    std::set<std::pair<double, double>> of_both;
+    for (std::size_t r = 0; r < first.numbers.size(); ++r) {
+        of_first.insert(first.numbers[r]);
+        of_second.insert(second.numbers[r]);
+        of_both.emplace(first.numbers[r], second.numbers[r]);
+    }
+    return of_both.size() == of_first.size() && of_both.size() == of_second.size();
 }
 
 std::string order_words(const std::string& width, const OrderInterval& order) {
@@ -273,7 +287,15 @@ ColumnAnalysis analyse_errors(const DataAnalysis& data, const DataColumn& errors
             column.by_width[i].status = "it is the same in all rows";
     if (used.empty())
         used = {0};
+    const auto refined_widths = used;
+    // Of two alone the ladder of both is analysed; of four, no orders are found.
     constexpr std::size_t most_widths = 3;
+    for (std::size_t i = 0; used.size() == most_widths && i < most_widths; ++i)
+        for (std::size_t j = used.size(); used.size() > 2 && --j > i;)
+            if (are_refined_together(data.widths[used[i]], data.widths[used[j]])) {
+                column.by_width[used[j]].status = "it is refined with " + data.widths[used[i]].name;
+                used.erase(used.begin() + static_cast<std::ptrdiff_t>(j));
+            }
     if (used.size() <= 2) {
         analyse_records(data, used, sigma, column);
         leave_open(data, errors, stated, column);
@@ -294,7 +316,7 @@ ColumnAnalysis analyse_errors(const DataAnalysis& data, const DataColumn& errors
             column.by_width[used[k]] = orders[k];
     }
     std::string words;
-    for (const auto i : used)
+    for (const auto i : refined_widths)
         words += (words.empty() ? "" : "; ") + order_words(data.widths[i].name, column.by_width[i]);
     column.findings.insert(column.findings.begin(), column.name + ": " + words);
     if (stated.empty() && !sigma.empty())

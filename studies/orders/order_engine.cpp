@@ -434,7 +434,8 @@ double OrderEnsemble::sequence_factor() const {
 double OrderEnsemble::grid_factor() const {
     const bool few = std::ranges::any_of(
         levels_, [](const auto& levels) { return levels.size() == fewest_levels; });
-    return tuning_.grid * (few ? tuning_.three_levels : 1.0);
+    return tuning_.grid * (few ? tuning_.three_levels : 1.0) *
+           (rows_.scatter > 0 ? tuning_.scattered : 1.0);
 }
 
 double OrderEnsemble::greatest_share(Index width) const {

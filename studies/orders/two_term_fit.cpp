@@ -92,6 +92,11 @@ Misfit misfit_of(std::span<const Refinement> records, const std::vector<std::siz
             rows.push_back({records[i].h, records[i].dt,
                             std::log(records[i].error) - member.fit.log_error(at, true).value});
         }
+    // The fit is robust: what is out of its line says nothing of the rest, unless it is much of it.
+    const double limit = std::max(out_of_line * member.fit.scale, ensemble.tuning().narrowest);
+    const auto is_out = [&](const Residual& row) { return !(std::abs(row.off) <= limit); };
+    if (5 * std::ranges::count_if(rows, is_out) <= std::ssize(rows))
+        std::erase_if(rows, is_out);
     double squares = 0;
     for (const auto& row : rows)
         squares += row.off * row.off;
@@ -182,11 +187,16 @@ TwoTermFit fit_two_term(std::span<const Refinement> records,
                       "three dt, each an eighth or more apart";
         return fit;
     }
+    double known = 0; // the mean square of the stated deviations
+    for (const auto& row : rows)
+        if (!sigma.empty())
+            known += row.sigma * row.sigma / static_cast<double>(rows.size());
     if (const Misfit misfit = misfit_of(records, usable, *steadiest, *fit.ensemble);
-        misfit.alike > most_alike && misfit.rms > least_misfit) {
-        fit.misfit = fmt::format("the sum of two terms does not fit: it is off by {:.0f} %, and "
-                                 "alike in neighbouring rows",
-                                 100 * misfit.rms);
+        misfit.alike > most_alike && misfit.rms > std::max(least_misfit, 2 * std::sqrt(known))) {
+        fit.misfit =
+            fmt::format("the sum of two terms does not fit: it is off by a factor of {:.2f}, "
+                        "alike in neighbouring rows",
+                        std::exp(misfit.rms));
         if (std::ranges::none_of(fit.ensemble->members(), [&](const EnsembleMember& member) {
                 return member.along < 0 && member.place == steadiest->place &&
                        member.fit.scale < least_misfit;

@@ -691,6 +691,21 @@ BOOST_AUTO_TEST_CASE(the_last_digits_of_values_are_read) {
     BOOST_TEST(units("h,value\n4,0\n2,0\n").empty());
 }
 
+// hx = hy throughout: which of them has an order, no row tells.
+BOOST_AUTO_TEST_CASE(widths_that_are_refined_together_have_one_order) {
+    std::string text = "hx,hy,dt,error\n";
+    for (const double h : {0.1, 0.05, 0.025, 0.0125})
+        for (const double dt : {0.1, 0.05, 0.025, 0.0125})
+            text += std::to_string(h) + "," + std::to_string(h) + "," + std::to_string(dt) + "," +
+                    std::to_string(100 * h + 2000 * h * h * h + 800 * dt * dt) + "\n";
+    const auto column = analysis_of(text, {.sizes = {"hx", "hy"}}).columns[0];
+    BOOST_TEST(column.by_width[1].status == "it is refined with hx");
+    BOOST_TEST(!column.by_width[1].determined);
+    BOOST_TEST(column.by_width[0].determined);
+    BOOST_TEST((column.by_width[0].low <= 1 && column.by_width[0].high >= 1));
+    BOOST_TEST((column.by_width[2].low <= 2 && column.by_width[2].high >= 2));
+}
+
 BOOST_AUTO_TEST_CASE(widths_are_exact_where_their_ratios_are_fractions_of_small_numbers) {
     const auto units = [](const std::string& widths) {
         const auto data = data_of("h,error\n" + widths);
