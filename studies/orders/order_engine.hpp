@@ -54,7 +54,7 @@ struct OrderTuning {
     /// … and this much wider under known scatter, which more models follow: of 450 grids in two
     /// digits 15 of 430 intervals missed before half orders, logarithms and constants came in, 19
     /// of 425 after.
-    double scattered = 1.25;
+    double scattered = 2.0;
     /// … and this much wider where some width has three levels alone: no window leaves one out, and
     /// all that is seen of its drift is what models with a next term change.
     double three_levels = 2.5;
