@@ -40,8 +40,9 @@ Json json_of(const OrdersResult& orders, const OrdersBlock& block) {
         const auto known = [](const OrderInterval& order, double value) {
             return number_json(order.determined ? std::optional(value) : std::nullopt);
         };
-        const auto size = [&](const OrderInterval& order, double value) {
-            return fit.has_sizes() ? known(order, value) : Json();
+        const auto size = [&known, has_sizes = fit.has_sizes()](const OrderInterval& order,
+                                                                double value) {
+            return has_sizes ? known(order, value) : Json();
         };
         const auto& model = fit.model;
         norms[norm] = {{"status", "ok"},

@@ -208,7 +208,8 @@ double rough_order(const std::vector<double>& widths, const std::vector<double>&
         }
     if (!varies(x))
         return 0;
-    double intercept, slope, c00, c01, c11, squares;
+    double intercept = 0, slope = 0;
+    double c00 = 0, c01 = 0, c11 = 0, squares = 0; // of a covariance that is not asked for
     gsl_fit_linear(x.data(), 1, y.data(), 1, x.size(), &intercept, &slope, &c00, &c01, &c11,
                    &squares);
     constexpr double greatest = 8;
