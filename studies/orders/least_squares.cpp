@@ -107,7 +107,9 @@ public:
                               smallest_gradient * std::max(1.0, here_.chi2 / 2))
                 break;
         }
-        if (here_.chi2 < best_.chi2)
+        // Of valleys that are equally deep the first start's, whatever rounding says.
+        constexpr double deeper = 1 - 1e-9;
+        if (here_.chi2 < deeper * best_.chi2)
             std::swap(here_, best_);
     }
 

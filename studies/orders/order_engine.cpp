@@ -148,8 +148,9 @@ std::vector<TermShape> shapes_of(std::size_t widths) {
     return shapes;
 }
 
-/// Whether two terms are far larger than the error in every row: their orders are then close to
-/// each other, or to zero, and stand for a curve that no power has.
+/// Whether the largest term is far larger than the error in every row: the error is then a
+/// difference of two, whose orders are close to each other, or to zero, and stand for a curve that
+/// no power has.
 bool is_a_difference(const TermFit& fit, const TermRows& rows) {
     constexpr double far_larger = 10;
     for (Index r = 0; r < rows.size(); ++r) {
@@ -171,6 +172,10 @@ bool has_lost_its_logarithm(const TermFit& fit) {
             std::abs(fit.next(static_cast<Index>(i))) < least)
             return true;
     return false;
+}
+
+bool is_believable(const TermFit& fit, const TermRows& rows) {
+    return !is_a_difference(fit, rows) && !has_lost_its_logarithm(fit);
 }
 
 /// All combinations of 0 … most[i].
@@ -281,7 +286,7 @@ void OrderEnsemble::fit_all_widths(const TermRows& rows) {
                 continue;
             auto fit = fit_terms(window, shapes[k], plain ? &*plain : nullptr,
                                  closest[k] ? &*closest[k] : nullptr);
-            if (!fit || is_a_difference(*fit, window) || has_lost_its_logarithm(*fit))
+            if (!fit || !is_believable(*fit, window))
                 continue;
             if (k == 0)
                 plain = fit;
@@ -290,13 +295,15 @@ void OrderEnsemble::fit_all_widths(const TermRows& rows) {
             members_.push_back({std::move(*fit), static_cast<int>(k), place});
         }
     }
-    for (auto& member : members_)
-        if (const auto& best = *closest[static_cast<std::size_t>(member.family)];
-            is_far_off(member.fit, best))
-            if (auto fit = fit_terms(rows_from(rows, member.place), best.shape, &member.fit, &best);
-                fit && fit->scale < member.fit.scale &&
-                !is_a_difference(*fit, rows_from(rows, member.place)))
-                member.fit = std::move(*fit);
+    for (auto& member : members_) {
+        const auto& best = *closest[static_cast<std::size_t>(member.family)];
+        if (!is_far_off(member.fit, best))
+            continue;
+        const auto window = rows_from(rows, member.place);
+        auto fit = fit_terms(window, best.shape, &member.fit, &best);
+        if (fit && fit->scale < member.fit.scale && is_believable(*fit, window))
+            member.fit = std::move(*fit);
+    }
 }
 
 void OrderEnsemble::fit_each_alone(const TermRows& rows) {
