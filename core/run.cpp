@@ -5,6 +5,7 @@
 #include "core/moment_form.hpp"
 #include "core/norms/error_norms.hpp"
 #include "core/norms/quadrature_uncertainty.hpp"
+#include "core/norms/underflow.hpp"
 #include "core/sine/sine_run.hpp"
 #include "core/time/time_levels.hpp"
 
@@ -145,10 +146,15 @@ RunResult attempt(const RunRequest& request, const ProblemData& data, const Obse
     if (!result)
         result = march(request, data, mesh, needs, observer);
     result->counters.integration_cells = integration_mesh(mesh).elements();
-    if (!result->errors.empty())
-        result->uncertainties =
-            quadrature_uncertainties(data, loads_of(data, request.scheme.algorithm), *resolution,
-                                     mesh, request.norms, result->errors, request.final_time);
+    if (result->errors.empty())
+        return *std::move(result);
+    if (const std::string reason =
+            underflow(data, request.norms, result->errors, request.final_time);
+        !reason.empty())
+        return failure(reason, result->counters);
+    result->uncertainties =
+        quadrature_uncertainties(data, loads_of(data, request.scheme.algorithm), *resolution, mesh,
+                                 request.norms, result->errors, request.final_time);
     return *std::move(result);
 }
 

@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace tvbeam {
@@ -336,6 +337,13 @@ std::string why_not_of(const Norm& norm, const ExpectedOrders& expected,
     return {};
 }
 
+/// Whether squares of the size have the digits of a double.
+bool has_a_square(const LeadingTerm& term) {
+    constexpr double least =
+        std::numeric_limits<double>::min() / std::numeric_limits<double>::epsilon();
+    return term.constant * term.constant >= least;
+}
+
 std::vector<NormConstants> constants_of(const Squared& squared, const Forecaster& forecaster,
                                         const ExpectedOrders& expected, const TimeScheme& scheme) {
     std::vector<NormConstants> all;
@@ -357,6 +365,11 @@ std::vector<NormConstants> constants_of(const Squared& squared, const Forecaster
                     "at t = " + number_text(*t) + " a derivative of the solution has no value";
             else
                 term = leading_term(norm, of, squares);
+            if (term && !has_a_square(*term)) {
+                constants.unknown = "its square is below what a double holds, or no sample meets "
+                                    "what it comes from";
+                term.reset();
+            }
         };
         if (order->in_h.has_error())
             add(constants.in_h, root * order->in_h.least, squared.space);

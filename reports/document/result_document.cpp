@@ -83,6 +83,8 @@ std::string reference_line(const Scene& scene, const ReferenceResult& result) {
                        "s = " + std::to_string(block.elements) + ", dt = " + shortest(block.dt);
     if (block.richardson)
         line += ", with half of s, and with twice dt";
+    if (scene.scheme.algorithm != Algorithm::direct)
+        line += ", by the direct algorithm";
     if (scene.has_exact_solution())
         line += "; not against the exact solution that the scene has";
     if (scene.defect)

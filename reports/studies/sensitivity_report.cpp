@@ -53,15 +53,18 @@ std::string finding(const CaughtDefect& defect, const SensitivityResult& result,
 }
 
 Section section(const SensitivityResult& result, const SensitivityBlock& block) {
-    Table table{"The least factor at which an expectation of the scene catches a defect; empty: at "
-                "none that was tried.",
-                {"", {{"expectation", result.expectations}}},
-                {{"", {}}}};
+    Table table{
+        "The factor at which an expectation of the scene first catches a defect: of one a "
+        "decade, and, by bisection, of those from the last that it lets pass to the first "
+        "that it catches. What it catches between two decades alone is not found. Empty: at "
+        "none that was tried.",
+        {"", {{"expectation", result.expectations}}},
+        {{"", {}}}};
     Section section{"Sensitivity of the expectations", {}};
     auto& blocks = section.blocks;
     blocks.emplace_back(
-        Paragraph{fmt::format("Sensitivity: defects times {} to {}, and the least factor at which "
-                              "each expectation catches them",
+        Paragraph{fmt::format("Sensitivity: defects times {} to {}, and the factor at which each "
+                              "expectation first catches them",
                               shortest(block.smallest), shortest(block.largest))});
     for (std::size_t k = 0; k < result.defects.size(); ++k) {
         const auto& defect = result.defects[k];

@@ -216,7 +216,14 @@ void expect_interval(TableReader& table, const std::string& key,
     const auto unknown = [](const OrderInterval& interval) {
         return "not determined: " + interval.status;
     };
-    if (const auto wanted = table.flag(key + "_determined"))
+    const auto wanted = table.flag(key + "_determined");
+    if (wanted && !*wanted)
+        for (const char* figure : {"_holds", "_half_width"})
+            if (table.has(key + figure))
+                throw table.error(key + figure, " asks for an interval, which " + key +
+                                                    "_determined = false wants not to be there; "
+                                                    "leave out one of the two");
+    if (wanted)
         add([unknown, wanted, place = table.place(key + "_determined")](
                 const std::string& what, const OrderInterval& interval) -> CheckedExpectation {
             return {what, *wanted ? "determined" : "not determined",

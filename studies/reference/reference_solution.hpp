@@ -12,9 +12,10 @@ namespace tvbeam {
 /// A computed solution in place of an exact one.
 ///
 /// A run of the scene's own scheme, on a mesh and with steps that every rung's divide into, is made
-/// once for all studies. Errors are then measured against it by the same norms, element by element
-/// of the reference, so that its kinks are integrated exactly. What they show is the difference of
-/// two errors; how the error of the reference is accounted for:
+/// once for all studies, by the direct algorithm also where theirs is iterated. Errors are then
+/// measured against it by the same norms, element by element of the reference, so that its kinks
+/// are integrated exactly. What they show is the difference of two errors; how the error of the
+/// reference is accounted for:
 ///
 /// - the two-term fit takes it into its model (TwoTermOptions::reference), so that a, b, p and q
 ///   are those of the error itself. Exact in Δt; in h it takes the reference's error for a small

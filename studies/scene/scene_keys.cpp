@@ -432,7 +432,7 @@ Entries of_expectations() {
          "first contact goes), beyond_stops, period_change"},
         {"expect.sensitivity", KeyType::table, "anything", "of the sensitivity study"},
         {"expect.sensitivity.FIGURE", KeyType::band, "anything",
-         "a defect's name: the least factor that is caught"},
+         "a defect's name: the factor that is first caught"},
         {"expect.stress", KeyType::table, "anything", "of the stress study"},
         {"expect.stress.FIGURE", KeyType::band, "anything",
          "certified, refused, stopped, failed, cases, the first four of a regime (\"time "

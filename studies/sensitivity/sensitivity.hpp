@@ -22,7 +22,7 @@ struct SensitivityBlock {
     double largest = 1.0;
 };
 
-/// For each expectation the least factor at which it catches a defect.
+/// For each expectation the factor at which it first catches a defect, of those that are tried.
 struct CaughtDefect {
     std::string name;
     std::vector<std::optional<double>> least; ///< none: at no factor that was tried
@@ -44,8 +44,9 @@ struct SensitivityResult {
 /// Runs the studies of the scene's problem, but for those that are timed, again and again with the
 /// defects times a factor. Decades are scanned from the smallest factor on; between the first at
 /// which an expectation is violated and the one before, the least factor is sought by bisection of
-/// the logarithm, to 5 % above; larger factors are not tried, and may be caught or not. all: the
-/// results without defects.
+/// the logarithm, to 5 % above; larger factors are not tried, and may be caught or not. So may
+/// lesser ones between two decades, where a defect takes an error away before it adds to it. all:
+/// the results without defects.
 SensitivityResult find_sensitivity(const SensitivityBlock& block, const StudyResult& all,
                                    const StudyContext& context);
 
