@@ -4,6 +4,7 @@
 #include "mms/expression/algebra.hpp"
 #include "mms/expression/piecewise_tape.hpp"
 #include "mms/expression/symbols.hpp"
+#include "mms/local_power.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -202,18 +203,30 @@ private:
     }
 
     /// The first power, from `least` on, with which a function leaves its value, or zero, at t: its
-    /// derivative times the length of the phase is something.
-    [[nodiscard]] std::optional<int> power(const Interval& phase, double t, Index row, int least,
-                                           double size) const {
+    /// derivative times the length of the phase is something. A fraction where that is infinite.
+    [[nodiscard]] std::optional<double> power(const Interval& phase, double t, Index row, int least,
+                                              double size) const {
         const double length = phase.end - phase.begin;
         const ArrayXXd values = tape_.at(ArrayXd::Zero(1), t, t == phase.begin);
         double factor = least == 0 ? 1.0 : length;
         for (int n = least; n <= highest_power; ++n) {
+            if (n > 0 && !std::isfinite(values(row + n, 0)))
+                return n - 1 + fraction(phase, t, row + n - 1, size / factor);
             if (std::abs(values(row + n, 0)) * factor > nothing * size)
                 return n;
             factor *= length / (n + 1);
         }
         return std::nullopt;
+    }
+
+    /// The power below one with which a row goes to its value at an end of the phase.
+    [[nodiscard]] double fraction(const Interval& phase, double t, Index row, double size) const {
+        const double inwards = t == phase.begin ? 1.0 : -1.0;
+        const double at_end = value(phase, t, row);
+        const double beta = power_below_one(
+            [&](double s) { return std::abs(value(phase, t + inwards * s, row) - at_end); },
+            phase.end - phase.begin, size);
+        return std::min(beta, 1.0);
     }
 
     Stops stops_;

@@ -11,10 +11,10 @@ namespace tvbeam {
 /// A time at which an exact solution begins to press on a stop.
 struct ContactOnset {
     double t = 0.0;
-    /// m ≥ 1: the tip comes up like (t_onset − t)^m; none: flatter than any power looked for
-    std::optional<int> approach;
+    /// m: the tip comes up like (t_onset − t)^m; none: flatter than any power looked for
+    std::optional<double> approach;
     /// k ≥ 0: the force begins like (t − t_onset)^k, with k = 0 by a jump; none: as above
-    std::optional<int> force;
+    std::optional<double> force;
 };
 
 /// What an exact solution does at rigid stops on [0, final_time].

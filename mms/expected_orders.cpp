@@ -7,6 +7,7 @@
 #include "mms/expression/piecewise_tape.hpp"
 #include "mms/expression/symbols.hpp"
 #include "mms/expression/tape_compiler.hpp"
+#include "mms/local_power.hpp"
 #include "mms/sample_points.hpp"
 #include "mms/text/error_text.hpp"
 
@@ -88,6 +89,43 @@ std::vector<Switch> switches(const DerivedSolution& derived, double final_time) 
             return jumps(row) > jump_tolerance * sizes(row) ? jumps(row) : 0.0;
         };
         result.push_back({phase.end_value, jump(0), jump(1)});
+    }
+    return result;
+}
+
+std::vector<Cusp> cusps(const DerivedSolution& derived, double final_time) {
+    const PiecewiseTape tape = rates(derived);
+    const ArrayXd x = sample_points(0.0, 1.0);
+    std::vector<Cusp> result;
+    // late: the end of a phase is read in the one that begins there.
+    const auto look = [&](double t, bool late, double direction, double length) {
+        const Eigen::ArrayXXd at_end = tape.at(x, t, late);
+        const auto power = [&](Eigen::Index row) {
+            return power_below_one(
+                [&](double s) {
+                    return (tape.at(x, t + direction * s).row(row) - at_end.row(row))
+                        .abs()
+                        .maxCoeff();
+                },
+                length, at_end.row(row).abs().maxCoeff());
+        };
+        const Cusp cusp{t, power(0), power(1)};
+        if (std::isinf(cusp.theta_t_power) && std::isinf(cusp.u_xxt_power))
+            return;
+        if (!result.empty() && result.back().t == t) {
+            result.back().theta_t_power = std::min(result.back().theta_t_power, cusp.theta_t_power);
+            result.back().u_xxt_power = std::min(result.back().u_xxt_power, cusp.u_xxt_power);
+        } else
+            result.push_back(cusp);
+    };
+    for (const PhaseExpressions& phase : derived.phases) {
+        if (!(phase.begin_value < final_time))
+            break;
+        const double end = std::min(phase.end_value, final_time);
+        const double length = end - phase.begin_value;
+        look(phase.begin_value, true, 1.0, length);
+        if (phase.end_value <= final_time)
+            look(end, false, -1.0, length);
     }
     return result;
 }
@@ -216,9 +254,14 @@ private:
                        (change.*own > 0.0 ||
                         (coupled_ && (change.theta_t_jump > 0.0 || change.u_xxt_jump > 0.0)));
             });
-        if (!kink)
-            return exactly(2.0);
-        return between(1.0, 2.0);
+        if (kink)
+            return between(1.0, 2.0);
+        double power = always;
+        for (const Cusp& cusp : known_.cusps)
+            if (cusp.t <= until)
+                power = std::min({power, of_theta || coupled_ ? cusp.theta_t_power : always,
+                                  !of_theta || coupled_ ? cusp.u_xxt_power : always});
+        return power < 1.0 ? between(1.0 + power, 2.0) : exactly(2.0);
     }
 
     [[nodiscard]] Forecast theta_in_time(Method method) const {
@@ -310,11 +353,11 @@ std::optional<Kink> kink_in(const DerivedSolution& derived, double final_time) {
     return std::nullopt;
 }
 
-std::string power_text(const std::string& base, std::optional<int> power) {
+std::string power_text(const std::string& base, std::optional<double> power) {
     if (!power)
         return "flatter than any power of " + base;
     return *power == 0 ? std::string("with a jump")
-                       : "like " + base + (*power == 1 ? "" : "^" + std::to_string(*power));
+                       : "like " + base + (*power == 1 ? "" : fmt::format("^{:.3g}", *power));
 }
 
 void add_contact_reasons(const ExpectedOrders& known, const Beam& beam,
@@ -402,6 +445,14 @@ std::vector<std::string> reasons(const ExpectedOrders& known, const Beam& beam) 
                            ": BDF2 has the order 1 in dt, and more only where the time is the "
                            "middle of a step; SDIRK2 has 1 unless the time is a time level, where "
                            "it has 2. Norms with a maximum over time show it late.");
+    for (const Cusp& cusp : known.cusps) {
+        const bool of_theta = cusp.theta_t_power <= cusp.u_xxt_power;
+        const double power = std::min(cusp.theta_t_power, cusp.u_xxt_power);
+        text.push_back(fmt::format(
+            "at t = {} {} has an infinite slope, like s^{:.3g}, s the time to it: BDF2 and SDIRK2 "
+            "have the order {:.3g} in dt. Norms with a maximum over time may show it late.",
+            number_text(cusp.t), of_theta ? "theta_t" : "u_xxt", power, 1.0 + power));
+    }
     add_contact_reasons(known, beam, text);
     return text;
 }
@@ -460,6 +511,7 @@ ExpectedOrders expected_orders(const Solution& solution, const Beam& beam, doubl
         result.theta_is_exact = vanishes(derived, &DerivedPhase::theta_x, s.x, 1);
         result.u_is_exact = vanishes(derived, &DerivedPhase::u_xx, s.x, 2);
         result.switches = switches(derived, final_time);
+        result.cusps = cusps(derived, final_time);
         result.kink = kink_in(derived, final_time);
         result.law_distance = law_distance;
         if (beam.stops.epsilon > 0.0)

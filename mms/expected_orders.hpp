@@ -4,6 +4,7 @@
 #include "mms/contact_history.hpp"
 #include "mms/solution.hpp"
 
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -17,6 +18,14 @@ struct Switch {
     double t = 0.0;
     double theta_t_jump = 0.0; ///< largest over x
     double u_xxt_jump = 0.0;   ///< largest over x
+};
+
+/// An end of a phase at which a rate has a value, and an infinite slope: it goes there like s^β,
+/// with s the time to the end and 0 < β < 1; infinite: it does not. The less of both sides.
+struct Cusp {
+    double t = 0.0;
+    double theta_t_power = std::numeric_limits<double>::infinity();
+    double u_xxt_power = std::numeric_limits<double>::infinity();
 };
 
 /// A place at which a derivative of u in x jumps within a phase.
@@ -71,6 +80,7 @@ struct ExpectedOrders {
                (u_is_quadratic || !u_has_time_error) && (theta_is_quadratic || u_is_quadratic);
     }
     std::vector<Switch> switches; ///< those before final_time
+    std::vector<Cusp> cusps;      ///< up to final_time
     std::optional<Kink> kink;
     ContactHistory contact;    ///< at rigid stops; at penalised ones touch alone
     double law_distance = 0.0; ///< ExactSolution::law_distance
@@ -92,7 +102,9 @@ struct ExpectedOrders {
 ///   u_xx, and where ζ = 0 nothing. The coupling passes the errors on. Where θ̃_t or u_xxt jumps
 ///   at the part s of a step, the defect is of order 1: for BDF2, which looks one step behind, the
 ///   sum over the steps is (s − 1/2)Δt times the jump; SDIRK2 has none at a level. What of the jump
-///   is along 1 − x a stop may take away. So the order is 1 to 2. Where what is differenced is
+///   is along 1 − x a stop may take away. So the order is 1 to 2. Where one goes to its value like
+///   s^β, β < 1, the defect of the steps beside it is of order β, over a time Δt: 1 + β to 2. Where
+///   what is differenced is
 ///   quadratic in time BDF2 is exact but for its first step, of SDIRK2, whose error O(Δt³)
 ///   stays: 3.
 /// - of the stress at rigid stops: as long as the tip is pressed and has been from t = 0 on, the

@@ -288,6 +288,9 @@ std::string why_not(const ExpectedOrders& expected, const DerivedSolution& deriv
         return "a phase ends at t = " + number_text(derived.phases.front().end_value);
     if (!expected.switches.empty())
         return "theta_t or u_xxt jumps at t = " + number_text(expected.switches.front().t);
+    if (!expected.cusps.empty())
+        return "theta_t or u_xxt has an infinite slope at t = " +
+               number_text(expected.cusps.front().t);
     if (time_scheme == "bdf2" && expected.is_quadratic())
         return "theta and u_xx are quadratic in t: BDF2 has the error of its first step alone";
     if (time_scheme == "sdirk2" && beam.zeta == 0.0)

@@ -20,6 +20,11 @@ std::string order_text(double value) {
     return fmt::format("{:.2f}", value);
 }
 
+double to_two_digits(double value) {
+    const double unit = std::pow(10.0, std::floor(std::log10(value)) - 1);
+    return unit * std::round(value / unit);
+}
+
 /// A rung by what is refined along the ladder.
 std::string rung_name(std::span<const Refinement> ladder, const Refinement& rung) {
     if (std::isnan(ladder.front().h) || ladder.front().h == ladder.back().h)
@@ -236,7 +241,9 @@ std::string from_model(const Measure& norm, std::span<const Refinement> roots,
                         times_text(at_first), faster, order(fast_order), times_text(at_last), last);
     if (view.cancellation)
         text += " The two have opposite signs and cancel in part about " +
-                rung_name(roots, {.h = view.cancellation->h, .dt = view.cancellation->dt}) + ".";
+                rung_name(roots, {.h = 1 / to_two_digits(1 / view.cancellation->h),
+                                  .dt = to_two_digits(view.cancellation->dt)}) +
+                ".";
     // Of orders that are nearly one nobody sees which it is.
     const bool are_apart = fast_order - slow_order > 0.25;
     if (view.asymptotic_from && at_first < 1.0 && are_apart)

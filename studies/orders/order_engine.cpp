@@ -150,13 +150,17 @@ std::vector<TermShape> shapes_of(std::size_t widths) {
 
 /// Whether the largest term is far larger than the error in every row: the error is then a
 /// difference of two, whose orders are close to each other, or to zero, and stand for a curve that
-/// no power has.
+/// no power has. Of a term that a reference has as well, what is left of it counts.
 bool is_a_difference(const TermFit& fit, const TermRows& rows) {
     constexpr double far_larger = 10;
+    const auto hidden = [&](Index i) {
+        const bool has_one = rows.log_reference.size() > 0 && !std::isnan(rows.log_reference[i]);
+        return has_one ? fit.term(i, rows.log_reference[i]) : 0.0;
+    };
     for (Index r = 0; r < rows.size(); ++r) {
         double largest = 0;
         for (Index i = 0; i < rows.widths(); ++i)
-            largest = std::max(largest, fit.term(i, rows.log_widths(r, i)));
+            largest = std::max(largest, fit.term(i, rows.log_widths(r, i)) - hidden(i));
         if (largest <= far_larger * std::exp(rows.log_errors[r]))
             return false;
     }

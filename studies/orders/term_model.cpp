@@ -251,11 +251,14 @@ std::vector<Eigen::VectorXd> lengthened(const Layout& layout, const TermRows& ro
 }
 
 /// θ of a fit to other rows, in the units of these: the same curve.
-Eigen::VectorXd in_units(const Layout& layout, const TermFit& fit, const Eigen::VectorXd& centre) {
+Eigen::VectorXd in_units(const Layout& layout, const TermFit& fit, const Eigen::VectorXd& centre,
+                         double log_unit) {
     Eigen::VectorXd theta = fit.theta;
+    if (layout.floor() >= 0)
+        theta[layout.floor()] += fit.log_unit - log_unit;
     for (Eigen::Index i = 0; i < layout.widths(); ++i) {
         const double shift = centre[i] - fit.log_centre[i];
-        theta[2 * i] += theta[2 * i + 1] * shift;
+        theta[2 * i] += fit.log_unit - log_unit + theta[2 * i + 1] * shift;
         const Eigen::Index k = layout.next(i);
         if (k < 0)
             continue;
@@ -380,7 +383,7 @@ double TermFit::next(Eigen::Index width) const {
 
 double TermFit::term(Eigen::Index width, double log_width) const {
     const Layout layout(shape, log_centre.size());
-    return term_at(layout, theta, width, log_width - log_centre[width]).value;
+    return std::exp(log_unit) * term_at(layout, theta, width, log_width - log_centre[width]).value;
 }
 
 FittedNumber TermFit::log_error(const Eigen::VectorXd& log_widths, bool against_reference) const {
@@ -391,7 +394,7 @@ FittedNumber TermFit::log_error(const Eigen::VectorXd& log_widths, bool against_
                                           : Eigen::VectorXd();
     const double value =
         ModelAt(layout, theta).log_error(log_widths - log_centre, reference, gradient.data(), 1);
-    return {value, std::sqrt(gradient.dot(covariance * gradient))};
+    return {log_unit + value, std::sqrt(gradient.dot(covariance * gradient))};
 }
 
 std::optional<TermFit> fit_terms(const TermRows& given, const TermShape& shape,
@@ -399,6 +402,9 @@ std::optional<TermFit> fit_terms(const TermRows& given, const TermShape& shape,
     TermRows rows = given;
     const Eigen::VectorXd centre = rows.log_widths.colwise().mean();
     rows.log_widths.rowwise() -= centre.transpose();
+    // So that squares of errors, and theirs, are numbers, however small or large the errors.
+    const double log_unit = std::round(rows.log_errors.mean());
+    rows.log_errors.array() -= log_unit;
     if (rows.log_reference.size() > 0)
         rows.log_reference -= centre;
     const Layout layout(shape, rows.widths());
@@ -413,7 +419,7 @@ std::optional<TermFit> fit_terms(const TermRows& given, const TermShape& shape,
     constexpr double worse = 2;
     if (beside != nullptr &&
         (!best || best->scale() > worse * beside->scale || best->scale() <= least_scatter)) {
-        const std::vector<Eigen::VectorXd> start{in_units(layout, *beside, centre)};
+        const std::vector<Eigen::VectorXd> start{in_units(layout, *beside, centre, log_unit)};
         auto same = start[0].allFinite()
                         ? least_squares(model, rows.log_errors, rows.weights, start, rows.scatter)
                         : std::nullopt;
@@ -431,6 +437,7 @@ std::optional<TermFit> fit_terms(const TermRows& given, const TermShape& shape,
                    .theta = best->theta,
                    .covariance = best->covariance,
                    .log_centre = centre,
+                   .log_unit = log_unit,
                    .log_reference = given.log_reference,
                    .residuals = best->residuals,
                    .scale = best->scale(),

@@ -59,9 +59,10 @@ struct FittedNumber {
 
 struct TermFit {
     TermShape shape;
-    Eigen::VectorXd theta; ///< (ln a_i, p_i)…, arcsin ρ_ij…, c_i…, ln T_f in units of `log_centre`
+    Eigen::VectorXd theta; ///< (ln a_i, p_i)…, arcsin ρ_ij…, c_i…, ln T_f in these units
     Eigen::MatrixXd covariance; ///< of theta; infinite on its diagonal where it is not determined
     Eigen::VectorXd log_centre; ///< ln of the unit of each width
+    double log_unit = 0;        ///< ln of that of the errors, in which they are about one
     Eigen::VectorXd log_reference;
     Eigen::VectorXd residuals; ///< of every row of the window, ln e − ln model
     double scale = 0;          ///< sqrt(χ² / dof) of the robust fit

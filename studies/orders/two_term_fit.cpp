@@ -44,7 +44,7 @@ void set_term(const TermFit& fit, Eigen::Index width, const OrderInterval& order
         return;
     }
     power = order.value;
-    size = std::exp(fit.theta[2 * width] - power * fit.log_centre[width]);
+    size = std::exp(fit.log_unit + fit.theta[2 * width] - power * fit.log_centre[width]);
 }
 
 /// Which of the usable records the steadiest fit rests on, and why the others are left out.

@@ -84,6 +84,24 @@ bool rejects(const TwoTermFit& fit, std::size_t record, Rejection why) {
 
 BOOST_AUTO_TEST_SUITE(two_term_model)
 
+// Every error times a number: the same orders, and sizes times that number, as far as doubles go.
+BOOST_AUTO_TEST_CASE(a_grid_in_another_unit_has_the_same_orders_and_sizes_in_that_unit) {
+    const auto law = [](double h, double dt) { return 3 * h * h * (1 + h) + dt / 2; };
+    const auto fit = fit_two_term(grid(law));
+    BOOST_REQUIRE(fit.p.determined);
+    for (const double unit : {1e-280, 1e-150, 1e-80, 1e80, 1e150, 1e280}) {
+        const auto other =
+            fit_two_term(grid([&](double h, double dt) { return unit * law(h, dt); }));
+        BOOST_REQUIRE(other.failure.empty());
+        // The last bit of an error moves an interval by some hundredths of itself.
+        BOOST_TEST(std::abs(other.p.value - fit.p.value) < 0.05 * fit.p.half_width());
+        BOOST_TEST(std::abs(other.q.value - fit.q.value) < 0.05 * fit.q.half_width());
+        BOOST_TEST(other.p.half_width() == fit.p.half_width(), boost::test_tools::tolerance(0.1));
+        BOOST_TEST(other.model.a / unit == fit.model.a, boost::test_tools::tolerance(0.01));
+        BOOST_TEST(other.model.b / unit == fit.model.b, boost::test_tools::tolerance(0.01));
+    }
+}
+
 // At A = B: e² = 2 (1 + ρ) A², whatever ρ; with one term alone the error is that term.
 BOOST_AUTO_TEST_CASE(equal_terms_leave_the_half_angle) {
     for (const double rho : {-1.0, -0.999999, -0.92, 0.0, 0.5, 1.0}) {

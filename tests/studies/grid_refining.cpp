@@ -242,7 +242,8 @@ BOOST_AUTO_TEST_CASE(of_made_up_solvers_what_is_known_holds_and_costs_little_mor
     const int count = wanted ? std::atoi(wanted) : short_tests ? 4 : 24;
     const Score found = score(80, 80 + static_cast<std::uint64_t>(count));
     BOOST_TEST_MESSAGE(found);
-    BOOST_TEST(found.known >= 4 * found.not_known, found);
+    if (!short_tests) // four say nothing of a share
+        BOOST_TEST(found.known >= 4 * found.not_known, found);
     BOOST_TEST(found.held >= 0.95 * found.known, found);
     BOOST_TEST(found.mean <= 1.5, found);
     BOOST_TEST(found.dearest <= 40, found);
