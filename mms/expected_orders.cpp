@@ -257,10 +257,14 @@ private:
         if (kink)
             return between(1.0, 2.0);
         double power = always;
-        for (const Cusp& cusp : known_.cusps)
-            if (cusp.t <= until)
-                power = std::min({power, of_theta || coupled_ ? cusp.theta_t_power : always,
-                                  !of_theta || coupled_ ? cusp.u_xxt_power : always});
+        for (const Cusp& cusp : known_.cusps) {
+            if (!(cusp.t <= until))
+                continue;
+            if (of_theta || coupled_)
+                power = std::min(power, cusp.theta_t_power);
+            if (!of_theta || coupled_)
+                power = std::min(power, cusp.u_xxt_power);
+        }
         return power < 1.0 ? between(1.0 + power, 2.0) : exactly(2.0);
     }
 
@@ -274,8 +278,8 @@ private:
 
     /// j of the header: the least and the greatest, infinite where a function is flat.
     static std::pair<double, double> powers(const ContactOnset& onset) {
-        const double early = onset.approach ? *onset.approach - 1.0 : always;
-        const double late = onset.force ? *onset.force : always;
+        const double early = onset.approach.value_or(always) - 1.0;
+        const double late = onset.force.value_or(always);
         return std::minmax(early, late);
     }
     static double share(double j) {

@@ -1,5 +1,7 @@
 #include "core/norms/underflow.hpp"
 
+#include "core/norms/norm_sums.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -334,6 +334,9 @@ std::string why_not_of(const Norm& norm, const ExpectedOrders& expected,
         return "zeta/(1 + alpha^2) is below T/200: in about that time the temperature's error "
                "leaves "
                "what it begins with, where a maximum over time stands for shorter steps alone";
+    if (forecaster.leaves_soon() && scheme.name == "sdirk2" && of_theta)
+        return "zeta/(1 + alpha^2) is below T/200: what SDIRK2's stages lose of theta in that time "
+               "counts for steps above it, and the size holds for far shorter ones alone";
     if (scheme.name == "bdf2" && forecaster.is_hardly_viscous() && peak_of_u)
         return "with zeta below T/100 a maximum over time of BDF2 may stand in its first step, "
                "which is one of SDIRK2";

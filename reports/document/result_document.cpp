@@ -77,10 +77,11 @@ bool has_own_scheme(const StudyResult& result) {
 /// What errors are measured against, if not the exact solution.
 std::string reference_line(const Scene& scene, const ReferenceResult& result) {
     const ReferenceBlock& block = *scene.reference;
-    std::string line = std::string("errors against ") +
-                       (block.richardson ? "a reference extrapolated (Richardson) from runs with "
-                                         : "a reference run: ") +
-                       "s = " + std::to_string(block.elements) + ", dt = " + shortest(block.dt);
+    std::string line =
+        std::string("errors against ") +
+        (block.richardson ? "a reference extrapolated (Richardson), as if smooth, from runs with "
+                          : "a reference run: ") +
+        "s = " + std::to_string(block.elements) + ", dt = " + shortest(block.dt);
     if (block.richardson)
         line += ", with half of s, and with twice dt";
     if (scene.scheme.algorithm != Algorithm::direct)

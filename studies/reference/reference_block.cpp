@@ -159,9 +159,9 @@ std::string missing_remark(const ReferenceBlock& reference, const Rung& finest) 
     std::string parts = in_h > seen ? part("h", in_h) : "";
     if (in_dt > seen)
         parts += (parts.empty() ? "" : ", ") + part("dt", in_dt);
-    return fmt::format("The reference has an error of its own, so that errors are measured too "
-                       "small, most at s = {} (dt = {:g}): by {}. richardson = true extrapolates "
-                       "it away.",
+    return fmt::format("The reference has an error of its own, so that errors of a smooth solution "
+                       "are measured too small, most at s = {} (dt = {:g}): by up to {}. "
+                       "richardson = true extrapolates that away.",
                        finest.elements, finest.dt, parts);
 }
 
