@@ -124,8 +124,7 @@ std::vector<Cusp> cusps(const DerivedSolution& derived, double final_time) {
         const double end = std::min(phase.end_value, final_time);
         const double length = end - phase.begin_value;
         look(phase.begin_value, true, 1.0, length);
-        if (phase.end_value <= final_time)
-            look(end, false, -1.0, length);
+        look(end, false, -1.0, length);
     }
     return result;
 }

@@ -20,8 +20,9 @@ struct Switch {
     double u_xxt_jump = 0.0;   ///< largest over x
 };
 
-/// An end of a phase at which a rate has a value, and an infinite slope: it goes there like s^β,
-/// with s the time to the end and 0 < β < 1; infinite: it does not. The less of both sides.
+/// An end of a phase, or the final time, at which a rate has a value and an infinite slope: it goes
+/// there like s^β, with s the time to it and 0 < β < 1; infinite: it does not. The less of both
+/// sides.
 struct Cusp {
     double t = 0.0;
     double theta_t_power = std::numeric_limits<double>::infinity();

@@ -5,20 +5,26 @@
 
 namespace tvbeam {
 
-/// β of a difference that goes to zero like s^β as s does, from two small parts of a length, when
-/// that is below 1; infinite when it is not, or when the difference there is rounding of the size.
-/// difference: at a distance s > 0, absolute.
+/// β of a difference that goes to zero like s^β as s does, when that is below 1: from 1e-6, 1e-8
+/// and 1e-10 of a length, which must say the same, as a layer that is thinner does not. Infinite
+/// when it is not below 1, or when the difference is rounding of the size there. difference: at a
+/// distance s > 0, absolute.
 template <typename Difference>
 double power_below_one(const Difference& difference, double length, double size) {
-    constexpr double far = 1e-6; // of the length
-    constexpr double near = 1e-8;
-    constexpr double rounding = 1e-12; // of the size; what is smooth is near · length · its slope
+    constexpr double ratio = 100;
+    constexpr double nearest = 1e-10; // of the length
+    constexpr double rounding =
+        1e-12; // of the size; what is smooth is nearest · length · its slope
     constexpr double nearly_one = 0.95;
-    const double small = difference(near * length);
-    const double large = difference(far * length);
-    const double beta = std::log(large / small) / std::log(far / near);
-    return small > rounding * size && beta < nearly_one ? beta
-                                                        : std::numeric_limits<double>::infinity();
+    constexpr double same = 0.05;
+    const double near = difference(nearest * length);
+    const double further = difference(nearest * ratio * length);
+    const double far = difference(nearest * ratio * ratio * length);
+    const double beta = std::log(further / near) / std::log(ratio);
+    const double beta_further = std::log(far / further) / std::log(ratio);
+    const bool is_one =
+        near > rounding * size && beta < nearly_one && std::abs(beta - beta_further) < same;
+    return is_one ? beta : std::numeric_limits<double>::infinity();
 }
 
 } // namespace tvbeam

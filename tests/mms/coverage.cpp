@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -299,6 +300,39 @@ BOOST_AUTO_TEST_CASE(a_solution_linear_in_time_has_no_time_residual) {
         BOOST_TEST(residuals.back().heat == 0.0);
         BOOST_TEST(residuals.back().beam == 0.0);
     }
+}
+
+// A rate that goes to its value like s^β, s the time to an end of a phase, is wrong by Δt^β in the
+// steps beside it: 1 + β in dt where β < 1. A layer that is thin is none.
+BOOST_AUTO_TEST_CASE(a_rate_of_infinite_slope_takes_its_part_of_the_order) {
+    const auto least = [](const std::string& theta, const std::string& u, double alpha) {
+        const Solution solution = parse_solution(
+            "theta = 'sin(pi*x)*(" + theta + ")'\nu = 'x^2*(" + u + ")/100'\n", "my.toml");
+        const auto expected = expected_orders(solution, {alpha, 0.15, 0.0, {}}, 1.0);
+        std::map<std::string, double> orders;
+        for (const auto& row : expected.orders) {
+            BOOST_TEST(row.euler.least == (row.norm == "corollary" ? 2.0 : 1.0), row.norm);
+            BOOST_TEST(row.bdf2.least == row.sdirk2.least, row.norm);
+            orders[row.norm] = row.bdf2.least;
+        }
+        return orders;
+    };
+    for (const std::string power : {"5/4", "3/2", "7/4", "5/2", "7/2"})
+        for (const double alpha : {0.0, 0.4}) {
+            const double k = static_cast<double>(power[0] - '0') / (power[2] - '0');
+            const double own = std::min(k, 2.0);
+            const double other = alpha > 0 ? own : 2.0;
+            for (const std::string base : {"t", "1 - t"}) { // at the begin, and at the end
+                const auto of_theta = least("(" + base + ")^(" + power + ")", "cos(t)", alpha);
+                BOOST_TEST(std::abs(of_theta.at("theta_L2L2") - own) < 0.03, power << base);
+                BOOST_TEST(std::abs(of_theta.at("u_LinfH2semi") - other) < 0.03, power << base);
+                const auto of_u = least("cos(t)", "(" + base + ")^(" + power + ")", alpha);
+                BOOST_TEST(std::abs(of_u.at("theta_L2L2") - other) < 0.03, power << base);
+                BOOST_TEST(std::abs(of_u.at("u_LinfH2semi") - own) < 0.03, power << base);
+            }
+        }
+    for (const std::string layer : {"1e3", "1e6", "1e7", "1e8", "1e9"})
+        BOOST_TEST(least("exp(-" + layer + "*t)", "cos(t)", 0.4).at("theta_L2L2") == 2.0, layer);
 }
 
 // A quadratic is what BDF2 differentiates exactly; its first step is one of another scheme.
