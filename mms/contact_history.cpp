@@ -211,7 +211,7 @@ private:
         double factor = least == 0 ? 1.0 : length;
         for (int n = least; n <= highest_power; ++n) {
             if (n > 0 && !std::isfinite(values(row + n, 0)))
-                return n - 1 + fraction(phase, t, row + n - 1, size / factor);
+                return n - 1 + fraction(phase, t, row + n - 1, size / factor * length / n);
             if (std::abs(values(row + n, 0)) * factor > nothing * size)
                 return n;
             factor *= length / (n + 1);

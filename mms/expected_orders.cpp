@@ -52,17 +52,23 @@ PiecewiseTape rates(const DerivedSolution& derived) {
             }};
 }
 
-std::vector<Switch> switches(const DerivedSolution& derived, double final_time) {
-    const PiecewiseTape tape = rates(derived);
+/// The greatest of each rate at any time. A jump is one beside that: beside its own terms at a
+/// switch, which may cancel there, round-off would be one.
+ArrayXd sizes_of(const PiecewiseTape& tape, const DerivedSolution& derived, double final_time) {
     const ArrayXd x = sample_points(0.0, 1.0);
-    // A jump is one beside what the rate is at any time: beside its own terms at the switch, which
-    // may cancel there, round-off would be one.
     ArrayXd sizes = ArrayXd::Zero(2);
     for (const PhaseExpressions& phase : derived.phases)
         if (phase.begin_value < final_time)
             for (const double t :
                  sample_points(phase.begin_value, std::min(phase.end_value, final_time)))
                 sizes = sizes.max(tape.at(x, t).abs().rowwise().maxCoeff());
+    return sizes;
+}
+
+std::vector<Switch> switches(const DerivedSolution& derived, double final_time) {
+    const PiecewiseTape tape = rates(derived);
+    const ArrayXd x = sample_points(0.0, 1.0);
+    const ArrayXd sizes = sizes_of(tape, derived, final_time);
     std::vector<Switch> result;
     const auto at_one_place = [&](const ArrayXd& s) {
         Eigen::ArrayXXd values(2, s.size());
@@ -96,6 +102,7 @@ std::vector<Switch> switches(const DerivedSolution& derived, double final_time) 
 std::vector<Cusp> cusps(const DerivedSolution& derived, double final_time) {
     const PiecewiseTape tape = rates(derived);
     const ArrayXd x = sample_points(0.0, 1.0);
+    const ArrayXd sizes = sizes_of(tape, derived, final_time);
     std::vector<Cusp> result;
     // late: the end of a phase is read in the one that begins there.
     const auto look = [&](double t, bool late, double direction, double length) {
@@ -107,7 +114,7 @@ std::vector<Cusp> cusps(const DerivedSolution& derived, double final_time) {
                         .abs()
                         .maxCoeff();
                 },
-                length, at_end.row(row).abs().maxCoeff());
+                length, sizes(row));
         };
         const Cusp cusp{t, power(0), power(1)};
         if (std::isinf(cusp.theta_t_power) && std::isinf(cusp.u_xxt_power))
@@ -448,14 +455,20 @@ std::vector<std::string> reasons(const ExpectedOrders& known, const Beam& beam) 
                            ": BDF2 has the order 1 in dt, and more only where the time is the "
                            "middle of a step; SDIRK2 has 1 unless the time is a time level, where "
                            "it has 2. Norms with a maximum over time show it late.");
-    for (const Cusp& cusp : known.cusps) {
-        const bool of_theta = cusp.theta_t_power <= cusp.u_xxt_power;
-        const double power = std::min(cusp.theta_t_power, cusp.u_xxt_power);
-        text.push_back(fmt::format(
-            "at t = {} {} has an infinite slope, like s^{:.3g}, s the time to it: BDF2 and SDIRK2 "
-            "have the order {:.3g} in dt. Norms with a maximum over time may show it late.",
-            number_text(cusp.t), of_theta ? "theta_t" : "u_xxt", power, 1.0 + power));
-    }
+    for (const Cusp& cusp : known.cusps)
+        for (const bool of_theta : {true, false}) {
+            const double power = of_theta ? cusp.theta_t_power : cusp.u_xxt_power;
+            const bool counts = of_theta ? known.theta_has_time_error : known.u_has_time_error;
+            if (counts && !std::isinf(power))
+                text.push_back(fmt::format(
+                    "at t = {} {} has an infinite slope, like s^{:.3g}, s the time to it: BDF2 and "
+                    "SDIRK2 have the order {:.3g} in dt{}. Norms with a maximum over time may show "
+                    "it late.",
+                    number_text(cusp.t), of_theta ? "theta_t" : "u_xxt", power, 1.0 + power,
+                    coupled    ? ""
+                    : of_theta ? " in theta"
+                               : " in u"));
+        }
     add_contact_reasons(known, beam, text);
     return text;
 }
@@ -468,9 +481,9 @@ std::string words_of(const Forecast& forecast) {
     if (!forecast.is_known())
         return "not known";
     const auto text = [](double order) { return fmt::format("{:.3g}", order); };
-    return forecast.least == forecast.greatest
-               ? text(forecast.least)
-               : text(forecast.least) + " to " + text(forecast.greatest);
+    const std::string least = text(forecast.least);
+    const std::string greatest = text(forecast.greatest);
+    return least == greatest ? least : least + " to " + greatest;
 }
 
 std::string words_of(const Kink& kink) {

@@ -105,9 +105,8 @@ struct ExpectedOrders {
 ///   sum over the steps is (s − 1/2)Δt times the jump; SDIRK2 has none at a level. What of the jump
 ///   is along 1 − x a stop may take away. So the order is 1 to 2. Where one goes to its value like
 ///   s^β, β < 1, the defect of the steps beside it is of order β, over a time Δt: 1 + β to 2. Where
-///   what is differenced is
-///   quadratic in time BDF2 is exact but for its first step, of SDIRK2, whose error O(Δt³)
-///   stays: 3.
+///   what is differenced is quadratic in time BDF2 is exact but for its first step, of SDIRK2,
+///   whose error O(Δt³) stays: 3.
 /// - of the stress at rigid stops: as long as the tip is pressed and has been from t = 0 on, the
 ///   order p of u. When a contact begins, the computed tip has an error e = O(Δt^p) and comes to
 ///   the stop too early or too late by τ. Too early: the gap ~ τ^m is e, and the stop takes away a

@@ -5,14 +5,14 @@
 
 namespace tvbeam {
 
-/// β of a difference that goes to zero like s^β as s does, when that is below 1: from 1e-6, 1e-8
-/// and 1e-10 of a length, which must say the same, as a layer that is thinner does not. Infinite
-/// when it is not below 1, or when the difference is rounding of the size there. difference: at a
-/// distance s > 0, absolute.
+/// β of a difference that goes to zero like s^β as s does, when that is below 1: from 1e-12 and
+/// 1e-10 of a length. It must not be less at 1e-8, as beside a layer, to which the slope is finite;
+/// more it may be, where what is smooth is large. Infinite when it is not below 1, or when the
+/// difference is rounding of the size. difference: at a distance s > 0, absolute.
 template <typename Difference>
 double power_below_one(const Difference& difference, double length, double size) {
     constexpr double ratio = 100;
-    constexpr double nearest = 1e-10; // of the length
+    constexpr double nearest = 1e-12; // of the length
     constexpr double rounding =
         1e-12; // of the size; what is smooth is nearest · length · its slope
     constexpr double nearly_one = 0.95;
@@ -22,9 +22,9 @@ double power_below_one(const Difference& difference, double length, double size)
     const double far = difference(nearest * ratio * ratio * length);
     const double beta = std::log(further / near) / std::log(ratio);
     const double beta_further = std::log(far / further) / std::log(ratio);
-    const bool is_one =
-        near > rounding * size && beta < nearly_one && std::abs(beta - beta_further) < same;
-    return is_one ? beta : std::numeric_limits<double>::infinity();
+    const bool is_power =
+        near > rounding * size && beta > same && beta < nearly_one && beta_further > beta - same;
+    return is_power ? beta : std::numeric_limits<double>::infinity();
 }
 
 } // namespace tvbeam

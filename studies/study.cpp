@@ -165,16 +165,6 @@ std::string remark_on_published(const Scene& scene) {
     return others.empty() ? "" : "The published figures are of the scene without" + others + ".";
 }
 
-/// Of the error that is least beside what a fixed point leaves.
-std::string remark_on_tolerance(const StudyResult& result) {
-    std::optional<IteratedError> least;
-    for (const auto& [series, runs] : result.runs())
-        if (auto one = least_beside_tolerance(result.scene, series, *runs);
-            one && (!least || one->left > least->left))
-            least = std::move(one);
-    return tolerance_remark(least);
-}
-
 void run_studies(const StudyContext& context, StudyResult& result) {
     const Scene& scene = context.scene;
     for (const auto* entry : in_running_order(scene, context.method))
@@ -227,8 +217,10 @@ StudyResult on_beam(const Scene& scene, const ProblemData& data, const Defects& 
                 "stop unseen.");
     }
     conduct({scene, resolved, solver, own, execution, defects}, result);
-    if (std::string remark = remark_on_tolerance(result); !remark.empty())
-        result.remarks.push_back(std::move(remark));
+    for (const auto& [series, runs] : result.runs())
+        if (std::string remark = tolerance_remark(scene, series, *runs, solver.run, execution);
+            !remark.empty())
+            result.remarks.push_back(std::move(remark));
     return result;
 }
 

@@ -2,6 +2,7 @@
 
 #include "core/norms/norm_sums.hpp"
 #include "core/norms/norms.hpp"
+#include "core/norms/underflow.hpp"
 #include "core/space/quadrature.hpp"
 #include "core/time/time_scheme.hpp"
 #include "mms/derivation.hpp"
@@ -13,7 +14,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 namespace tvbeam {
@@ -343,13 +343,6 @@ std::string why_not_of(const Norm& norm, const ExpectedOrders& expected,
     return {};
 }
 
-/// Whether squares of the size have the digits of a double.
-bool has_a_square(const LeadingTerm& term) {
-    constexpr double least =
-        std::numeric_limits<double>::min() / std::numeric_limits<double>::epsilon();
-    return term.constant * term.constant >= least;
-}
-
 std::vector<NormConstants> constants_of(const Squared& squared, const Forecaster& forecaster,
                                         const ExpectedOrders& expected, const TimeScheme& scheme) {
     std::vector<NormConstants> all;
@@ -371,7 +364,7 @@ std::vector<NormConstants> constants_of(const Squared& squared, const Forecaster
                     "at t = " + number_text(*t) + " a derivative of the solution has no value";
             else
                 term = leading_term(norm, of, squares);
-            if (term && !has_a_square(*term)) {
+            if (term && !(term->constant * term->constant >= least_square)) {
                 constants.unknown = "its square is below what a double holds, or no sample meets "
                                     "what it comes from";
                 term.reset();

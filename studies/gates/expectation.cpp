@@ -218,9 +218,9 @@ void expect_interval(TableReader& table, const std::string& key,
     };
     const auto wanted = table.flag(key + "_determined");
     if (wanted && !*wanted)
-        for (const char* figure : {"_holds", "_half_width"})
+        for (const char* figure : {"", "_holds", "_half_width"})
             if (table.has(key + figure))
-                throw table.error(key + figure, " asks for an interval, which " + key +
+                throw table.error(key + figure, " asks for a number, which " + key +
                                                     "_determined = false wants not to be there; "
                                                     "leave out one of the two");
     if (wanted)

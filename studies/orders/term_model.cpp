@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <utility>
 
 namespace tvbeam {
@@ -20,6 +21,7 @@ constexpr double least_scatter = 1e-7;
 constexpr int reweightings = 4;
 /// Most starts end in the same place.
 constexpr std::size_t most_starts = 3;
+constexpr double most_rho = 0.99; ///< of a start
 
 /// Where the parameters stand in θ.
 class Layout {
@@ -196,7 +198,7 @@ std::optional<Start> start_at(const Layout& layout, const TermRows& rows,
     for (Eigen::Index i = 0; i < d; ++i)
         for (Eigen::Index j = i + 1; j < d; ++j) {
             const double rho = x[column++] / 2 / std::exp(start.theta[2 * i] + start.theta[2 * j]);
-            start.theta[layout.pair(i, j)] = std::asin(std::clamp(rho, -0.99, 0.99));
+            start.theta[layout.pair(i, j)] = std::asin(std::clamp(rho, -most_rho, most_rho));
         }
     if (layout.floor() >= 0)
         start.theta[layout.floor()] = rows.log_errors.minCoeff() - 1;
@@ -234,6 +236,9 @@ std::vector<Eigen::VectorXd> lengthened(const Layout& layout, const TermRows& ro
     Eigen::VectorXd theta = Eigen::VectorXd::Zero(layout.size());
     const Eigen::Index shared = layout.pair(layout.widths() - 1, layout.widths());
     theta.head(shared) = simpler.theta.head(shared);
+    // Off the bounds of ρ, where nothing moves it.
+    for (Eigen::Index k = 2 * layout.widths(); k < shared; ++k)
+        theta[k] = std::asin(std::clamp(std::sin(theta[k]), -most_rho, most_rho));
     if (layout.floor() >= 0)
         theta[layout.floor()] = rows.log_errors.minCoeff() - 1;
     std::vector<Eigen::VectorXd> starts{theta};
@@ -428,6 +433,10 @@ std::optional<TermFit> fit_terms(const TermRows& given, const TermShape& shape,
     }
     if (!best)
         return std::nullopt;
+    // At a bound of ρ its angle may have gone round many times: a step is small beside it then.
+    for (Eigen::Index k = 2 * layout.widths();
+         k < layout.pair(layout.widths() - 1, layout.widths()); ++k)
+        best->theta[k] = std::remainder(best->theta[k], 2 * std::numbers::pi);
     *best = reweighted(model, rows, std::move(*best));
     // A longer model that fits far worse than the one within it has ended in a false valley.
     constexpr double far_worse = 2;

@@ -100,10 +100,6 @@ Scale scale_of(const Beam& beam, const ProblemData& data, const Norm& norm, doub
     return {sources, fmt::format("of a solution of 0 with sources of {:.2g}", sources)};
 }
 
-double root_of(double error, const Measure& measure) {
-    return measure.squared ? std::sqrt(error) : error;
-}
-
 } // namespace
 
 std::string round_off_remark(const Beam& beam, const ProblemData& data, const Series& series,
@@ -116,7 +112,7 @@ std::string round_off_remark(const Beam& beam, const ProblemData& data, const Se
     for (const auto& rung : rungs) {
         if (rung.errors.empty())
             continue;
-        const double error = root_of(rung.errors[k], measure);
+        const double error = measure.root_of(rung.errors[k]);
         const double floor =
             size * hermite_floor(rung.rung.elements, beam.zeta, rung.rung.dt, rung.rung.steps);
         if (within * floor <= error / 2.0)
@@ -140,7 +136,7 @@ std::string exact_remark(const Beam& beam, const ProblemData& data, const Series
     std::vector<double> errors;
     for (const auto& rung : rungs)
         if (!rung.errors.empty())
-            errors.push_back(root_of(rung.errors[k], measure));
+            errors.push_back(measure.root_of(rung.errors[k]));
     // What converges is no rounding, however small: of an end temperature of 1e10 the rest is.
     constexpr double falls = 0.8;
     const bool converges = std::ranges::adjacent_find(errors, [&](double coarse, double fine) {

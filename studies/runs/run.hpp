@@ -4,6 +4,7 @@
 #include "studies/orders/observed_order.hpp"
 
 #include <any>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -38,6 +39,10 @@ struct Measure {
 
     /// The name of the norm itself, without `_sq`.
     [[nodiscard]] std::string root() const;
+    /// The error, of a figure that may be its square.
+    [[nodiscard]] double root_of(double figure) const {
+        return squared ? std::sqrt(figure) : figure;
+    }
 };
 
 /// One way of solving the problem, as its solver names and describes it.
