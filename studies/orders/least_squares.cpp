@@ -35,13 +35,11 @@ struct Place {
     double chi2 = 0; ///< not finite where θ is inadmissible
 };
 
-/// s² (JᵀJ)⁻¹
-Eigen::MatrixXd covariance(const Eigen::MatrixXd& jacobian, double s2) {
+/// R with R Rᵀ = s² (JᵀJ)⁻¹; empty where that is not determined.
+Eigen::MatrixXd root_of_covariance(const Eigen::MatrixXd& jacobian, double s) {
     const Eigen::Index size = jacobian.cols();
-    Eigen::MatrixXd undetermined = Eigen::MatrixXd::Zero(size, size);
-    undetermined.diagonal().setConstant(infinity);
-    if (std::isinf(s2))
-        return undetermined;
+    if (std::isinf(s))
+        return {};
     const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(jacobian);
     const Eigen::MatrixXd r = qr.matrixR().topRows(size).triangularView<Eigen::Upper>();
     const Eigen::MatrixXd inverse =
@@ -50,9 +48,8 @@ Eigen::MatrixXd covariance(const Eigen::MatrixXd& jacobian, double s2) {
         return matrix.cwiseAbs().colwise().sum().maxCoeff();
     };
     if (!(norm(r) * norm(inverse) * smallest_rcond < 1))
-        return undetermined;
-    const Eigen::MatrixXd root = qr.colsPermutation() * inverse;
-    return s2 * root * root.transpose();
+        return {};
+    return s * (qr.colsPermutation() * inverse);
 }
 
 /// The search for the parameters. GSL has one, but the fits here are so small that most of its
@@ -122,8 +119,13 @@ public:
         result.chi2 = best_.chi2;
         result.dof = static_cast<int>(y_.size() - best_.theta.size());
         const double s = std::max(result.scale(), scatter_);
-        result.covariance =
-            covariance(best_.jacobian, result.dof < 1 && !(scatter_ > 0) ? infinity : s * s);
+        result.root =
+            root_of_covariance(best_.jacobian, result.dof < 1 && !(scatter_ > 0) ? infinity : s);
+        result.covariance = Eigen::MatrixXd::Zero(best_.theta.size(), best_.theta.size());
+        if (result.root.size() > 0)
+            result.covariance = result.root * result.root.transpose();
+        else
+            result.covariance.diagonal().setConstant(infinity);
         return result;
     }
 

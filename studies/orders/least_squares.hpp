@@ -31,6 +31,9 @@ using ModelFunction = std::function<void(const Eigen::VectorXd& theta, Eigen::Ve
 struct LeastSquares {
     Eigen::VectorXd theta;
     Eigen::MatrixXd covariance;
+    /// R with covariance = R Rᵀ: of a nearly singular fit that has digits which the product lost.
+    /// Empty where θ is not determined.
+    Eigen::MatrixXd root;
     Eigen::VectorXd residuals; ///< y − f(θ), not weighted
     double chi2 = 0;
     int dof = 0;

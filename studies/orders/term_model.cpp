@@ -342,6 +342,11 @@ LeastSquares with_rho_held_at_its_bound(const ModelFunction& model, const Layout
     whole.theta(free) = rest->theta;
     whole.covariance.setZero();
     whole.covariance(free, free) = rest->covariance;
+    whole.root.resize(0, 0);
+    if (rest->root.size() > 0) {
+        whole.root.setZero(layout.size(), rest->root.cols());
+        whole.root(free, Eigen::all) = rest->root;
+    }
     whole.residuals = rest->residuals;
     whole.chi2 = rest->chi2;
     whole.dof = rest->dof;
@@ -399,7 +404,8 @@ FittedNumber TermFit::log_error(const Eigen::VectorXd& log_widths, bool against_
                                           : Eigen::VectorXd();
     const double value =
         ModelAt(layout, theta).log_error(log_widths - log_centre, reference, gradient.data(), 1);
-    return {log_unit + value, std::sqrt(gradient.dot(covariance * gradient))};
+    return {log_unit + value, root.size() > 0 ? (root.transpose() * gradient).norm()
+                                              : std::sqrt(gradient.dot(covariance * gradient))};
 }
 
 std::optional<TermFit> fit_terms(const TermRows& given, const TermShape& shape,
@@ -445,6 +451,7 @@ std::optional<TermFit> fit_terms(const TermRows& given, const TermShape& shape,
     return TermFit{.shape = shape,
                    .theta = best->theta,
                    .covariance = best->covariance,
+                   .root = best->root,
                    .log_centre = centre,
                    .log_unit = log_unit,
                    .log_reference = given.log_reference,

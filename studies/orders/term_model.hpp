@@ -61,6 +61,7 @@ struct TermFit {
     TermShape shape;
     Eigen::VectorXd theta; ///< (ln a_i, p_i)…, arcsin ρ_ij…, c_i…, ln T_f in these units
     Eigen::MatrixXd covariance; ///< of theta; infinite on its diagonal where it is not determined
+    Eigen::MatrixXd root;       ///< covariance = root rootᵀ; empty where it is not determined
     Eigen::VectorXd log_centre; ///< ln of the unit of each width
     double log_unit = 0;        ///< ln of that of the errors, in which they are about one
     Eigen::VectorXd log_reference;
