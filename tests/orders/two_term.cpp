@@ -84,6 +84,38 @@ bool rejects(const TwoTermFit& fit, std::size_t record, Rejection why) {
 
 BOOST_AUTO_TEST_SUITE(two_term_model)
 
+// The grid of the scene reference-sheared, in which time hardly shows: at the bound of ρ nothing
+// moves its angle, and of searches that begin there two in three found another model by the last
+// bit of the errors. One in four still does: the plain fit, from which they begin, has no end.
+BOOST_AUTO_TEST_CASE(most_intervals_do_not_hang_on_the_last_bit_of_the_errors) {
+    const std::vector<Refinement> records{
+        {.h = 0.25, .dt = 0.1, .error = 0.01313461454055},
+        {.h = 0.125, .dt = 0.1, .error = 0.003263054956700577},
+        {.h = 0.0625, .dt = 0.1, .error = 0.0007668640178991812},
+        {.h = 0.25, .dt = 0.05, .error = 0.012942153515019126},
+        {.h = 0.125, .dt = 0.05, .error = 0.003228146702143235},
+        {.h = 0.0625, .dt = 0.05, .error = 0.0007669116651511081},
+        {.h = 0.25, .dt = 0.025, .error = 0.01290396432699228},
+        {.h = 0.125, .dt = 0.025, .error = 0.0032226049531578834},
+        {.h = 0.0625, .dt = 0.025, .error = 0.000768442068224228}};
+    const Refinement against{.h = 1.0 / 64, .dt = 0.00625};
+    const auto fit = fit_two_term(records, against);
+    BOOST_REQUIRE(fit.p.determined);
+    std::mt19937_64 bits(1);
+    std::uniform_real_distribution<double> part(-1e-13, 1e-13);
+    constexpr int copies = 40;
+    int moved = 0;
+    for (int copy = 0; copy < copies; ++copy) {
+        auto others = records;
+        for (auto& record : others)
+            record.error *= 1 + part(bits);
+        const auto other = fit_two_term(others, against);
+        BOOST_REQUIRE(other.p.determined);
+        moved += std::abs(other.p.half_width() / fit.p.half_width() - 1) > 0.01;
+    }
+    BOOST_TEST(moved <= copies / 2, moved);
+}
+
 // Every error times a number: the same orders, and sizes times that number, as far as doubles go.
 BOOST_AUTO_TEST_CASE(a_grid_in_another_unit_has_the_same_orders_and_sizes_in_that_unit) {
     const auto law = [](double h, double dt) { return 3 * h * h * (1 + h) + dt / 2; };
