@@ -90,16 +90,9 @@ void add_limit(const ColumnAnalysis& column, std::vector<Block>& blocks) {
 
 /// Whose names h and dt of the model are.
 std::string names_in_model(const DataAnalysis& analysis, const ColumnAnalysis& column) {
-    std::vector<std::string> names;
-    for (std::size_t i = 0; i < analysis.widths.size(); ++i) {
-        const DataColumn& width = analysis.widths[i];
-        if (width.numbers.front() != width.numbers.back() &&
-            !column.by_width[i].status.starts_with("it is refined with"))
-            names.push_back(width.name);
-    }
-    if (names.size() != 2 || (names[0] == "h" && names[1] == "dt"))
-        return {};
-    return fmt::format(", {} for h and {} for dt", names[0], names[1]);
+    const auto& h = analysis.widths[column.of_model.first].name;
+    const auto& dt = analysis.widths[column.of_model.second].name;
+    return h == "h" && dt == "dt" ? std::string() : fmt::format(", {} for h and {} for dt", h, dt);
 }
 
 Section section_of(const DataAnalysis& analysis, const ColumnAnalysis& column) {

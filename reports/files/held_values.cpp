@@ -22,6 +22,8 @@ using Json = nlohmann::ordered_json;
 constexpr double of_fits = 1e-3;
 constexpr double of_path_limits = 0.01;
 constexpr double of_half_widths = 0.05;
+/// ln of a width of 1e-2: a x^p stands while ln a moves by as many times what p moves by.
+constexpr double log_of_widths = 4.6;
 constexpr double of_sentences = 1e-3;
 constexpr double coarsest_digit = 0.01; // of the number, may be another
 constexpr double of_round_off = 4.0;    // a factor
@@ -198,6 +200,11 @@ private:
                    : std::nullopt;
     }
 
+    /// How far an order may be from the recorded one by the interval that was recorded with it.
+    [[nodiscard]] double of_order(const std::string& what, const std::string& order) const {
+        return of_half_widths * beside(what, (order + "_uncertainty").c_str()).value_or(0.0);
+    }
+
     [[nodiscard]] double slack_of(const std::string& what, const std::string& key,
                                   double size) const {
         constexpr double of_what_may_be_zero = 1e-9; // orders, cosines, scatters
@@ -206,9 +213,13 @@ private:
         if (has(what, "path_limit"))
             return of_path_limits * size;
         if (has(what, "methods.") || has(what, "checks.error") || key == "measured" ||
-            is_one_of(key, {"a", "b"}) || has(what, "predicted"))
+            has(what, "predicted"))
             return of_fits * size;
-        if (is_one_of(key, {"p", "q", "rho", "p_se", "q_se", "rho_se"}))
+        if (is_one_of(key, {"a", "b"}))
+            return std::max(of_fits, log_of_widths * of_order(what, key == "a" ? "p" : "q")) * size;
+        if (is_one_of(key, {"p", "q"}))
+            return std::max(of_fits * size + of_what_may_be_zero, of_order(what, key));
+        if (is_one_of(key, {"rho", "p_se", "q_se", "rho_se"}))
             return of_fits * size + of_what_may_be_zero;
         if (key == "order" || has(what, "orders.") || has(what, "order_defect"))
             if (!beside(what, "low") && !key.ends_with("uncertainty"))

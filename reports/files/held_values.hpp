@@ -16,7 +16,8 @@ namespace tvbeam {
 ///   a stress case to 1e-3, and likewise observed orders; scatter to a half, as it is that of few
 ///   rows;
 /// - half widths of intervals to 5 %, ends and middles to 5 % of them: which windows of rows count
-///   is decided at thresholds, and round-off at one has moved a half width by 2.6 %;
+///   is decided at thresholds, and round-off at one has moved a half width by 2.6 %; sizes of terms
+///   so far that the term itself stays where such an order may go, at widths of 1e-2;
 /// - in sentences to 0.1 % and one in their last digit, if that is 1 % of them or beside ±; those
 ///   behind ± to 5 %; below 1e-13 all;
 /// - in rows of tables, whose numbers stand elsewhere too, to a quarter of the greater, and where

@@ -46,8 +46,8 @@ std::vector<std::size_t> refined(const std::vector<DataColumn>& widths) {
     return result;
 }
 
-/// Whether two widths have as many levels together as each has alone: none changes without the
-/// other.
+/// Whether two widths have as many levels together as each has alone, and are finer together: none
+/// changes without the other.
 bool are_refined_together(const DataColumn& first, const DataColumn& second) {
     std::set<double> of_first, of_second;
     std::set<std::pair<double, double>> of_both;
@@ -56,7 +56,8 @@ bool are_refined_together(const DataColumn& first, const DataColumn& second) {
         of_second.insert(second.numbers[r]);
         of_both.emplace(first.numbers[r], second.numbers[r]);
     }
-    return of_both.size() == of_first.size() && of_both.size() == of_second.size();
+    return of_both.size() == of_first.size() && of_both.size() == of_second.size() &&
+           std::ranges::is_sorted(of_both, {}, &std::pair<double, double>::second);
 }
 
 std::string order_words(const std::string& width, const OrderInterval& order) {
@@ -165,6 +166,7 @@ void analyse_records(const DataAnalysis& data, const std::vector<std::size_t>& u
             for (const auto i : used)
                 column.by_width[i].status = found.two_term->failure;
         column.verdicts = verdicts_of(*found.two_term, data.rows());
+        column.of_model = {used.front(), used.back()};
         column.two_term = std::move(found.two_term);
         return;
     }
@@ -289,9 +291,10 @@ ColumnAnalysis analyse_errors(const DataAnalysis& data, const DataColumn& errors
     if (used.empty())
         used = {0};
     const auto refined_widths = used;
-    // Of two alone the ladder of both is analysed; of four, no orders are found.
+    // Of two alone the ladder of both is analysed; of four that are refined by themselves, no
+    // orders are found.
     constexpr std::size_t most_widths = 3;
-    for (std::size_t i = 0; used.size() == most_widths && i < most_widths; ++i)
+    for (std::size_t i = 0; i < used.size(); ++i)
         for (std::size_t j = used.size(); used.size() > 2 && --j > i;)
             if (are_refined_together(data.widths[used[i]], data.widths[used[j]])) {
                 column.by_width[used[j]].status = "it is refined with " + data.widths[used[i]].name;

@@ -8,6 +8,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace tvbeam {
@@ -21,8 +22,9 @@ struct ColumnAnalysis {
     std::vector<RowVerdict> verdicts;    ///< one a row; empty with three widths, and for values
     std::vector<OrderInterval> by_width; ///< one a width
     std::optional<TwoTermFit> two_term;  ///< of errors on a grid of two widths
-    std::optional<LimitEstimate> limit;  ///< of values
-    std::vector<std::string> findings;   ///< in words
+    std::pair<std::size_t, std::size_t> of_model = {}; ///< the widths that are its h and dt
+    std::optional<LimitEstimate> limit;                ///< of values
+    std::vector<std::string> findings;                 ///< in words
 };
 
 struct DataAnalysis {

@@ -124,7 +124,7 @@ int most_dropped(std::size_t levels) {
 }
 
 /// The leading terms; next terms in one width; next terms in all; next terms half an order on,
-/// logarithms and constants, in one width.
+/// logarithms and constants, in one width, the others without or with next terms.
 std::vector<TermShape> shapes_of(std::size_t widths) {
     const std::vector<double> plain(widths, TermShape::none);
     std::vector<TermShape> shapes{{plain}};
@@ -139,10 +139,17 @@ std::vector<TermShape> shapes_of(std::size_t widths) {
     }
     if (widths == 1)
         return shapes;
-    for (const double power : {0.5, TermShape::logarithm, TermShape::constant})
+    // Of one width, and of all others.
+    constexpr std::pair<double, double> others[] = {{0.5, TermShape::none},
+                                                    {TermShape::logarithm, TermShape::none},
+                                                    {TermShape::constant, TermShape::none},
+                                                    {0.5, 1.0},
+                                                    {TermShape::logarithm, 1.0},
+                                                    {TermShape::logarithm, 2.0}};
+    for (const auto& [of_one, of_others] : others)
         for (std::size_t i = 0; i < widths; ++i) {
-            auto next = plain;
-            next[i] = power;
+            std::vector<double> next(widths, of_others);
+            next[i] = of_one;
             shapes.push_back({next});
         }
     return shapes;
@@ -227,7 +234,7 @@ OrderEnsemble::OrderEnsemble(std::span<const ErrorRow> rows, std::vector<double>
         fit_sequence(rows_);
         return;
     }
-    fit_all_widths(rows_);
+    fit_all_widths();
     fit_each_alone(rows_);
 }
 
@@ -254,21 +261,23 @@ void OrderEnsemble::fit_sequence(const TermRows& rows) {
     }
 }
 
-/// The rows that are in a window of all widths.
-TermRows OrderEnsemble::rows_from(const TermRows& rows, const std::vector<int>& place) const {
-    std::vector<Index> chosen;
-    for (Index r = 0; r < rows.size(); ++r) {
-        bool inside = true;
-        for (std::size_t i = 0; i < place.size(); ++i)
-            inside = inside &&
-                     level_of(levels_[i], rows.log_widths(r, static_cast<Index>(i))) >= place[i];
-        if (inside)
-            chosen.push_back(r);
-    }
-    return rows.subset(chosen);
+bool OrderEnsemble::is_in(const std::vector<int>& place, Index row) const {
+    for (std::size_t i = 0; i < place.size(); ++i)
+        if (level_of(levels_[i], rows_.log_widths(row, static_cast<Index>(i))) < place[i])
+            return false;
+    return true;
 }
 
-void OrderEnsemble::fit_all_widths(const TermRows& rows) {
+/// The rows that are in a window of all widths.
+TermRows OrderEnsemble::rows_from(const std::vector<int>& place) const {
+    std::vector<Index> chosen;
+    for (Index r = 0; r < rows_.size(); ++r)
+        if (is_in(place, r))
+            chosen.push_back(r);
+    return rows_.subset(chosen);
+}
+
+void OrderEnsemble::fit_all_widths() {
     std::vector<int> most;
     for (const auto& levels : levels_)
         most.push_back(most_dropped(levels.size()));
@@ -283,7 +292,7 @@ void OrderEnsemble::fit_all_widths(const TermRows& rows) {
         return fit.scale > far_better * std::max(other.scale, to_rounding);
     };
     for (const auto& place : places_within(most)) {
-        const auto window = rows_from(rows, place);
+        const auto window = rows_from(place);
         std::optional<TermFit> plain;
         for (std::size_t k = 0; k < shapes.size(); ++k) {
             if (window.size() <= shapes[k].parameters())
@@ -303,7 +312,7 @@ void OrderEnsemble::fit_all_widths(const TermRows& rows) {
         const auto& best = *closest[static_cast<std::size_t>(member.family)];
         if (!is_far_off(member.fit, best))
             continue;
-        const auto window = rows_from(rows, member.place);
+        const auto window = rows_from(member.place);
         auto fit = fit_terms(window, best.shape, &member.fit, &best);
         if (fit && fit->scale < member.fit.scale && is_believable(*fit, window))
             member.fit = std::move(*fit);
@@ -449,6 +458,22 @@ double OrderEnsemble::grid_factor() const {
            (rows_.scatter > 0 ? tuning_.scattered : 1.0);
 }
 
+/// Of a grid: whether the term of a width is a part of the error at three levels of the window that
+/// is worth the name. An order between two is one that no third confirms.
+bool OrderEnsemble::sees_three_levels(const EnsembleMember& member, Index width) const {
+    if (member.along >= 0 || rows_.widths() == 1)
+        return true;
+    const auto& levels = levels_[static_cast<std::size_t>(width)];
+    std::vector<bool> seen(levels.size(), false);
+    for (Index r = 0; r < rows_.size(); ++r) {
+        const double log_width = rows_.log_widths(r, width);
+        if (is_in(member.place, r) &&
+            member.fit.term(width, log_width) >= tuning_.least_seen * std::exp(rows_.log_errors[r]))
+            seen[static_cast<std::size_t>(level_of(levels, log_width))] = true;
+    }
+    return std::ranges::count(seen, true) >= static_cast<std::ptrdiff_t>(fewest_levels);
+}
+
 double OrderEnsemble::greatest_share(Index width) const {
     double share = 0;
     for (const auto& member : members_) {
@@ -565,6 +590,8 @@ std::vector<OrderInterval> OrderEnsemble::orders() const {
         const auto mixture = mix([&](const EnsembleMember& member) -> std::optional<FittedNumber> {
             if (member.along >= 0 && member.along != width)
                 return std::nullopt;
+            if (!sees_three_levels(member, width))
+                return std::nullopt;
             return member.fit.order(member.along < 0 ? width : 0);
         });
         if (mixture) {
@@ -584,6 +611,10 @@ std::vector<OrderInterval> OrderEnsemble::orders() const {
 std::string OrderEnsemble::status_of(Index width, const OrderInterval& order) const {
     if (order.share < tuning_.least_share)
         return "hidden: its term is less than 15 % of every error";
+    if (std::ranges::none_of(members_, [&](const EnsembleMember& member) {
+            return member.along < 0 && sees_three_levels(member, width);
+        }))
+        return "its term is 1 % of the error or more at fewer than three levels";
     if (std::abs(order.value) <= 2 * tuning_.narrowest && order.half_width() <= tuning_.widest)
         return "the error stands still";
     if (order.high <= 0)

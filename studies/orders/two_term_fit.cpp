@@ -57,8 +57,12 @@ void sort_records(std::span<const Refinement> records, const std::vector<std::si
         if (!fit.ensemble->holds(steadiest, {records[i].h, records[i].dt}))
             fit.rejected.push_back(
                 {i, Rejection::pre_asymptotic,
-                 fmt::format("too coarse for the model: the error is {:.3g} times the model's",
-                             std::exp(off))});
+                 std::abs(off) < fit.ensemble->tuning().narrowest
+                     ? std::string("coarser than the window of the fit; the error is the model's "
+                                   "within 1 %")
+                     : fmt::format("too coarse for the model: the error is {:.3g} times the "
+                                   "model's",
+                                   std::exp(off))});
         else if (!(std::abs(off) <= limit))
             fit.rejected.push_back(
                 {i, Rejection::outlier,

@@ -56,15 +56,24 @@ Timing timing_of(std::vector<double> seconds, double clock_step) {
 double clock_step_of(const std::vector<double>& seconds) {
     constexpr int most_decimals = 6;
     constexpr double rounding = 1e-6; // of a step, in what was read
-    for (int decimals = 0; decimals <= most_decimals; ++decimals) {
-        const double steps_a_second = std::pow(10.0, decimals);
-        if (std::ranges::all_of(seconds, [&](double time) {
-                const double steps = time * steps_a_second;
-                return std::abs(steps - std::round(steps)) <= rounding;
-            }))
-            return 1.0 / steps_a_second;
+    const auto are_whole = [&](double steps_a_second, double slack) {
+        return std::ranges::all_of(seconds, [&](double time) {
+            const double steps = time * steps_a_second;
+            return std::abs(steps - std::round(steps)) <= slack;
+        });
+    };
+    double printed = 0.0;
+    for (int decimals = 0; decimals <= most_decimals && printed == 0.0; ++decimals)
+        if (are_whole(std::pow(10.0, decimals), rounding))
+            printed = 1.0 / std::pow(10.0, decimals);
+    // Ticks a second of operating systems' clocks. Printed, they are rounded.
+    constexpr double most_slack = 0.2; // of a tick: then whole ticks are no accident
+    for (const double ticks : {60.0, 64.0, 128.0, 250.0, 256.0, 300.0, 1024.0}) {
+        const double slack = rounding + printed * ticks / 2.0;
+        if (slack <= most_slack && are_whole(ticks, slack))
+            return 1.0 / ticks;
     }
-    return 0.0;
+    return printed;
 }
 
 std::optional<Timing> time_to_reach(std::span<const TimedError> rows, double error) {

@@ -165,6 +165,70 @@ BOOST_DATA_TEST_CASE(the_orders_of_a_grid_hold_beside_half_orders_logarithms_and
     }
 }
 
+// A logarithm or a next term half an order on in one width, and a next term in the other: four to
+// six levels of either, any sizes and correlation.
+BOOST_AUTO_TEST_CASE(the_orders_of_grids_hold_where_both_widths_have_next_terms) {
+    std::mt19937_64 generator(5);
+    const auto between = [&](double low, double high) {
+        return std::uniform_real_distribution<>(low, high)(generator);
+    };
+    const auto one_of = [&](const std::vector<double>& values) {
+        return values[std::uniform_int_distribution<std::size_t>(0, values.size() - 1)(generator)];
+    };
+    int asked = 0;
+    int determined = 0;
+    int missed = 0;
+    for (const bool has_logarithm : {false, true})
+        for (const double next : {0.0, 1.0, 2.0}) // power of the next term in dt; 0: none
+            for (int k = 0; k < 8; ++k) {
+                const double p = one_of({1, 1.5, 2, 3, 4});
+                const double q = one_of({1, 2, 3});
+                const double c = has_logarithm ? between(0.05, 0.5) : between(-0.5, 0.5);
+                const double d = next == 0 ? 0.0 : between(-0.5, 0.5);
+                const double rho = between(-0.9, 0.9);
+                const double ratio = one_of({1.5, 2});
+                const double h_0 = between(0.05, 0.25);
+                const double dt_0 = between(0.05, 0.25);
+                const double b = std::exp(between(-2, 2)) * std::pow(h_0, p) / std::pow(dt_0, q);
+                const auto levels_of_h = static_cast<int>(one_of({4, 5, 6}));
+                const auto levels_of_dt = static_cast<int>(one_of({4, 5, 6}));
+                std::vector<ErrorRow> rows;
+                for (int i = 0; i < levels_of_h; ++i)
+                    for (int j = 0; j < levels_of_dt; ++j) {
+                        const double h = h_0 * std::pow(ratio, -i);
+                        const double dt = dt_0 * std::pow(ratio, -j);
+                        const double space =
+                            std::pow(h, p) *
+                            (1 + c * (has_logarithm ? -std::log(h) : std::sqrt(h)));
+                        const double time = b * std::pow(dt, q) * (1 + d * std::pow(dt, next));
+                        rows.push_back(
+                            {{h, dt},
+                             std::sqrt(space * space + time * time + 2 * rho * space * time)});
+                    }
+                const auto orders = estimate_orders(rows);
+                for (const auto& [order, truth] :
+                     {std::pair(orders[0], p), std::pair(orders[1], q)}) {
+                    ++asked;
+                    determined += order.determined ? 1 : 0;
+                    missed += order.determined && !holds(order, truth) ? 1 : 0;
+                }
+            }
+    BOOST_TEST(determined >= 0.9 * asked);
+    BOOST_TEST(missed <= 0.05 * determined, missed << " of " << determined);
+}
+
+// exp(−1/(5h)) has no order: it is seen at two of the three finer h.
+BOOST_AUTO_TEST_CASE(what_two_levels_show_is_no_order) {
+    std::vector<ErrorRow> rows;
+    for (const double h : {0.1, 0.05, 0.025, 0.0125})
+        for (const double dt : {0.1, 0.05, 0.025, 0.0125})
+            rows.push_back({{h, dt}, std::exp(-1 / (5 * h)) + 0.1 * dt});
+    const auto orders = estimate_orders(rows);
+    BOOST_TEST(!orders[0].determined);
+    BOOST_TEST(orders[1].determined);
+    BOOST_TEST(holds(orders[1], 1.0));
+}
+
 BOOST_AUTO_TEST_CASE(a_product_of_both_widths_does_not_pass_for_an_order) {
     const auto orders =
         estimate_orders(grid([](double h, double dt) { return h * h + 0.3 * dt + h * h * dt; }));

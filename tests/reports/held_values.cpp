@@ -111,6 +111,18 @@ BOOST_AUTO_TEST_CASE(an_interval_is_held_to_its_half_width) {
     BOOST_TEST(!same_at("/norms/L2/p_uncertainty", 0.1, 0.106));
 }
 
+BOOST_AUTO_TEST_CASE(a_fit_is_held_to_the_interval_of_its_order) {
+    // Half width 0.2, of which 5 % are 0.01, and exp(0.01 ln 100) = 1.047.
+    const Json fit{{"norms", {{"L2", {{"p", 2.0}, {"p_uncertainty", 0.2}, {"a", 1.0}}}}}};
+    BOOST_TEST(same_at("/norms/L2/p", 2.0, 2.0099, fit));
+    BOOST_TEST(!same_at("/norms/L2/p", 2.0, 2.0101, fit));
+    BOOST_TEST(same_at("/norms/L2/a", 1.0, 1.045, fit));
+    BOOST_TEST(!same_at("/norms/L2/a", 1.0, 1.048, fit));
+    // That of the other width has no say.
+    BOOST_TEST(!same_at("/norms/L2/b", 1.0, 1.002, fit));
+    BOOST_TEST(!same_at("/norms/L2/q", 1.0, 1.002, fit));
+}
+
 BOOST_AUTO_TEST_CASE(figures_of_fits_and_plain_figures_are_held_to_a_part) {
     for (const std::string place : {"/norms/L2/p", "/norms/L2/rho_se", "/norms/L2/a",
                                     "/methods/gci/uncertainty", "/predicted/L2"}) {

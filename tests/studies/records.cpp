@@ -8,6 +8,7 @@
 #include "tests/comma_locale.hpp"
 #include "tests/temporary_directory.hpp"
 
+#include <boost/algorithm/string/join.hpp>
 #include <boost/test/data/monomorphic.hpp>
 #include <boost/test/data/test_case.hpp>
 #include <boost/test/unit_test.hpp>
@@ -18,7 +19,9 @@
 #include <ostream>
 #include <random>
 #include <sstream>
+#include <string>
 #include <utility>
+#include <vector>
 
 using namespace tvbeam;
 
@@ -691,19 +694,37 @@ BOOST_AUTO_TEST_CASE(the_last_digits_of_values_are_read) {
     BOOST_TEST(units("h,value\n4,0\n2,0\n").empty());
 }
 
-// hx = hy throughout: which of them has an order, no row tells.
+// hx = hy (= hz) throughout: which of them has an order, no row tells.
 BOOST_AUTO_TEST_CASE(widths_that_are_refined_together_have_one_order) {
-    std::string text = "hx,hy,dt,error\n";
+    for (const std::vector<std::string>& sizes :
+         {std::vector<std::string>{"hx", "hy"}, {"hx", "hy", "hz"}}) {
+        std::string text = boost::algorithm::join(sizes, ",") + ",dt,error\n";
+        for (const double h : {0.1, 0.05, 0.025, 0.0125})
+            for (const double dt : {0.1, 0.05, 0.025, 0.0125}) {
+                for (std::size_t k = 0; k < sizes.size(); ++k)
+                    text += std::to_string(h) + ",";
+                text += std::to_string(dt) + "," +
+                        std::to_string(100 * h + 2000 * h * h * h + 800 * dt * dt) + "\n";
+            }
+        const auto orders = analysis_of(text, {.sizes = sizes}).columns[0].by_width;
+        for (std::size_t k = 1; k < sizes.size(); ++k) {
+            BOOST_TEST(orders[k].status == "it is refined with hx");
+            BOOST_TEST(!orders[k].determined);
+        }
+        BOOST_TEST(orders[0].determined);
+        BOOST_TEST((orders[0].low <= 1 && orders[0].high >= 1));
+        BOOST_TEST((orders.back().low <= 2 && orders.back().high >= 2));
+    }
+}
+
+BOOST_AUTO_TEST_CASE(a_width_that_grows_is_not_refined_with_the_others) {
+    std::string text = "h,k,dt,error\n";
     for (const double h : {0.1, 0.05, 0.025, 0.0125})
         for (const double dt : {0.1, 0.05, 0.025, 0.0125})
-            text += std::to_string(h) + "," + std::to_string(h) + "," + std::to_string(dt) + "," +
-                    std::to_string(100 * h + 2000 * h * h * h + 800 * dt * dt) + "\n";
-    const auto column = analysis_of(text, {.sizes = {"hx", "hy"}}).columns[0];
-    BOOST_TEST(column.by_width[1].status == "it is refined with hx");
-    BOOST_TEST(!column.by_width[1].determined);
-    BOOST_TEST(column.by_width[0].determined);
-    BOOST_TEST((column.by_width[0].low <= 1 && column.by_width[0].high >= 1));
-    BOOST_TEST((column.by_width[2].low <= 2 && column.by_width[2].high >= 2));
+            text += std::to_string(h) + "," + std::to_string(1e-3 / h) + "," + std::to_string(dt) +
+                    "," + std::to_string(100 * h + 800 * dt * dt) + "\n";
+    for (const auto& order : analysis_of(text, {.sizes = {"h", "k"}}).columns[0].by_width)
+        BOOST_TEST(order.status.find("refined with") == std::string::npos);
 }
 
 BOOST_AUTO_TEST_CASE(widths_are_exact_where_their_ratios_are_fractions_of_small_numbers) {

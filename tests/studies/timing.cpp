@@ -186,12 +186,19 @@ BOOST_AUTO_TEST_CASE(single_runs_are_distinguishable_from_twice_the_time_on) {
     BOOST_TEST(compare(many, once).distinguishable);
 }
 
-BOOST_AUTO_TEST_CASE(the_step_of_a_clock_is_the_greatest_power_of_ten_that_divides_its_times) {
+BOOST_AUTO_TEST_CASE(the_step_of_a_clock_is_the_greatest_that_divides_its_times) {
     BOOST_TEST(clock_step_of({0.12, 0.3, 7.0}) == 0.01);
     BOOST_TEST(clock_step_of({3.0, 12.0}) == 1.0);
     BOOST_TEST(clock_step_of({0.12, 0.123456}) == 1e-6);
     BOOST_TEST(clock_step_of({0.12, 0.1234567}) == 0.0);
     BOOST_TEST(clock_step_of({1234567.89}) == 0.01);
+    // Ticks, to all their digits and as printed with few decimals.
+    BOOST_TEST(clock_step_of({1 / 60.0, 7 / 60.0, 12 / 60.0}) == 1 / 60.0);
+    BOOST_TEST(clock_step_of({0.015625, 0.046875, 1.0}) == 1 / 64.0);
+    BOOST_TEST(clock_step_of({0.016, 0.047, 0.156}) == 1 / 64.0);
+    BOOST_TEST(clock_step_of({0.004, 0.012, 0.028, 0.056}) == 0.004);
+    BOOST_TEST(clock_step_of({0.004, 0.013, 0.028, 0.056}) == 0.001);
+    BOOST_TEST(clock_step_of({0.00333, 0.01333, 0.02}) == 1 / 300.0);
 }
 
 BOOST_AUTO_TEST_CASE(times_that_a_step_of_the_clock_may_have_made_are_not_distinguishable) {
