@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <utility>
 
@@ -144,6 +145,7 @@ std::vector<TermShape> shapes_of(std::size_t widths) {
                                                     {TermShape::logarithm, TermShape::none},
                                                     {TermShape::constant, TermShape::none},
                                                     {0.5, 1.0},
+                                                    {TermShape::logarithm, 0.5},
                                                     {TermShape::logarithm, 1.0},
                                                     {TermShape::logarithm, 2.0}};
     for (const auto& [of_one, of_others] : others)
@@ -153,6 +155,12 @@ std::vector<TermShape> shapes_of(std::size_t widths) {
             shapes.push_back({next});
         }
     return shapes;
+}
+
+bool has_next_terms_of_two_kinds(const TermShape& shape) {
+    std::vector<double> kinds = shape.next;
+    std::erase(kinds, TermShape::none);
+    return std::ranges::adjacent_find(kinds, std::ranges::not_equal_to()) != kinds.end();
 }
 
 /// Whether the largest term is far larger than the error in every row: the error is then a
@@ -294,6 +302,7 @@ void OrderEnsemble::fit_all_widths() {
     for (const auto& place : places_within(most)) {
         const auto window = rows_from(place);
         std::optional<TermFit> plain;
+        double least_scale = infinity; // of those with next terms of one kind
         for (std::size_t k = 0; k < shapes.size(); ++k) {
             if (window.size() <= shapes[k].parameters())
                 continue;
@@ -303,6 +312,10 @@ void OrderEnsemble::fit_all_widths() {
                 continue;
             if (k == 0)
                 plain = fit;
+            if (!has_next_terms_of_two_kinds(shapes[k]))
+                least_scale = std::min(least_scale, fit->scale);
+            else if (fit->scale > std::max(least_scale, to_rounding))
+                continue; // it follows scatter
             if (!closest[k] || is_far_off(*closest[k], *fit))
                 closest[k] = fit;
             members_.push_back({std::move(*fit), static_cast<int>(k), place});

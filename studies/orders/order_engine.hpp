@@ -1,11 +1,12 @@
 /// Orders of an error in any number of widths, with intervals that hold the asymptotic order.
 ///
 /// No single model or choice of rows is trusted. Many models (term_model.hpp: the leading terms
-/// alone; with next terms in one width or in all, x^k with k of 1 or 2; for one width also a
-/// logarithm and a floor; and each width alone on the rows where the others are finest) are fitted
-/// to many windows of rows (without the coarsest levels of each width, one after another). A fit
-/// is believed as far as it stays the same when its window changes by one level, and as its
-/// standard error allows:
+/// alone; with next terms in one width or in all, x^k with k of 1/2, 1 or 2, a logarithm or a
+/// constant; for one width also a floor; and each width alone on the rows where the others are
+/// finest) are fitted to many windows of rows (without the coarsest levels of each width, one after
+/// another). One whose next terms are of two kinds counts where none of the others has residuals as
+/// small. A fit is believed as far as it stays the same when its window changes by one level, and
+/// as its standard error allows:
 ///
 ///     u_m² = max(t_{dof} s_m / 1.96, σ_m)² + (greatest change to a neighbouring window)²,
 ///     p = Σ p_m / u_m² / Σ 1 / u_m²,      half² = mean of (p_m − p)² + u_m², with the same
