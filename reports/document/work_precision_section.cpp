@@ -13,6 +13,13 @@ namespace tvbeam {
 
 namespace {
 
+/// Of a clock's step, as 0.01 or 1/60.
+std::string step_text(double step) {
+    constexpr std::size_t most_digits = 8;
+    const std::string text = shortest(step);
+    return text.size() <= most_digits ? text : fmt::format("1/{:.0f}", 1.0 / step);
+}
+
 /// Two significant digits, more before the point.
 std::string ratio_text(double ratio) {
     return ratio < 9.95 ? fixed(ratio, 1) : ratio < 1e5 ? fixed(ratio, 0) : scientific(ratio, 1);
@@ -154,7 +161,7 @@ Finding comparison(const SchemeComparison& pair, const ReachedError& error,
     const bool once = error.times[pair.faster]->runs == 1 || error.times[pair.slower]->runs == 1;
     const std::string clock =
         pair.times.clock_step > 0.0
-            ? fmt::format(", by a clock with steps of {} s", shortest(pair.times.clock_step))
+            ? fmt::format(", by a clock with steps of {} s", step_text(pair.times.clock_step))
             : "";
     const std::string range =
         std::isfinite(pair.times.highest)

@@ -46,9 +46,9 @@ std::vector<std::size_t> refined(const std::vector<DataColumn>& widths) {
     return result;
 }
 
-/// Whether two widths have as many levels together as each has alone, and are finer together: none
-/// changes without the other.
-bool are_refined_together(const DataColumn& first, const DataColumn& second) {
+/// Whether two widths have as many levels together as each has alone: none changes without the
+/// other.
+bool change_together(const DataColumn& first, const DataColumn& second) {
     std::set<double> of_first, of_second;
     std::set<std::pair<double, double>> of_both;
     for (std::size_t r = 0; r < first.numbers.size(); ++r) {
@@ -56,8 +56,18 @@ bool are_refined_together(const DataColumn& first, const DataColumn& second) {
         of_second.insert(second.numbers[r]);
         of_both.emplace(first.numbers[r], second.numbers[r]);
     }
-    return of_both.size() == of_first.size() && of_both.size() == of_second.size() &&
-           std::ranges::is_sorted(of_both, {}, &std::pair<double, double>::second);
+    return of_both.size() == of_first.size() && of_both.size() == of_second.size();
+}
+
+/// Of a width that changes together with another one.
+std::string together_with(const DataColumn& other, const DataColumn& width) {
+    const auto extremes = [&](bool least) {
+        const auto& of = other.numbers;
+        const auto at = least ? std::ranges::min_element(of) : std::ranges::max_element(of);
+        return width.numbers[static_cast<std::size_t>(at - of.begin())];
+    };
+    return (extremes(true) <= extremes(false) ? "it is refined with " : "it grows with a finer ") +
+           other.name;
 }
 
 std::string order_words(const std::string& width, const OrderInterval& order) {
@@ -296,8 +306,9 @@ ColumnAnalysis analyse_errors(const DataAnalysis& data, const DataColumn& errors
     constexpr std::size_t most_widths = 3;
     for (std::size_t i = 0; i < used.size(); ++i)
         for (std::size_t j = used.size(); used.size() > 2 && --j > i;)
-            if (are_refined_together(data.widths[used[i]], data.widths[used[j]])) {
-                column.by_width[used[j]].status = "it is refined with " + data.widths[used[i]].name;
+            if (change_together(data.widths[used[i]], data.widths[used[j]])) {
+                column.by_width[used[j]].status =
+                    together_with(data.widths[used[i]], data.widths[used[j]]);
                 used.erase(used.begin() + static_cast<std::ptrdiff_t>(j));
             }
     if (used.size() <= 2) {

@@ -141,14 +141,14 @@ std::vector<TermShape> shapes_of(std::size_t widths) {
     if (widths == 1)
         return shapes;
     // Of one width, and of all others.
-    constexpr std::pair<double, double> others[] = {{0.5, TermShape::none},
-                                                    {TermShape::logarithm, TermShape::none},
-                                                    {TermShape::constant, TermShape::none},
-                                                    {0.5, 1.0},
-                                                    {TermShape::logarithm, 0.5},
-                                                    {TermShape::logarithm, 1.0},
-                                                    {TermShape::logarithm, 2.0}};
-    for (const auto& [of_one, of_others] : others)
+    constexpr std::pair<double, double> kinds[] = {{0.5, TermShape::none},
+                                                   {TermShape::logarithm, TermShape::none},
+                                                   {TermShape::constant, TermShape::none},
+                                                   {0.5, 1.0},
+                                                   {TermShape::logarithm, 0.5},
+                                                   {TermShape::logarithm, 1.0},
+                                                   {TermShape::logarithm, 2.0}};
+    for (const auto& [of_one, of_others] : kinds)
         for (std::size_t i = 0; i < widths; ++i) {
             std::vector<double> next(widths, of_others);
             next[i] = of_one;
@@ -242,7 +242,7 @@ OrderEnsemble::OrderEnsemble(std::span<const ErrorRow> rows, std::vector<double>
         fit_sequence(rows_);
         return;
     }
-    fit_all_widths();
+    fit_all_widths(rows_);
     fit_each_alone(rows_);
 }
 
@@ -269,23 +269,21 @@ void OrderEnsemble::fit_sequence(const TermRows& rows) {
     }
 }
 
-bool OrderEnsemble::is_in(const std::vector<int>& place, Index row) const {
-    for (std::size_t i = 0; i < place.size(); ++i)
-        if (level_of(levels_[i], rows_.log_widths(row, static_cast<Index>(i))) < place[i])
-            return false;
-    return true;
-}
-
 /// The rows that are in a window of all widths.
-TermRows OrderEnsemble::rows_from(const std::vector<int>& place) const {
+TermRows OrderEnsemble::rows_from(const TermRows& rows, const std::vector<int>& place) const {
     std::vector<Index> chosen;
-    for (Index r = 0; r < rows_.size(); ++r)
-        if (is_in(place, r))
+    for (Index r = 0; r < rows.size(); ++r) {
+        bool inside = true;
+        for (std::size_t i = 0; i < place.size(); ++i)
+            inside = inside &&
+                     level_of(levels_[i], rows.log_widths(r, static_cast<Index>(i))) >= place[i];
+        if (inside)
             chosen.push_back(r);
-    return rows_.subset(chosen);
+    }
+    return rows.subset(chosen);
 }
 
-void OrderEnsemble::fit_all_widths() {
+void OrderEnsemble::fit_all_widths(const TermRows& rows) {
     std::vector<int> most;
     for (const auto& levels : levels_)
         most.push_back(most_dropped(levels.size()));
@@ -294,17 +292,19 @@ void OrderEnsemble::fit_all_widths() {
     // not.
     constexpr double far_better = 10;
     constexpr double to_rounding = 1e-7;
+    constexpr int fewest_spare = 2; // rows: seven parameters follow any nine
     std::vector<std::optional<TermFit>> closest(
         shapes.size()); // of the widest window, if it can be
     const auto is_far_off = [&](const TermFit& fit, const TermFit& other) {
         return fit.scale > far_better * std::max(other.scale, to_rounding);
     };
     for (const auto& place : places_within(most)) {
-        const auto window = rows_from(place);
+        const auto window = rows_from(rows, place);
         std::optional<TermFit> plain;
         double least_scale = infinity; // of those with next terms of one kind
         for (std::size_t k = 0; k < shapes.size(); ++k) {
-            if (window.size() <= shapes[k].parameters())
+            const bool of_two_kinds = has_next_terms_of_two_kinds(shapes[k]);
+            if (window.size() <= shapes[k].parameters() + (of_two_kinds ? fewest_spare : 0))
                 continue;
             auto fit = fit_terms(window, shapes[k], plain ? &*plain : nullptr,
                                  closest[k] ? &*closest[k] : nullptr);
@@ -312,10 +312,10 @@ void OrderEnsemble::fit_all_widths() {
                 continue;
             if (k == 0)
                 plain = fit;
-            if (!has_next_terms_of_two_kinds(shapes[k]))
+            if (!of_two_kinds)
                 least_scale = std::min(least_scale, fit->scale);
             else if (fit->scale > std::max(least_scale, to_rounding))
-                continue; // it follows scatter
+                continue; // what fits no better with more parameters follows scatter
             if (!closest[k] || is_far_off(*closest[k], *fit))
                 closest[k] = fit;
             members_.push_back({std::move(*fit), static_cast<int>(k), place});
@@ -325,7 +325,7 @@ void OrderEnsemble::fit_all_widths() {
         const auto& best = *closest[static_cast<std::size_t>(member.family)];
         if (!is_far_off(member.fit, best))
             continue;
-        const auto window = rows_from(member.place);
+        const auto window = rows_from(rows, member.place);
         auto fit = fit_terms(window, best.shape, &member.fit, &best);
         if (fit && fit->scale < member.fit.scale && is_believable(*fit, window))
             member.fit = std::move(*fit);
@@ -471,22 +471,6 @@ double OrderEnsemble::grid_factor() const {
            (rows_.scatter > 0 ? tuning_.scattered : 1.0);
 }
 
-/// Of a grid: whether the term of a width is a part of the error at three levels of the window that
-/// is worth the name. An order between two is one that no third confirms.
-bool OrderEnsemble::sees_three_levels(const EnsembleMember& member, Index width) const {
-    if (member.along >= 0 || rows_.widths() == 1)
-        return true;
-    const auto& levels = levels_[static_cast<std::size_t>(width)];
-    std::vector<bool> seen(levels.size(), false);
-    for (Index r = 0; r < rows_.size(); ++r) {
-        const double log_width = rows_.log_widths(r, width);
-        if (is_in(member.place, r) &&
-            member.fit.term(width, log_width) >= tuning_.least_seen * std::exp(rows_.log_errors[r]))
-            seen[static_cast<std::size_t>(level_of(levels, log_width))] = true;
-    }
-    return std::ranges::count(seen, true) >= static_cast<std::ptrdiff_t>(fewest_levels);
-}
-
 double OrderEnsemble::greatest_share(Index width) const {
     double share = 0;
     for (const auto& member : members_) {
@@ -576,6 +560,19 @@ bool OrderEnsemble::runs_away(Index width) const {
     return (least > 1 && last > tuning_.narrowest) || !slows_down;
 }
 
+/// Of a grid: whether the order of the leading terms moves from the last window but one to the last
+/// by more than half an interval may be, and what all models say is farther on by half as much:
+/// that of exp(−1/h) goes on.
+bool OrderEnsemble::leaps(Index width, double order) const {
+    const auto means = order_by_window(width);
+    if (rows_.widths() == 1 || means.size() < 2)
+        return false;
+    const double last = means.back().value;
+    const double step = last - means[means.size() - 2].value;
+    return std::abs(step) > tuning_.widest &&
+           std::copysign(1.0, step) * (order - last) > tuning_.widest / 2;
+}
+
 std::string OrderEnsemble::motion(Index width) const {
     const auto means = order_by_window(width);
     if (means.size() < 2 || !may_be_a_step(means))
@@ -603,8 +600,6 @@ std::vector<OrderInterval> OrderEnsemble::orders() const {
         const auto mixture = mix([&](const EnsembleMember& member) -> std::optional<FittedNumber> {
             if (member.along >= 0 && member.along != width)
                 return std::nullopt;
-            if (!sees_three_levels(member, width))
-                return std::nullopt;
             return member.fit.order(member.along < 0 ? width : 0);
         });
         if (mixture) {
@@ -614,7 +609,7 @@ std::vector<OrderInterval> OrderEnsemble::orders() const {
         }
         order.determined = mixture && order.share >= tuning_.least_share &&
                            order.low > tuning_.narrowest && mixture->half <= tuning_.widest &&
-                           !runs_away(width);
+                           !runs_away(width) && !leaps(width, order.value);
         if (!order.determined)
             order.status = status_of(width, order);
     }
@@ -624,10 +619,6 @@ std::vector<OrderInterval> OrderEnsemble::orders() const {
 std::string OrderEnsemble::status_of(Index width, const OrderInterval& order) const {
     if (order.share < tuning_.least_share)
         return "hidden: its term is less than 15 % of every error";
-    if (std::ranges::none_of(members_, [&](const EnsembleMember& member) {
-            return member.along < 0 && sees_three_levels(member, width);
-        }))
-        return "its term is 1 % of the error or more at fewer than three levels";
     if (std::abs(order.value) <= 2 * tuning_.narrowest && order.half_width() <= tuning_.widest)
         return "the error stands still";
     if (order.high <= 0)

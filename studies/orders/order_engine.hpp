@@ -1,12 +1,13 @@
 /// Orders of an error in any number of widths, with intervals that hold the asymptotic order.
 ///
 /// No single model or choice of rows is trusted. Many models (term_model.hpp: the leading terms
-/// alone; with next terms in one width or in all, x^k with k of 1/2, 1 or 2, a logarithm or a
-/// constant; for one width also a floor; and each width alone on the rows where the others are
-/// finest) are fitted to many windows of rows (without the coarsest levels of each width, one after
-/// another). One whose next terms are of two kinds counts where none of the others has residuals as
-/// small. A fit is believed as far as it stays the same when its window changes by one level, and
-/// as its standard error allows:
+/// alone; with next terms x or x² in one width or in all; with √x, a logarithm or a constant in one
+/// width, and in the others none or √x, x or x²; for one width also a floor; and each width alone
+/// on the rows where the others are finest) are fitted to many windows of rows (without the
+/// coarsest levels of each width, one after another). One whose next terms are of two kinds counts
+/// where none of the others has smaller residuals; none has a logarithm in two widths. A fit is
+/// believed as far as it stays the same when its window changes by one level, and as its standard
+/// error allows:
 ///
 ///     u_m² = max(t_{dof} s_m / 1.96, σ_m)² + (greatest change to a neighbouring window)²,
 ///     p = Σ p_m / u_m² / Σ 1 / u_m²,      half² = mean of (p_m − p)² + u_m², with the same
@@ -44,10 +45,6 @@ struct OrderTuning {
     /// A term that is a smaller part of the error in every row is hidden: next terms of the others
     /// are as large, and its order would be theirs.
     double least_share = 0.15;
-    /// A term that is a smaller part of the error in every row of a level is not seen there. Exact
-    /// errors would show smaller ones, but not whether they are of one order: of exp(−1/(5h)) + 0.1
-    /// dt at four h, which are seen at two of three levels, "6.16 ± 0.19" without it.
-    double least_seen = 0.01;
     /// Added to half the interval: what no change of window or model shows. An order that changes
     /// by less from window to window stands still.
     double narrowest = 0.01;
@@ -146,10 +143,8 @@ private:
         double half = 0;
     };
     void fit_sequence(const TermRows& rows);
-    bool is_in(const std::vector<int>& place, Eigen::Index row) const;
-    bool sees_three_levels(const EnsembleMember& member, Eigen::Index width) const;
-    TermRows rows_from(const std::vector<int>& place) const;
-    void fit_all_widths();
+    TermRows rows_from(const TermRows& rows, const std::vector<int>& place) const;
+    void fit_all_widths(const TermRows& rows);
     void fit_each_alone(const TermRows& rows);
     using Numbers = std::map<std::pair<int, std::vector<int>>, FittedNumber>;
     std::optional<double> change_of(const Numbers& numbers, int family,
@@ -165,6 +160,7 @@ private:
     bool may_be_a_step(const std::vector<FittedNumber>& windows) const;
     bool is_explained() const;
     bool runs_away(Eigen::Index width) const;
+    bool leaps(Eigen::Index width, double order) const;
     std::string motion(Eigen::Index width) const;
 
     OrderTuning tuning_;

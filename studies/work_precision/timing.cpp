@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <numeric>
+#include <set>
 
 namespace tvbeam {
 
@@ -66,11 +69,20 @@ double clock_step_of(const std::vector<double>& seconds) {
     for (int decimals = 0; decimals <= most_decimals && printed == 0.0; ++decimals)
         if (are_whole(std::pow(10.0, decimals), rounding))
             printed = 1.0 / std::pow(10.0, decimals);
-    // Ticks a second of operating systems' clocks. Printed, they are rounded.
-    constexpr double most_slack = 0.2; // of a tick: then whole ticks are no accident
+    // Ticks a second of operating systems' clocks. Printed, they are rounded, and other times may
+    // be whole ticks by chance, a part 2 slack of them.
+    constexpr double by_chance = 1e-3;
+    std::set<double> shown(seconds.begin(), seconds.end());
+    shown.erase(0.0);
     for (const double ticks : {60.0, 64.0, 128.0, 250.0, 256.0, 300.0, 1024.0}) {
         const double slack = rounding + printed * ticks / 2.0;
-        if (slack <= most_slack && are_whole(ticks, slack))
+        if (!are_whole(ticks, slack) ||
+            !(std::pow(2.0 * slack, static_cast<double>(shown.size())) <= by_chance))
+            continue;
+        std::int64_t common = 0; // what has more ticks in each has a greater step
+        for (const double time : shown)
+            common = std::gcd(common, std::llround(time * ticks));
+        if (common == 1)
             return 1.0 / ticks;
     }
     return printed;

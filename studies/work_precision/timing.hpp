@@ -21,10 +21,10 @@ struct Timing {
 /// 3(n − 1)/4, counted from 0.
 Timing timing_of(std::vector<double> seconds, double clock_step = 0.0);
 
-/// The step of the clock that showed these times: the greatest tick of an operating system's clock
-/// (1/60 s to 1/1024 s) of which all are whole multiples, as far as their decimals say; or the
-/// greatest power of ten, from 1 s to 1 µs: a program prints two decimals. 0 where they are
-/// neither.
+/// The step of the clock that showed these times: a tick of an operating system's clock (1/60 s to
+/// 1/1024 s) of which all are whole multiples, and that by no chance, as far as their decimals say;
+/// or the greatest power of ten, from 1 s to 1 µs: a program prints two decimals. 0 where they are
+/// neither. Unit: s.
 double clock_step_of(const std::vector<double>& seconds);
 
 /// What one run of a ladder gave.

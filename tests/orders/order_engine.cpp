@@ -217,16 +217,18 @@ BOOST_AUTO_TEST_CASE(the_orders_of_grids_hold_where_both_widths_have_next_terms)
     BOOST_TEST(missed <= 0.05 * determined, missed << " of " << determined);
 }
 
-// exp(−1/(5h)) has no order: it is seen at two of the three finer h.
-BOOST_AUTO_TEST_CASE(what_two_levels_show_is_no_order) {
+// exp(−1/(a h)) has no order, whatever stands beside it.
+BOOST_DATA_TEST_CASE(what_falls_faster_than_any_power_has_no_order,
+                     data::make({4.0, 5.0, 7.0, 7.2, 7.4, 10.0}) *
+                         data::make({0.1, 0.05, 0.02, 0.01, 1e-4, 1e-6}),
+                     a, b) {
     std::vector<ErrorRow> rows;
     for (const double h : {0.1, 0.05, 0.025, 0.0125})
         for (const double dt : {0.1, 0.05, 0.025, 0.0125})
-            rows.push_back({{h, dt}, std::exp(-1 / (5 * h)) + 0.1 * dt});
+            rows.push_back({{h, dt}, std::exp(-1 / (a * h)) + b * dt});
     const auto orders = estimate_orders(rows);
     BOOST_TEST(!orders[0].determined);
-    BOOST_TEST(orders[1].determined);
-    BOOST_TEST(holds(orders[1], 1.0));
+    BOOST_TEST((!orders[1].determined || holds(orders[1], 1.0)));
 }
 
 BOOST_AUTO_TEST_CASE(a_product_of_both_widths_does_not_pass_for_an_order) {

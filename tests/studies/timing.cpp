@@ -196,8 +196,14 @@ BOOST_AUTO_TEST_CASE(the_step_of_a_clock_is_the_greatest_that_divides_its_times)
     BOOST_TEST(clock_step_of({1 / 60.0, 7 / 60.0, 12 / 60.0}) == 1 / 60.0);
     BOOST_TEST(clock_step_of({0.015625, 0.046875, 1.0}) == 1 / 64.0);
     BOOST_TEST(clock_step_of({0.016, 0.047, 0.156}) == 1 / 64.0);
-    BOOST_TEST(clock_step_of({0.004, 0.012, 0.028, 0.056}) == 0.004);
-    BOOST_TEST(clock_step_of({0.004, 0.013, 0.028, 0.056}) == 0.001);
+    BOOST_TEST(clock_step_of({0.004, 0.012, 0.028, 0.056, 0.064}) == 0.004);
+    BOOST_TEST(clock_step_of({0.004, 0.013, 0.028, 0.056, 0.064}) == 0.001);
+    // Few times to the millisecond may be whole ticks by chance, or have eight in each.
+    BOOST_TEST(clock_step_of({0.004, 0.008}) == 0.001);
+    BOOST_TEST(clock_step_of({0.008, 0.016, 0.032, 0.016}) == 0.001);
+    BOOST_TEST(clock_step_of({0.003, 0.007, 0.010, 0.017}) == 0.001);
+    BOOST_TEST(clock_step_of({0.0, 0.003}) == 0.001);
+    BOOST_TEST(clock_step_of({0.125, 0.25, 0.375}) == 0.001);
     BOOST_TEST(clock_step_of({0.00333, 0.01333, 0.02}) == 1 / 300.0);
 }
 
