@@ -22,7 +22,7 @@ using Json = nlohmann::ordered_json;
 constexpr double of_fits = 1e-3;
 constexpr double of_path_limits = 0.01;
 constexpr double of_half_widths = 0.05;
-/// ln of a width of 1e-2: a x^p stands while ln a moves by as many times what p moves by.
+/// ln 1/x of a width x = 1e-2: where p moves by δ, ln a moves by δ ln 1/x, so that a x^p stays.
 constexpr double log_of_widths = 4.6;
 constexpr double of_sentences = 1e-3;
 constexpr double coarsest_digit = 0.01; // of the number, may be another
