@@ -17,8 +17,7 @@ namespace tvbeam {
 /// are integrated exactly. What they show is the difference of two errors; how the error of the
 /// reference is accounted for:
 ///
-/// - the two-term fit takes it into its model (the reference of fit_two_term), so that a, b, p and
-/// q
+/// - the two-term fit takes it into its model (the reference of fit_two_term), so that a, b, p, q
 ///   are those of the error itself. Exact in Δt; in h it takes the reference's error for a small
 ///   copy of the coarse one, which holds for the part that is smooth in x, but not for the part
 ///   that oscillates in every element (ρ aside): let the reference be four times finer in h than
