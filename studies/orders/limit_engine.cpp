@@ -1,5 +1,7 @@
 #include "studies/orders/limit_engine.hpp"
 
+#include "studies/orders/observed_order.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <map>

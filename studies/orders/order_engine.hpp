@@ -22,7 +22,9 @@
 /// 2016; Eça and Hoekstra 2014), many models times many windows (StREEQ, Sandia).
 #pragma once
 
-#include "studies/orders/observed_order.hpp"
+#include "studies/orders/error_rows.hpp"
+#include "studies/orders/order_members.hpp"
+#include "studies/orders/order_motion.hpp"
 #include "studies/orders/term_model.hpp"
 
 #include <functional>
@@ -79,15 +81,6 @@ struct OrderTuning {
     std::size_t most_rows = 400;
 };
 
-/// One run, or one row of a table.
-struct ErrorRow {
-    std::vector<double> widths;                              ///< as many in every row; positive
-    double error = std::numeric_limits<double>::quiet_NaN(); ///< a norm, not its square
-    /// Standard deviation of ln e, that is of the error over itself. NaN: unknown; counts only
-    /// where all rows with an error have one.
-    double sigma = std::numeric_limits<double>::quiet_NaN();
-};
-
 struct OrderInterval {
     double value = std::numeric_limits<double>::quiet_NaN();
     double low = -std::numeric_limits<double>::infinity(); ///< 95 %
@@ -99,14 +92,6 @@ struct OrderInterval {
     std::string status = {};
 
     double half_width() const { return (high - low) / 2; }
-};
-
-/// One fit of one model to one window.
-struct EnsembleMember {
-    TermFit fit;
-    int family = 0;          ///< members of one family have one model
-    std::vector<int> place;  ///< the window; neighbours differ by one in one number
-    Eigen::Index along = -1; ///< the one width that it knows; -1: all
 };
 
 /// All fits to the rows of one norm.
@@ -142,26 +127,18 @@ private:
         double value = 0;
         double half = 0;
     };
-    void fit_sequence(const TermRows& rows);
-    TermRows rows_from(const TermRows& rows, const std::vector<int>& place) const;
-    void fit_all_widths(const TermRows& rows);
-    void fit_each_alone(const TermRows& rows);
     using Numbers = std::map<std::pair<int, std::vector<int>>, FittedNumber>;
     std::optional<double> change_of(const Numbers& numbers, int family,
                                     const std::vector<int>& place) const;
     Numbers numbers_of(const Functional& number) const;
     int place_of(Eigen::Index width, double log_width) const;
     std::optional<Mixture> mix(const Functional& number) const;
+    OrderMotion motion_of(Eigen::Index width) const;
+    double greatest_share(Eigen::Index width) const;
+    bool is_seen_as_a_power(Eigen::Index width, const OrderInterval& order) const;
     std::string status_of(Eigen::Index width, const OrderInterval& order) const;
     double sequence_factor() const;
     double grid_factor() const;
-    double greatest_share(Eigen::Index width) const;
-    std::vector<FittedNumber> order_by_window(Eigen::Index width) const;
-    bool may_be_a_step(const std::vector<FittedNumber>& windows) const;
-    bool is_explained() const;
-    bool runs_away(Eigen::Index width) const;
-    bool leaps(Eigen::Index width, double order) const;
-    std::string motion(Eigen::Index width) const;
 
     OrderTuning tuning_;
     TermRows rows_;

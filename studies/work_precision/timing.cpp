@@ -113,12 +113,15 @@ std::optional<Timing> time_to_reach(std::span<const TimedError> rows, double err
 }
 
 Comparison compare(const Timing& first, const Timing& second) {
+    constexpr double rounding = 1e-9;
     Comparison result;
     result.first_is_faster = first.median < second.median;
     const Timing& fast = result.first_is_faster ? first : second;
     const Timing& slow = result.first_is_faster ? second : first;
     result.ratio = slow.median / fast.median;
     result.lowest = std::max(slow.q1 - slow.clock_step, 0.0) / (fast.q3 + fast.clock_step);
+    if (std::abs(result.lowest - 1.0) < rounding)
+        result.lowest = 1.0; // two steps of the clock apart: they touch
     result.highest = (slow.q3 + slow.clock_step) / std::max(fast.q1 - fast.clock_step, 0.0);
     const double step = std::max(slow.clock_step, fast.clock_step);
     result.clock_step = step > least_part_of_a_step * fast.q1 ? step : 0.0;

@@ -4,6 +4,7 @@
 // for is 0.95 less four times that. What is not determined says nothing, and few may be: of nine in
 // ten that are determined the part scatters likewise.
 
+#include "studies/orders/observed_order.hpp"
 #include "studies/orders/order_engine.hpp"
 #include "studies/orders/two_term_fit.hpp"
 #include "tests/this_build.hpp"

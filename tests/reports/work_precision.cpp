@@ -169,6 +169,21 @@ BOOST_AUTO_TEST_CASE(of_many_the_fastest_is_compared_with_each) {
     BOOST_TEST(has(text, "the table has the others' times"), text);
 }
 
+BOOST_AUTO_TEST_CASE(quartiles_stand_below_their_headings) {
+    Study one = study({"theta_L2L2"});
+    one.add("plain", {{1e-3, 2e-3}});
+    const std::string text = one.text();
+    const auto heading = text.find("median");
+    BOOST_REQUIRE(heading != std::string::npos);
+    BOOST_TEST(heading < text.find("q1"));
+    BOOST_TEST(text.find("q1") < text.find("q3"));
+    const auto lower = text.find("1.98e-3");
+    BOOST_REQUIRE(lower != std::string::npos);
+    const auto upper = text.find("2.02e-3");
+    BOOST_REQUIRE(upper != std::string::npos);
+    BOOST_TEST(lower < upper);
+}
+
 BOOST_AUTO_TEST_CASE(one_run_is_marked_and_has_no_quartiles) {
     Study one = study({"theta_L2L2"});
     one.add("slow", {{1e-2, 1.0}, {1e-4, 3.0, 1}});

@@ -3,6 +3,7 @@
 // order_coverage [--list] GRIDS.txt…, as make_grids.py writes them. Exit 1 where fewer than 95 %
 // hold.
 
+#include "studies/orders/observed_order.hpp"
 #include "studies/orders/order_engine.hpp"
 
 #include <algorithm>

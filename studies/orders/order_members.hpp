@@ -1,0 +1,34 @@
+/// Fits of many models to many windows of rows.
+#pragma once
+
+#include "studies/orders/error_rows.hpp"
+#include "studies/orders/term_model.hpp"
+
+#include <Eigen/Core>
+
+#include <vector>
+
+namespace tvbeam {
+
+/// One fit of one model to one window.
+struct EnsembleMember {
+    TermFit fit;
+    int family = 0;          ///< members of one family have one model
+    std::vector<int> place;  ///< the window; neighbours differ by one in one number
+    Eigen::Index along = -1; ///< the one width that it knows; -1: all
+};
+
+/// Families of members are the models of all widths, and, from this on for each width in turn,
+/// those of it alone; the first of each is that of the leading terms.
+constexpr int families_of_a_width = 100;
+/// Among the models of a sequence.
+constexpr int logarithmic_family = 3;
+
+/// All fits that are believed. A sequence has windows down to the two finest levels; other rows
+/// such of at least three levels and half of them, in each width, and each width alone on the rows
+/// where the others are finest.
+/// levels: of each width, coarse to fine.
+std::vector<EnsembleMember> fit_members(const TermRows& rows,
+                                        const std::vector<std::vector<double>>& levels);
+
+} // namespace tvbeam

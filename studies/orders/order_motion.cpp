@@ -1,0 +1,184 @@
+#include "studies/orders/order_motion.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <map>
+#include <utility>
+
+namespace tvbeam {
+
+namespace {
+
+/// The means over all members without next terms, by how many coarse levels they leave out.
+std::vector<FittedNumber> order_by_window(std::span<const EnsembleMember> members,
+                                          Eigen::Index width) {
+    std::map<int, std::pair<FittedNumber, int>> sums;
+    for (const auto& member : members)
+        if (member.family == 0) {
+            auto& [sum, count] = sums[member.place[static_cast<std::size_t>(width)]];
+            const FittedNumber order = member.fit.order(width);
+            sum.value += order.value;
+            sum.error += order.error;
+            ++count;
+        }
+    std::vector<FittedNumber> means;
+    means.reserve(sums.size());
+    for (const auto& [place, sum] : sums)
+        means.push_back({sum.first.value / sum.second, sum.first.error / sum.second});
+    return means;
+}
+
+} // namespace
+
+OrderMotion::OrderMotion(const TermRows& rows, const std::vector<std::vector<double>>& levels,
+                         std::span<const EnsembleMember> members, Eigen::Index width,
+                         MotionLimits limits)
+    : rows_(rows), levels_(levels), members_(members), width_(width), limits_(limits),
+      windows_(order_by_window(members, width)) {}
+
+/// Whether the order's last step is more than known scatter makes of an order that stands still;
+/// where none is known, any is. One window is part of the other, so that the variance of the step
+/// is the difference of theirs.
+bool OrderMotion::may_be_a_step() const {
+    constexpr double deviations = 2;
+    const auto& last = windows_.back();
+    const auto& before = windows_[windows_.size() - 2];
+    const double variance = std::max(0.0, last.error * last.error - before.error * before.error);
+    return !(rows_.scatter > 0) ||
+           std::abs(last.value - before.value) > deviations * std::sqrt(variance);
+}
+
+/// Of a sequence: whether one model's order stands still over its windows, all but one, while that
+/// of the leading term alone moves: then that model says what it moves to.
+bool OrderMotion::is_explained() const {
+    constexpr double still = 0.05; // over how far the leading term's order moves
+    std::map<int, std::vector<double>> orders;
+    for (const auto& member : members_)
+        orders[member.family].push_back(member.fit.order(0).value);
+    const auto range = [](std::vector<double> values, bool without_one) {
+        std::sort(values.begin(), values.end());
+        const std::size_t n = values.size();
+        const double all = values.back() - values.front();
+        return without_one ? std::min(values[n - 2] - values.front(), values.back() - values[1])
+                           : all;
+    };
+    const double moved = range(orders[0], false);
+    return std::any_of(orders.begin(), orders.end(), [&](const auto& family) {
+        return family.first != 0 && family.second.size() > 2 &&
+               range(family.second, true) < still * moved;
+    });
+}
+
+/// Of a sequence: whether the order moves one way, and from each window to the next by more, or,
+/// over five levels or more, by hardly less: a next term of h^½ has steps of 0.71 on halved widths.
+/// What it goes to is then beyond what any window shows.
+bool OrderMotion::runs_away() const {
+    constexpr double hardly_less = 0.75;
+    constexpr double least_of_many = 0.25; // of `still`, where many steps go one way
+    if (rows_.widths() != 1 || windows_.size() < 3 || !may_be_a_step())
+        return false;
+    std::vector<double> ratios; // of consecutive steps
+    for (std::size_t i = 2; i < windows_.size(); ++i)
+        ratios.push_back((windows_[i].value - windows_[i - 1].value) /
+                         (windows_[i - 1].value - windows_[i - 2].value));
+    const double least = *std::min_element(ratios.begin(), ratios.end());
+    if (!(least > 0))
+        return false;
+    const double last = std::abs(windows_.back().value - windows_[windows_.size() - 2].value);
+    if (is_explained())
+        return false;
+    const bool slows_down = ratios.size() < 2 ||
+                            std::min(ratios.back(), ratios[ratios.size() - 2]) <= hardly_less ||
+                            last <= least_of_many * limits_.still;
+    return (least > 1 && last > limits_.still) || !slows_down;
+}
+
+/// Of a grid: whether the order of the leading terms moves from the last window but one to the last
+/// by more than half an interval may be, and what all models say is farther on by half as much:
+/// that of exp(−1/h) goes on.
+bool OrderMotion::leaps(double order) const {
+    if (rows_.widths() == 1 || windows_.size() < 2)
+        return false;
+    const double last = windows_.back().value;
+    const double step = last - windows_[windows_.size() - 2].value;
+    return std::abs(step) > limits_.too_far &&
+           std::copysign(1.0, step) * (order - last) > limits_.too_far / 2;
+}
+
+/// The rows where all other widths are finest, coarse to fine.
+std::vector<Eigen::Index> OrderMotion::finest_rows() const {
+    std::vector<Eigen::Index> rows;
+    for (Eigen::Index r = 0; r < rows_.size(); ++r) {
+        bool is_finest = true;
+        for (Eigen::Index i = 0; i < rows_.widths(); ++i) {
+            const auto& levels = levels_[static_cast<std::size_t>(i)];
+            is_finest = is_finest && (i == width_ || level_of(levels, rows_.log_widths(r, i)) + 1 ==
+                                                         static_cast<int>(levels.size()));
+        }
+        if (is_finest)
+            rows.push_back(r);
+    }
+    std::ranges::sort(rows, std::greater<>(),
+                      [&](Eigen::Index r) { return rows_.log_widths(r, width_); });
+    return rows;
+}
+
+/// Of a grid: the greatest of its local orders where the other widths are finest, where they rise
+/// up to it by ever more and no model of all levels does as much: that of exp(−1/h), or of levels
+/// too coarse for a power to be seen. The other terms lower it, or are of opposite sign, which a
+/// model then knows.
+std::optional<double> OrderMotion::last_of_a_rise() const {
+    constexpr double alike = 0.05; // orders that a model explains
+    if (rows_.widths() == 1)
+        return std::nullopt;
+    const auto rows = finest_rows();
+    const auto local_orders = [&](const auto& log_error) {
+        std::vector<double> orders;
+        for (std::size_t i = 1; i < rows.size(); ++i)
+            orders.push_back(
+                (log_error(rows[i - 1]) - log_error(rows[i])) /
+                (rows_.log_widths(rows[i - 1], width_) - rows_.log_widths(rows[i], width_)));
+        return orders;
+    };
+    const auto orders = local_orders([&](Eigen::Index r) { return rows_.log_errors[r]; });
+    const auto greatest = std::max_element(orders.begin(), orders.end());
+    if (greatest - orders.begin() < 2)
+        return std::nullopt;
+    const double last = *greatest - greatest[-1];
+    const double before = greatest[-1] - greatest[-2];
+    if (!(before > 0 && last > std::max(limits_.too_far, before)))
+        return std::nullopt;
+    const bool has_reference = rows_.log_reference.size() > 0;
+    const bool is_modelled = std::ranges::any_of(members_, [&](const EnsembleMember& member) {
+        if (member.family != 0 || member.place[static_cast<std::size_t>(width_)] > 0)
+            return false;
+        const auto modelled = local_orders([&](Eigen::Index r) {
+            return member.fit.log_error(rows_.log_widths.row(r).transpose(), has_reference).value;
+        });
+        return std::ranges::equal(orders, modelled, [&](double one, double other) {
+            return std::abs(one - other) < alike;
+        });
+    });
+    return is_modelled ? std::nullopt : std::optional(*greatest);
+}
+
+std::string OrderMotion::words() const {
+    if (const auto last = last_of_a_rise())
+        return fmt::format("it rises from level to level where the others are finest, to {:.2f}",
+                           *last);
+    if (windows_.size() < 2 || !may_be_a_step())
+        return {};
+    const double last = windows_.back().value;
+    const double step = last - windows_[windows_.size() - 2].value;
+    if (std::abs(step) < limits_.still || std::abs(last) > 20)
+        return {};
+    for (std::size_t i = 1; i < windows_.size(); ++i)
+        if ((windows_[i].value - windows_[i - 1].value) * step <= 0)
+            return {};
+    return fmt::format("it {} over finer windows, to {:.2f}", step > 0 ? "rises" : "falls", last);
+}
+
+} // namespace tvbeam

@@ -1,0 +1,53 @@
+/// How an order moves: over windows that leave out ever more of the coarse levels, and from level
+/// to level. One that is still moving is not known, however well models agree on it.
+#pragma once
+
+#include "studies/orders/order_members.hpp"
+#include "studies/orders/term_model.hpp"
+
+#include <Eigen/Core>
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace tvbeam {
+
+/// What counts as still and as a leap: OrderTuning.
+struct MotionLimits {
+    double still = 0;   ///< changes below are none
+    double too_far = 0; ///< half of the widest interval that says anything
+};
+
+/// Of one width.
+class OrderMotion {
+public:
+    /// levels: of each width, coarse to fine.
+    OrderMotion(const TermRows& rows, const std::vector<std::vector<double>>& levels,
+                std::span<const EnsembleMember> members, Eigen::Index width, MotionLimits limits);
+
+    /// Whether it moves on to where no window shows it; order: what all models say of it.
+    [[nodiscard]] bool goes_on(double order) const {
+        return runs_away() || leaps(order) || last_of_a_rise().has_value();
+    }
+    /// As "it rises over finer windows, to 1.68"; empty where it moves to and fro, or not at all.
+    [[nodiscard]] std::string words() const;
+
+private:
+    [[nodiscard]] bool may_be_a_step() const;
+    [[nodiscard]] bool is_explained() const;
+    [[nodiscard]] bool runs_away() const;
+    [[nodiscard]] bool leaps(double order) const;
+    [[nodiscard]] std::vector<Eigen::Index> finest_rows() const;
+    [[nodiscard]] std::optional<double> last_of_a_rise() const;
+
+    const TermRows& rows_;
+    const std::vector<std::vector<double>>& levels_;
+    std::span<const EnsembleMember> members_;
+    Eigen::Index width_;
+    MotionLimits limits_;
+    std::vector<FittedNumber> windows_; ///< the order in each, and its standard error
+};
+
+} // namespace tvbeam
