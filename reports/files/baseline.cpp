@@ -223,7 +223,7 @@ std::vector<CheckedExpectation> Baseline::check(const BaselineEntry& entry,
     for (const auto& [what, before] : recorded)
         if (!errors.contains(what))
             checked.push_back(
-                {"baseline: " + what, before.text, "it is not found any more", place, false});
+                {"baseline: " + what, before.text, "nothing of the kind", place, false});
     if (const auto said = said_.find(entry.name); said != said_.end()) {
         const Json now = entry.said.empty() ? Json::object() : Json::parse(entry.said);
         const auto differences = held_values(Json::parse(said->second), now, tolerance);
