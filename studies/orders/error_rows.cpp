@@ -92,9 +92,7 @@ std::vector<double> levels_of(Eigen::VectorXd log_widths, double one_level) {
 
 int level_of(const std::vector<double>& levels, double log_width) {
     const auto finer = std::upper_bound(levels.begin(), levels.end(), log_width, std::greater<>());
-    // The last level that is not finer than the width.
-    const auto exact = std::find(levels.begin(), levels.end(), log_width);
-    return static_cast<int>((exact != levels.end() ? exact : finer - 1) - levels.begin());
+    return static_cast<int>(finer - levels.begin()) - 1;
 }
 
 } // namespace tvbeam

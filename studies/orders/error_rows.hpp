@@ -32,7 +32,7 @@ TermRows usable_rows(std::span<const ErrorRow> given, std::size_t most_rows);
 /// ln of the coarsest width of each level, coarse to fine; a level is what lies within one factor.
 std::vector<double> levels_of(Eigen::VectorXd log_widths, double one_level);
 
-/// The level of a width: the last that is not finer.
+/// The level of a width: the last that is not finer; -1 where all are.
 int level_of(const std::vector<double>& levels, double log_width);
 
 } // namespace tvbeam

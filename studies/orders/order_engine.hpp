@@ -17,7 +17,8 @@
 /// stated one, or that of rows at equal widths (replicates). So the interval knows scatter, the
 /// drift of the order along its width (the neighbours), and what extrapolation gives (the models
 /// with next terms, where they are steadier than those without). Where all of that is wide the
-/// order is not determined, and the status says how it moves. Constants: OrderTuning. Ideas of
+/// order is not determined, nor where it still moves (order_motion.hpp) or is steep and seen at two
+/// levels alone; the status says why. Constants: OrderTuning. Ideas of
 /// others: model averaging by stability and the spread over models as uncertainty (Rider et al.
 /// 2016; Eça and Hoekstra 2014), many models times many windows (StREEQ, Sandia).
 #pragma once

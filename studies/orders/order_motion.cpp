@@ -108,7 +108,7 @@ bool OrderMotion::leaps(double order) const {
            std::copysign(1.0, step) * (order - last) > limits_.too_far / 2;
 }
 
-/// The rows where all other widths are finest, coarse to fine.
+/// The rows where all other widths are finest, coarse to fine, one a level.
 std::vector<Eigen::Index> OrderMotion::finest_rows() const {
     std::vector<Eigen::Index> rows;
     for (Eigen::Index r = 0; r < rows_.size(); ++r) {
@@ -123,52 +123,74 @@ std::vector<Eigen::Index> OrderMotion::finest_rows() const {
     }
     std::ranges::sort(rows, std::greater<>(),
                       [&](Eigen::Index r) { return rows_.log_widths(r, width_); });
+    const auto level = [&](Eigen::Index r) {
+        return level_of(levels_[static_cast<std::size_t>(width_)], rows_.log_widths(r, width_));
+    };
+    const auto repeated = std::ranges::unique(rows, std::equal_to<>(), level);
+    rows.erase(repeated.begin(), repeated.end());
     return rows;
+}
+
+/// Whether the fit is one of terms that a method may have: without any bound on their orders next
+/// terms follow exp(−1/h), too.
+bool OrderMotion::has_usual_orders(const TermFit& fit) const {
+    constexpr double least = 0.25;
+    constexpr double greatest = 20;
+    for (Eigen::Index i = 0; i < rows_.widths(); ++i)
+        if (const double order = fit.order(i).value; !(order >= least && order <= greatest))
+            return false;
+    return true;
 }
 
 /// Of a grid: the greatest of its local orders where the other widths are finest, where they rise
 /// up to it by ever more and no model of all levels does as much: that of exp(−1/h), or of levels
 /// too coarse for a power to be seen. The other terms lower it, or are of opposite sign, which a
 /// model then knows.
-std::optional<double> OrderMotion::last_of_a_rise() const {
+std::optional<double> OrderMotion::greatest_of_a_rise() const {
     constexpr double alike = 0.05; // orders that a model explains
+    constexpr double deviations = 2;
     if (rows_.widths() == 1)
         return std::nullopt;
     const auto rows = finest_rows();
+    const auto step = [&](std::size_t i) {
+        return rows_.log_widths(rows[i], width_) - rows_.log_widths(rows[i + 1], width_);
+    };
     const auto local_orders = [&](const auto& log_error) {
         std::vector<double> orders;
-        for (std::size_t i = 1; i < rows.size(); ++i)
-            orders.push_back(
-                (log_error(rows[i - 1]) - log_error(rows[i])) /
-                (rows_.log_widths(rows[i - 1], width_) - rows_.log_widths(rows[i], width_)));
+        for (std::size_t i = 0; i + 1 < rows.size(); ++i)
+            orders.push_back((log_error(rows[i]) - log_error(rows[i + 1])) / step(i));
         return orders;
     };
     const auto orders = local_orders([&](Eigen::Index r) { return rows_.log_errors[r]; });
-    const auto greatest = std::max_element(orders.begin(), orders.end());
-    if (greatest - orders.begin() < 2)
+    const auto at = static_cast<std::size_t>(std::ranges::max_element(orders) - orders.begin());
+    if (orders.empty() || at < 2)
         return std::nullopt;
-    const double last = *greatest - greatest[-1];
-    const double before = greatest[-1] - greatest[-2];
-    if (!(before > 0 && last > std::max(limits_.too_far, before)))
+    const double last = orders[at] - orders[at - 1];
+    const double before = orders[at - 1] - orders[at - 2];
+    const double far = limits_.too_far * std::min(1.0, step(at) / std::log(2)); // on halved widths
+    if (!(before > 0 && last > std::max(far, before)))
         return std::nullopt;
     const bool has_reference = rows_.log_reference.size() > 0;
     const bool is_modelled = std::ranges::any_of(members_, [&](const EnsembleMember& member) {
-        if (member.family != 0 || member.place[static_cast<std::size_t>(width_)] > 0)
+        if (member.along >= 0 || member.place[static_cast<std::size_t>(width_)] > 0 ||
+            (member.family != 0 && !has_usual_orders(member.fit)))
             return false;
         const auto modelled = local_orders([&](Eigen::Index r) {
             return member.fit.log_error(rows_.log_widths.row(r).transpose(), has_reference).value;
         });
-        return std::ranges::equal(orders, modelled, [&](double one, double other) {
-            return std::abs(one - other) < alike;
-        });
+        for (std::size_t i = 0; i < orders.size(); ++i)
+            if (!(std::abs(orders[i] - modelled[i]) <
+                  alike + deviations * std::sqrt(2.0) * rows_.scatter / step(i)))
+                return false;
+        return true;
     });
-    return is_modelled ? std::nullopt : std::optional(*greatest);
+    return is_modelled ? std::nullopt : std::optional(orders[at]);
 }
 
 std::string OrderMotion::words() const {
-    if (const auto last = last_of_a_rise())
+    if (const auto greatest = greatest_of_a_rise())
         return fmt::format("it rises from level to level where the others are finest, to {:.2f}",
-                           *last);
+                           *greatest);
     if (windows_.size() < 2 || !may_be_a_step())
         return {};
     const double last = windows_.back().value;

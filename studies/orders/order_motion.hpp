@@ -29,7 +29,7 @@ public:
 
     /// Whether it moves on to where no window shows it; order: what all models say of it.
     [[nodiscard]] bool goes_on(double order) const {
-        return runs_away() || leaps(order) || last_of_a_rise().has_value();
+        return runs_away() || leaps(order) || greatest_of_a_rise().has_value();
     }
     /// As "it rises over finer windows, to 1.68"; empty where it moves to and fro, or not at all.
     [[nodiscard]] std::string words() const;
@@ -40,7 +40,8 @@ private:
     [[nodiscard]] bool runs_away() const;
     [[nodiscard]] bool leaps(double order) const;
     [[nodiscard]] std::vector<Eigen::Index> finest_rows() const;
-    [[nodiscard]] std::optional<double> last_of_a_rise() const;
+    [[nodiscard]] bool has_usual_orders(const TermFit& fit) const;
+    [[nodiscard]] std::optional<double> greatest_of_a_rise() const;
 
     const TermRows& rows_;
     const std::vector<std::vector<double>>& levels_;
