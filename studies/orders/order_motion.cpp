@@ -126,8 +126,8 @@ std::vector<Eigen::Index> OrderMotion::finest_rows() const {
     const auto level = [&](Eigen::Index r) {
         return level_of(levels_[static_cast<std::size_t>(width_)], rows_.log_widths(r, width_));
     };
-    const auto repeated = std::ranges::unique(rows, std::equal_to<>(), level);
-    rows.erase(repeated.begin(), repeated.end());
+    const auto is_repeated = [&](Eigen::Index a, Eigen::Index b) { return level(a) == level(b); };
+    rows.erase(std::unique(rows.begin(), rows.end(), is_repeated), rows.end());
     return rows;
 }
 
