@@ -163,13 +163,9 @@ double OrderEnsemble::grid_factor() const {
 
 double OrderEnsemble::greatest_share(Index width) const {
     double share = 0;
-    for (const auto& member : members_) {
-        if (member.family != 0)
-            continue;
-        for (Index r = 0; r < rows_.size(); ++r)
-            share = std::max(share, member.fit.term(width, rows_.log_widths(r, width)) /
-                                        std::exp(rows_.log_errors[r]));
-    }
+    for (const auto& member : members_)
+        if (member.family == 0)
+            share = std::max(share, share_of_errors(member.fit, width, rows_));
     return share;
 }
 

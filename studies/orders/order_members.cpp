@@ -93,6 +93,24 @@ bool has_lost_its_logarithm(const TermFit& fit) {
     return false;
 }
 
+/// Whether a term is seen that stands still while its width falls. Three levels of another width do
+/// not tell it from that width's next term, and so many models have one that they outweigh those
+/// that say so.
+bool has_a_constant(const TermFit& fit, const TermRows& rows, const AllLevels& levels) {
+    constexpr double still = 0.2; // orders
+    constexpr double least_share = 0.01;
+    for (std::size_t i = 0; i < levels.size(); ++i) {
+        bool few = false;
+        for (std::size_t j = 0; j < levels.size(); ++j)
+            few = few || (j != i && levels[j].size() == fewest_levels);
+        const auto width = static_cast<Index>(i);
+        if (few && std::abs(fit.order(width).value) < still &&
+            share_of_errors(fit, width, rows) >= least_share)
+            return true;
+    }
+    return false;
+}
+
 bool is_believable(const TermFit& fit, const TermRows& rows) {
     return !is_a_difference(fit, rows) && !has_lost_its_logarithm(fit);
 }
@@ -174,7 +192,8 @@ void fit_all_widths(const TermRows& rows, const AllLevels& levels,
                 continue;
             auto fit = fit_terms(window, shapes[k], plain ? &*plain : nullptr,
                                  closest[k] ? &*closest[k] : nullptr);
-            if (!fit || !is_believable(*fit, window))
+            if (!fit || !is_believable(*fit, window) ||
+                (k > 0 && has_a_constant(*fit, window, levels)))
                 continue;
             if (k == 0)
                 plain = fit;
@@ -230,6 +249,14 @@ void fit_each_alone(const TermRows& rows, const AllLevels& levels,
 }
 
 } // namespace
+
+double share_of_errors(const TermFit& fit, Index width, const TermRows& rows) {
+    double share = 0;
+    for (Index r = 0; r < rows.size(); ++r)
+        share = std::max(share,
+                         fit.term(width, rows.log_widths(r, width)) / std::exp(rows.log_errors[r]));
+    return share;
+}
 
 std::vector<EnsembleMember> fit_members(const TermRows& rows, const AllLevels& levels) {
     std::vector<EnsembleMember> members;

@@ -24,6 +24,9 @@ constexpr int families_of_a_width = 100;
 /// Among the models of a sequence.
 constexpr int logarithmic_family = 3;
 
+/// The greatest part of an error that the term of one width is, of all rows.
+double share_of_errors(const TermFit& fit, Eigen::Index width, const TermRows& rows);
+
 /// All fits that are believed. A sequence has windows down to the two finest levels; other rows
 /// such of at least three levels and half of them, in each width, and each width alone on the rows
 /// where the others are finest.

@@ -131,13 +131,17 @@ std::vector<Eigen::Index> OrderMotion::finest_rows() const {
     return rows;
 }
 
-/// Whether the fit is one of terms that a method may have: without any bound on their orders next
-/// terms follow exp(−1/h), too.
-bool OrderMotion::has_usual_orders(const TermFit& fit) const {
-    constexpr double least = 0.25;
+/// Whether the fit is one of terms that a method may have, but for such as are nowhere seen:
+/// without any bound on their orders next terms follow exp(−1/h), too, and a power less a constant
+/// does.
+bool OrderMotion::has_usual_terms(const TermFit& fit) const {
+    constexpr double least = 0.4;
     constexpr double greatest = 20;
+    constexpr double least_share = 0.01;
     for (Eigen::Index i = 0; i < rows_.widths(); ++i)
-        if (const double order = fit.order(i).value; !(order >= least && order <= greatest))
+        if (const double order = fit.order(i).value;
+            !(order >= least && order <= greatest) &&
+            !(share_of_errors(fit, i, rows_) < least_share))
             return false;
     return true;
 }
@@ -173,7 +177,7 @@ std::optional<double> OrderMotion::greatest_of_a_rise() const {
     const bool has_reference = rows_.log_reference.size() > 0;
     const bool is_modelled = std::ranges::any_of(members_, [&](const EnsembleMember& member) {
         if (member.along >= 0 || member.place[static_cast<std::size_t>(width_)] > 0 ||
-            (member.family != 0 && !has_usual_orders(member.fit)))
+            !has_usual_terms(member.fit))
             return false;
         const auto modelled = local_orders([&](Eigen::Index r) {
             return member.fit.log_error(rows_.log_widths.row(r).transpose(), has_reference).value;

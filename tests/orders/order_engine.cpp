@@ -234,7 +234,8 @@ BOOST_DATA_TEST_CASE(what_falls_faster_than_any_power_has_no_order,
     BOOST_TEST((!orders[1].determined || holds(orders[1], 1.0)));
 }
 
-BOOST_AUTO_TEST_CASE(no_exponential_has_an_order_on_grids_drawn_at_random) {
+BOOST_DATA_TEST_CASE(no_exponential_has_an_order_on_grids_drawn_at_random,
+                     data::make({2.0, 1.5}) * data::make({true, false}), ratio, has_three_levels) {
     std::mt19937 random(29);
     const auto between = [&](double low, double high) {
         return std::uniform_real_distribution<>(low, high)(random);
@@ -245,17 +246,34 @@ BOOST_AUTO_TEST_CASE(no_exponential_has_an_order_on_grids_drawn_at_random) {
         const double b = std::pow(10, between(-6, -0.5));
         const double h_0 = between(0.05, 0.25);
         const int q = std::uniform_int_distribution<>(1, 2)(random);
-        const int levels = std::uniform_int_distribution<>(4, 6)(random);
+        const int levels = has_three_levels ? 3 : std::uniform_int_distribution<>(4, 6)(random);
         std::vector<ErrorRow> rows;
         for (int i = 0; i < levels; ++i)
             for (int j = 0; j < 4; ++j) {
-                const double h = h_0 * std::exp2(-i);
-                const double dt = 0.1 * std::exp2(-j);
+                const double h = h_0 * std::pow(ratio, -i);
+                const double dt = 0.1 * std::pow(ratio, -j);
                 rows.push_back({{h, dt}, std::exp(-1 / (a * h)) + b * std::pow(dt, q)});
             }
         given_one += estimate_orders(rows)[0].determined ? 1 : 0;
     }
     BOOST_TEST(given_one <= 1);
+}
+
+BOOST_DATA_TEST_CASE(no_exponential_has_an_order_beside_two_other_widths,
+                     data::make({6.0, 9.5, 13.0}), a) {
+    std::vector<ErrorRow> rows;
+    for (int i = 0; i < 4; ++i)
+        for (int j = 0; j < 4; ++j)
+            for (int k = 0; k < 4; ++k) {
+                const double h = 0.15 * std::exp2(-i);
+                const double dt = 0.1 * std::exp2(-j);
+                const double dz = 0.2 * std::exp2(-k);
+                rows.push_back({{h, dz, dt}, std::exp(-1 / (a * h)) + 1e-3 * dt * dt + 1e-2 * dz});
+            }
+    const auto orders = estimate_orders(rows);
+    BOOST_TEST(!orders[0].determined,
+               orders[0].value << " in " << orders[0].low << " ... " << orders[0].high);
+    BOOST_TEST((!orders[1].determined || holds(orders[1], 1.0)));
 }
 
 // Terms of opposite sign make local orders rise, too.
@@ -317,6 +335,21 @@ BOOST_AUTO_TEST_CASE(a_hidden_term_has_no_order) {
     BOOST_TEST(holds(orders[0], 2.0));
     BOOST_TEST(!orders[1].determined);
     BOOST_TEST(!orders[1].status.empty());
+}
+
+BOOST_AUTO_TEST_CASE(an_order_that_cancels_in_part_stays_determined_beside_what_is_hardly_seen) {
+    std::vector<ErrorRow> rows;
+    for (int i = 0; i < 5; ++i)
+        for (int j = 0; j < 4; ++j)
+            for (int k = 0; k < 4; ++k) {
+                const double h = 0.4 * std::exp2(-i);
+                const double dt = 0.1 * std::exp2(-j);
+                const double dz = 0.1 * std::exp2(-k);
+                rows.push_back({{h, dz, dt}, std::abs(h * h - 0.2 * dz + 1e-4 * dt)});
+            }
+    const auto orders = estimate_orders(rows);
+    BOOST_TEST((orders[0].determined && holds(orders[0], 2.0)), orders[0].status);
+    BOOST_TEST((orders[1].determined && holds(orders[1], 1.0)), orders[1].status);
 }
 
 BOOST_AUTO_TEST_CASE(three_widths_have_three_orders) {
@@ -571,6 +604,38 @@ BOOST_AUTO_TEST_CASE(of_three_levels_in_a_width_of_a_grid_the_interval_holds_as_
     }
     BOOST_TEST(determined >= 60);
     BOOST_TEST(20 * missed <= 2 * determined);
+}
+
+// Three levels in one width, and a term of the other that is hardly seen: a constant in its place
+// bends the error as a next term does, and 36 % of the orders determined were wrong.
+BOOST_DATA_TEST_CASE(of_three_levels_a_constant_does_not_pass_for_a_next_term,
+                     data::make({2.0, 1.5}), ratio) {
+    std::mt19937 generator(20261127);
+    const auto uniform = [&](double low, double high) {
+        return std::uniform_real_distribution(low, high)(generator);
+    };
+    constexpr int tables = 80;
+    int determined = 0;
+    int missed = 0;
+    for (int table = 0; table < tables; ++table) {
+        const double p = 1 + table % 3;
+        const double q = 1 + table % 2;
+        const double c = uniform(-2, 2);
+        const double b = std::pow(10, uniform(-6, -0.5));
+        const double h_0 = uniform(0.05, 0.25);
+        std::vector<ErrorRow> rows;
+        for (int i = 0; i < 3; ++i)
+            for (int j = 0; j < 4; ++j) {
+                const double h = h_0 * std::pow(ratio, -i);
+                const double dt = 0.1 * std::pow(ratio, -j);
+                rows.push_back({{h, dt}, std::pow(h, p) * (1 + c * h) + b * std::pow(dt, q)});
+            }
+        const auto order = estimate_orders(rows)[0];
+        determined += order.determined ? 1 : 0;
+        missed += order.determined && !holds(order, p) ? 1 : 0;
+    }
+    BOOST_TEST(determined >= 0.2 * tables);
+    BOOST_TEST(missed <= 0.05 * determined, missed << " of " << determined);
 }
 
 // Powers alone, on three levels each: nothing moves, and both orders are known.
