@@ -48,7 +48,7 @@ OrderEnsemble::OrderEnsemble(std::span<const ErrorRow> rows, std::vector<double>
     for (const auto& levels : levels_)
         stretch_.push_back(rows_.scatter > 0 && levels.size() > fewest_levels ? drift_left(levels)
                                                                               : 1.0);
-    members_ = fit_members(rows_, levels_);
+    members_ = fit_members(rows_, levels_, tuning_);
 }
 
 /// The greatest change of a number when its window changes by one level, on any axis. Where an axis
@@ -173,9 +173,7 @@ double OrderEnsemble::greatest_share(Index width) const {
 /// not that it falls so again. A smaller part of the error than this is not seen, however well
 /// models follow it: those of exp(−1/h) do, too.
 bool OrderEnsemble::is_seen_as_a_power(Index width, const OrderInterval& order) const {
-    constexpr double steep = 6.5;
-    constexpr double least_part = 0.01;
-    if (!(order.value > steep) || rows_.widths() == 1)
+    if (!(order.value > tuning_.steep) || rows_.widths() == 1)
         return true;
     const auto& levels = levels_[static_cast<std::size_t>(width)];
     for (const auto& member : members_) {
@@ -187,7 +185,7 @@ bool OrderEnsemble::is_seen_as_a_power(Index width, const OrderInterval& order) 
             const double log_width = rows_.log_widths(r, width);
             const int level = level_of(levels, log_width);
             if (level >= member.place[static_cast<std::size_t>(width)] &&
-                member.fit.term(width, log_width) >= least_part * std::exp(rows_.log_errors[r]))
+                member.fit.term(width, log_width) >= tuning_.seen * std::exp(rows_.log_errors[r]))
                 seen[static_cast<std::size_t>(level)] = true;
         }
         if (std::ranges::count(seen, true) >= static_cast<int>(fewest_levels))
@@ -197,7 +195,7 @@ bool OrderEnsemble::is_seen_as_a_power(Index width, const OrderInterval& order) 
 }
 
 OrderMotion OrderEnsemble::motion_of(Index width) const {
-    return {rows_, levels_, members_, width, {tuning_.narrowest, tuning_.widest}};
+    return {rows_, levels_, members_, width, tuning_};
 }
 
 std::vector<OrderInterval> OrderEnsemble::orders() const {

@@ -96,16 +96,15 @@ bool has_lost_its_logarithm(const TermFit& fit) {
 /// Whether a term is seen that stands still while its width falls. Three levels of another width do
 /// not tell it from that width's next term, and so many models have one that they outweigh those
 /// that say so.
-bool has_a_constant(const TermFit& fit, const TermRows& rows, const AllLevels& levels) {
-    constexpr double still = 0.2; // orders
-    constexpr double least_share = 0.01;
+bool has_a_constant(const TermFit& fit, const TermRows& rows, const AllLevels& levels,
+                    const OrderTuning& tuning) {
     for (std::size_t i = 0; i < levels.size(); ++i) {
         bool few = false;
         for (std::size_t j = 0; j < levels.size(); ++j)
             few = few || (j != i && levels[j].size() == fewest_levels);
         const auto width = static_cast<Index>(i);
-        if (few && std::abs(fit.order(width).value) < still &&
-            share_of_errors(fit, width, rows) >= least_share)
+        if (few && std::abs(fit.order(width).value) < tuning.constant &&
+            share_of_errors(fit, width, rows) >= tuning.seen)
             return true;
     }
     return false;
@@ -166,7 +165,7 @@ TermRows rows_from(const TermRows& rows, const AllLevels& levels, const std::vec
     return rows.subset(chosen);
 }
 
-void fit_all_widths(const TermRows& rows, const AllLevels& levels,
+void fit_all_widths(const TermRows& rows, const AllLevels& levels, const OrderTuning& tuning,
                     std::vector<EnsembleMember>& members) {
     std::vector<int> most;
     for (const auto& own : levels)
@@ -193,7 +192,7 @@ void fit_all_widths(const TermRows& rows, const AllLevels& levels,
             auto fit = fit_terms(window, shapes[k], plain ? &*plain : nullptr,
                                  closest[k] ? &*closest[k] : nullptr);
             if (!fit || !is_believable(*fit, window) ||
-                (k > 0 && has_a_constant(*fit, window, levels)))
+                (k > 0 && has_a_constant(*fit, window, levels, tuning)))
                 continue;
             if (k == 0)
                 plain = fit;
@@ -258,13 +257,14 @@ double share_of_errors(const TermFit& fit, Index width, const TermRows& rows) {
     return share;
 }
 
-std::vector<EnsembleMember> fit_members(const TermRows& rows, const AllLevels& levels) {
+std::vector<EnsembleMember> fit_members(const TermRows& rows, const AllLevels& levels,
+                                        const OrderTuning& tuning) {
     std::vector<EnsembleMember> members;
     if (rows.widths() == 1) {
         fit_sequence(rows, levels.front(), members);
         return members;
     }
-    fit_all_widths(rows, levels, members);
+    fit_all_widths(rows, levels, tuning, members);
     fit_each_alone(rows, levels, members);
     return members;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "studies/orders/error_rows.hpp"
+#include "studies/orders/order_tuning.hpp"
 #include "studies/orders/term_model.hpp"
 
 #include <Eigen/Core>
@@ -32,6 +33,7 @@ double share_of_errors(const TermFit& fit, Eigen::Index width, const TermRows& r
 /// where the others are finest.
 /// levels: of each width, coarse to fine.
 std::vector<EnsembleMember> fit_members(const TermRows& rows,
-                                        const std::vector<std::vector<double>>& levels);
+                                        const std::vector<std::vector<double>>& levels,
+                                        const OrderTuning& tuning);
 
 } // namespace tvbeam

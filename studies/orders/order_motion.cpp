@@ -35,8 +35,8 @@ std::vector<FittedNumber> order_by_window(std::span<const EnsembleMember> member
 
 OrderMotion::OrderMotion(const TermRows& rows, const std::vector<std::vector<double>>& levels,
                          std::span<const EnsembleMember> members, Eigen::Index width,
-                         MotionLimits limits)
-    : rows_(rows), levels_(levels), members_(members), width_(width), limits_(limits),
+                         const OrderTuning& tuning)
+    : rows_(rows), levels_(levels), members_(members), width_(width), tuning_(tuning),
       windows_(order_by_window(members, width)) {}
 
 /// Whether the order's last step is more than known scatter makes of an order that stands still;
@@ -77,7 +77,7 @@ bool OrderMotion::is_explained() const {
 /// What it goes to is then beyond what any window shows.
 bool OrderMotion::runs_away() const {
     constexpr double hardly_less = 0.75;
-    constexpr double least_of_many = 0.25; // of `still`, where many steps go one way
+    constexpr double least_of_many = 0.25; // of `narrowest`, where many steps go one way
     if (rows_.widths() != 1 || windows_.size() < 3 || !may_be_a_step())
         return false;
     std::vector<double> ratios; // of consecutive steps
@@ -92,8 +92,8 @@ bool OrderMotion::runs_away() const {
         return false;
     const bool slows_down = ratios.size() < 2 ||
                             std::min(ratios.back(), ratios[ratios.size() - 2]) <= hardly_less ||
-                            last <= least_of_many * limits_.still;
-    return (least > 1 && last > limits_.still) || !slows_down;
+                            last <= least_of_many * tuning_.narrowest;
+    return (least > 1 && last > tuning_.narrowest) || !slows_down;
 }
 
 /// Of a grid: whether the order of the leading terms moves from the last window but one to the last
@@ -104,8 +104,8 @@ bool OrderMotion::leaps(double order) const {
         return false;
     const double last = windows_.back().value;
     const double step = last - windows_[windows_.size() - 2].value;
-    return std::abs(step) > limits_.too_far &&
-           std::copysign(1.0, step) * (order - last) > limits_.too_far / 2;
+    return std::abs(step) > tuning_.widest &&
+           std::copysign(1.0, step) * (order - last) > tuning_.widest / 2;
 }
 
 /// The rows where all other widths are finest, coarse to fine, one a level.
@@ -135,13 +135,10 @@ std::vector<Eigen::Index> OrderMotion::finest_rows() const {
 /// without any bound on their orders next terms follow exp(−1/h), too, and a power less a constant
 /// does.
 bool OrderMotion::has_usual_terms(const TermFit& fit) const {
-    constexpr double least = 0.4;
-    constexpr double greatest = 20;
-    constexpr double least_share = 0.01;
     for (Eigen::Index i = 0; i < rows_.widths(); ++i)
         if (const double order = fit.order(i).value;
-            !(order >= least && order <= greatest) &&
-            !(share_of_errors(fit, i, rows_) < least_share))
+            !(order >= tuning_.least_order && order <= tuning_.greatest_order) &&
+            !(share_of_errors(fit, i, rows_) < tuning_.seen))
             return false;
     return true;
 }
@@ -151,7 +148,6 @@ bool OrderMotion::has_usual_terms(const TermFit& fit) const {
 /// too coarse for a power to be seen. The other terms lower it, or are of opposite sign, which a
 /// model then knows.
 std::optional<double> OrderMotion::greatest_of_a_rise() const {
-    constexpr double alike = 0.05; // orders that a model explains
     constexpr double deviations = 2;
     if (rows_.widths() == 1)
         return std::nullopt;
@@ -171,7 +167,7 @@ std::optional<double> OrderMotion::greatest_of_a_rise() const {
         return std::nullopt;
     const double last = orders[at] - orders[at - 1];
     const double before = orders[at - 1] - orders[at - 2];
-    const double far = limits_.too_far * std::min(1.0, step(at) / std::log(2)); // on halved widths
+    const double far = tuning_.widest * std::min(1.0, step(at) / std::log(2)); // on halved widths
     if (!(before > 0 && last > std::max(far, before)))
         return std::nullopt;
     const bool has_reference = rows_.log_reference.size() > 0;
@@ -184,7 +180,7 @@ std::optional<double> OrderMotion::greatest_of_a_rise() const {
         });
         for (std::size_t i = 0; i < orders.size(); ++i)
             if (!(std::abs(orders[i] - modelled[i]) <
-                  alike + deviations * std::sqrt(2.0) * rows_.scatter / step(i)))
+                  tuning_.explained + deviations * std::sqrt(2.0) * rows_.scatter / step(i)))
                 return false;
         return true;
     });
@@ -199,7 +195,7 @@ std::string OrderMotion::words() const {
         return {};
     const double last = windows_.back().value;
     const double step = last - windows_[windows_.size() - 2].value;
-    if (std::abs(step) < limits_.still || std::abs(last) > 20)
+    if (std::abs(step) < tuning_.narrowest || std::abs(last) > 20)
         return {};
     for (std::size_t i = 1; i < windows_.size(); ++i)
         if ((windows_[i].value - windows_[i - 1].value) * step <= 0)

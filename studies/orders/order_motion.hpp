@@ -3,6 +3,7 @@
 #pragma once
 
 #include "studies/orders/order_members.hpp"
+#include "studies/orders/order_tuning.hpp"
 #include "studies/orders/term_model.hpp"
 
 #include <Eigen/Core>
@@ -14,18 +15,13 @@
 
 namespace tvbeam {
 
-/// What counts as still and as a leap: OrderTuning.
-struct MotionLimits {
-    double still = 0;   ///< changes below are none
-    double too_far = 0; ///< half of the widest interval that says anything
-};
-
 /// Of one width.
 class OrderMotion {
 public:
     /// levels: of each width, coarse to fine.
     OrderMotion(const TermRows& rows, const std::vector<std::vector<double>>& levels,
-                std::span<const EnsembleMember> members, Eigen::Index width, MotionLimits limits);
+                std::span<const EnsembleMember> members, Eigen::Index width,
+                const OrderTuning& tuning);
 
     /// Whether it moves on to where no window shows it; order: what all models say of it.
     [[nodiscard]] bool goes_on(double order) const {
@@ -47,7 +43,7 @@ private:
     const std::vector<std::vector<double>>& levels_;
     std::span<const EnsembleMember> members_;
     Eigen::Index width_;
-    MotionLimits limits_;
+    const OrderTuning& tuning_;
     std::vector<FittedNumber> windows_; ///< the order in each, and its standard error
 };
 
