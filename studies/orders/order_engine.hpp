@@ -94,6 +94,8 @@ private:
     std::optional<Mixture> mix(const Functional& number) const;
     OrderMotion motion_of(Eigen::Index width) const;
     double greatest_share(Eigen::Index width) const;
+    bool is_ambiguous(Eigen::Index width) const;
+    bool leans_on_a_constant(const EnsembleMember& member, Eigen::Index width) const;
     bool is_seen_as_a_power(Eigen::Index width, const OrderInterval& order) const;
     std::string status_of(Eigen::Index width, const OrderInterval& order) const;
     double sequence_factor() const;

@@ -93,23 +93,6 @@ bool has_lost_its_logarithm(const TermFit& fit) {
     return false;
 }
 
-/// Whether a term is seen that stands still while its width falls. Three levels of another width do
-/// not tell it from that width's next term, and so many models have one that they outweigh those
-/// that say so.
-bool has_a_constant(const TermFit& fit, const TermRows& rows, const AllLevels& levels,
-                    const OrderTuning& tuning) {
-    for (std::size_t i = 0; i < levels.size(); ++i) {
-        bool few = false;
-        for (std::size_t j = 0; j < levels.size(); ++j)
-            few = few || (j != i && levels[j].size() == fewest_levels);
-        const auto width = static_cast<Index>(i);
-        if (few && std::abs(fit.order(width).value) < tuning.constant &&
-            share_of_errors(fit, width, rows) >= tuning.seen)
-            return true;
-    }
-    return false;
-}
-
 bool is_believable(const TermFit& fit, const TermRows& rows) {
     return !is_a_difference(fit, rows) && !has_lost_its_logarithm(fit);
 }
@@ -165,7 +148,7 @@ TermRows rows_from(const TermRows& rows, const AllLevels& levels, const std::vec
     return rows.subset(chosen);
 }
 
-void fit_all_widths(const TermRows& rows, const AllLevels& levels, const OrderTuning& tuning,
+void fit_all_widths(const TermRows& rows, const AllLevels& levels,
                     std::vector<EnsembleMember>& members) {
     std::vector<int> most;
     for (const auto& own : levels)
@@ -191,8 +174,7 @@ void fit_all_widths(const TermRows& rows, const AllLevels& levels, const OrderTu
                 continue;
             auto fit = fit_terms(window, shapes[k], plain ? &*plain : nullptr,
                                  closest[k] ? &*closest[k] : nullptr);
-            if (!fit || !is_believable(*fit, window) ||
-                (k > 0 && has_a_constant(*fit, window, levels, tuning)))
+            if (!fit || !is_believable(*fit, window))
                 continue;
             if (k == 0)
                 plain = fit;
@@ -257,14 +239,13 @@ double share_of_errors(const TermFit& fit, Index width, const TermRows& rows) {
     return share;
 }
 
-std::vector<EnsembleMember> fit_members(const TermRows& rows, const AllLevels& levels,
-                                        const OrderTuning& tuning) {
+std::vector<EnsembleMember> fit_members(const TermRows& rows, const AllLevels& levels) {
     std::vector<EnsembleMember> members;
     if (rows.widths() == 1) {
         fit_sequence(rows, levels.front(), members);
         return members;
     }
-    fit_all_widths(rows, levels, tuning, members);
+    fit_all_widths(rows, levels, members);
     fit_each_alone(rows, levels, members);
     return members;
 }

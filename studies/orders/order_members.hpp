@@ -2,7 +2,6 @@
 #pragma once
 
 #include "studies/orders/error_rows.hpp"
-#include "studies/orders/order_tuning.hpp"
 #include "studies/orders/term_model.hpp"
 
 #include <Eigen/Core>
@@ -33,7 +32,6 @@ double share_of_errors(const TermFit& fit, Eigen::Index width, const TermRows& r
 /// where the others are finest.
 /// levels: of each width, coarse to fine.
 std::vector<EnsembleMember> fit_members(const TermRows& rows,
-                                        const std::vector<std::vector<double>>& levels,
-                                        const OrderTuning& tuning);
+                                        const std::vector<std::vector<double>>& levels);
 
 } // namespace tvbeam

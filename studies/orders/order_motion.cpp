@@ -132,15 +132,16 @@ std::vector<Eigen::Index> OrderMotion::finest_rows() const {
 }
 
 /// Whether the fit is one of terms that a method may have, but for such as are nowhere seen:
-/// without any bound on their orders next terms follow exp(−1/h), too, and a power less a constant
-/// does.
-bool OrderMotion::has_usual_terms(const TermFit& fit) const {
+/// without any bound on their orders next terms follow exp(−1/h), too. Of leading terms alone one
+/// may be a constant that the error is above or below.
+bool OrderMotion::has_usual_terms(const EnsembleMember& member) const {
+    int unusual = 0;
     for (Eigen::Index i = 0; i < rows_.widths(); ++i)
-        if (const double order = fit.order(i).value;
+        if (const double order = member.fit.order(i).value;
             !(order >= tuning_.least_order && order <= tuning_.greatest_order) &&
-            !(share_of_errors(fit, i, rows_) < tuning_.seen))
-            return false;
-    return true;
+            !(share_of_errors(member.fit, i, rows_) < tuning_.seen))
+            ++unusual;
+    return unusual <= (member.family == 0 ? 1 : 0);
 }
 
 /// Of a grid: the greatest of its local orders where the other widths are finest, where they rise
@@ -163,17 +164,19 @@ std::optional<double> OrderMotion::greatest_of_a_rise() const {
     };
     const auto orders = local_orders([&](Eigen::Index r) { return rows_.log_errors[r]; });
     const auto at = static_cast<std::size_t>(std::ranges::max_element(orders) - orders.begin());
-    if (orders.empty() || at < 2)
+    if (orders.empty() || at < 1)
         return std::nullopt;
-    const double last = orders[at] - orders[at - 1];
-    const double before = orders[at - 1] - orders[at - 2];
     const double far = tuning_.widest * std::min(1.0, step(at) / std::log(2)); // on halved widths
-    if (!(before > 0 && last > std::max(far, before)))
+    const double last = orders[at] - orders[at - 1];
+    const double before = at > 1 ? orders[at - 1] - orders[at - 2] : far;
+    if (!(before > 0 && last > std::max(at > 1 ? far : 2 * far, before)))
         return std::nullopt;
     const bool has_reference = rows_.log_reference.size() > 0;
     const bool is_modelled = std::ranges::any_of(members_, [&](const EnsembleMember& member) {
         if (member.along >= 0 || member.place[static_cast<std::size_t>(width_)] > 0 ||
-            !has_usual_terms(member.fit))
+            !has_usual_terms(member) ||
+            !(member.fit.next_part(width_, rows_.log_widths(rows.front(), width_)) >
+              tuning_.least_left - 1))
             return false;
         const auto modelled = local_orders([&](Eigen::Index r) {
             return member.fit.log_error(rows_.log_widths.row(r).transpose(), has_reference).value;

@@ -36,7 +36,7 @@ private:
     [[nodiscard]] bool runs_away() const;
     [[nodiscard]] bool leaps(double order) const;
     [[nodiscard]] std::vector<Eigen::Index> finest_rows() const;
-    [[nodiscard]] bool has_usual_terms(const TermFit& fit) const;
+    [[nodiscard]] bool has_usual_terms(const EnsembleMember& member) const;
     [[nodiscard]] std::optional<double> greatest_of_a_rise() const;
 
     const TermRows& rows_;

@@ -57,11 +57,14 @@ struct OrderTuning {
     /// With 0.02 and 0.03 nothing changed on 2160 grids of 101 … 159 and 1224 of the shipped
     /// solutions.
     double explained = 0.05;
+    /// … and whose next term leaves this part of the leading one on the coarsest level: further
+    /// terms would be as large as one that takes off more.
+    double least_left = 0.2;
     /// Orders above this are to be seen at three levels: a method of order six is below it with its
     /// interval, what two levels show of exp(−1/h) mostly above.
     double steep = 6.5;
     /// A term of an order nearer to zero than this stands still while its width falls.
-    double constant = 0.2;
+    double constant = 0.1;
 };
 
 } // namespace tvbeam

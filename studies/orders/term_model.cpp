@@ -205,26 +205,36 @@ std::optional<Start> start_at(const Layout& layout, const TermRows& rows,
     return start;
 }
 
-/// The best few of a net of orders.
+/// The best few of a net of orders, and the best with a term that stands still where that is
+/// better than all of those.
 std::vector<Eigen::VectorXd> starts_of(const Layout& layout, const TermRows& rows) {
-    const std::vector<double> net{0.5, 1.0, 1.5, 2.0, 3.0, 4.0};
+    const std::vector<double> net{0.0, 0.5, 1.0, 1.5, 2.0, 3.0, 4.0};
     const Eigen::Index d = layout.widths();
-    std::vector<Start> found;
+    std::vector<Start> moving;
+    std::optional<Start> standing;
     std::vector<std::size_t> at(static_cast<std::size_t>(d), 0);
     for (std::size_t i = 0; i < at.size();) {
         Eigen::VectorXd orders(d);
         for (Eigen::Index k = 0; k < d; ++k)
             orders[k] = net[at[static_cast<std::size_t>(k)]];
-        if (auto start = start_at(layout, rows, orders))
-            found.push_back(std::move(*start));
+        const auto still = std::ranges::count(at, std::size_t{0});
+        if (still < std::min(d, Eigen::Index{2}))
+            if (auto start = start_at(layout, rows, orders)) {
+                if (still == 0)
+                    moving.push_back(std::move(*start));
+                else if (!standing || start->left < standing->left)
+                    standing = std::move(start);
+            }
         for (i = 0; i < at.size() && ++at[i] == net.size(); ++i)
             at[i] = 0;
     }
-    std::stable_sort(found.begin(), found.end(),
+    std::stable_sort(moving.begin(), moving.end(),
                      [](const Start& l, const Start& r) { return l.left < r.left; });
     std::vector<Eigen::VectorXd> starts;
-    for (std::size_t k = 0; k < std::min(most_starts, found.size()); ++k)
-        starts.push_back(std::move(found[k].theta));
+    for (std::size_t k = 0; k < std::min(most_starts, moving.size()); ++k)
+        starts.push_back(moving[k].theta);
+    if (standing && (moving.empty() || standing->left < moving.front().left))
+        starts.push_back(std::move(standing->theta));
     return starts;
 }
 
@@ -389,6 +399,14 @@ FittedNumber TermFit::correlation(Eigen::Index first, Eigen::Index second) const
 double TermFit::next(Eigen::Index width) const {
     const auto at = Layout(shape, log_centre.size()).next(width);
     return at < 0 ? 0.0 : theta[at];
+}
+
+double TermFit::next_part(Eigen::Index width, double log_width) const {
+    const double power = shape.next[static_cast<std::size_t>(width)];
+    if (power == TermShape::none || power == TermShape::constant)
+        return 0;
+    const double log_x = log_width - log_centre[width];
+    return next(width) * (power == TermShape::logarithm ? log_x : std::exp(power * log_x));
 }
 
 double TermFit::term(Eigen::Index width, double log_width) const {

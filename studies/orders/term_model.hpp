@@ -77,6 +77,8 @@ struct TermFit {
     FittedNumber order(Eigen::Index width) const;                            ///< p_i
     FittedNumber correlation(Eigen::Index first, Eigen::Index second) const; ///< ρ
     double next(Eigen::Index width) const; ///< c_i; 0 without a next term
+    /// c_i g_i there: the next term over the leading one; 0 without one, and for a constant.
+    double next_part(Eigen::Index width, double log_width) const;
     /// T_i at a row.
     double term(Eigen::Index width, double log_width) const;
     /// ln e at a row, against the exact solution or against the reference.

@@ -235,7 +235,8 @@ BOOST_DATA_TEST_CASE(what_falls_faster_than_any_power_has_no_order,
 }
 
 BOOST_DATA_TEST_CASE(no_exponential_has_an_order_on_grids_drawn_at_random,
-                     data::make({2.0, 1.5}) * data::make({true, false}), ratio, has_three_levels) {
+                     data::make({2.0, 1.5, 3.0}) * data::make({true, false}), ratio,
+                     has_three_levels) {
     std::mt19937 random(29);
     const auto between = [&](double low, double high) {
         return std::uniform_real_distribution<>(low, high)(random);
@@ -350,6 +351,54 @@ BOOST_AUTO_TEST_CASE(an_order_that_cancels_in_part_stays_determined_beside_what_
     const auto orders = estimate_orders(rows);
     BOOST_TEST((orders[0].determined && holds(orders[0], 2.0)), orders[0].status);
     BOOST_TEST((orders[1].determined && holds(orders[1], 1.0)), orders[1].status);
+}
+
+// Of four levels an order, a size, a constant and their correlation follow any four numbers: of
+// h^3 and h^4 above a constant, 26 of 40 orders were wrong.
+BOOST_DATA_TEST_CASE(four_levels_above_a_constant_show_no_wrong_order,
+                     data::make({1.0, 2.0, 3.0, 4.0}) * data::make({1e-4, 1e-3, 5e-3}) *
+                         data::make({0.1, 0.2, 0.4}),
+                     p, constant, h_0) {
+    std::vector<ErrorRow> rows;
+    for (int i = 0; i < 4; ++i)
+        for (int j = 0; j < 4; ++j) {
+            const double h = h_0 * std::exp2(-i);
+            rows.push_back({{h, 0.1 * std::exp2(-j)}, std::pow(h, p) + constant});
+        }
+    const auto order = estimate_orders(rows)[0];
+    BOOST_TEST((!order.determined || holds(order, p)),
+               order.value << " in " << order.low << " ... " << order.high);
+}
+
+BOOST_DATA_TEST_CASE(an_order_less_a_constant_stays_determined, data::make({2.0, 3.0}), p) {
+    std::vector<ErrorRow> rows;
+    for (const double h : {0.2, 0.1, 0.05, 0.025, 0.0125})
+        for (const double dt : {0.1, 0.05, 0.025, 0.0125})
+            rows.push_back({{h, dt}, std::abs(std::pow(h, p) - std::pow(0.0123, p))});
+    const auto order = estimate_orders(rows)[0];
+    BOOST_TEST((order.determined && holds(order, p)), order.status);
+}
+
+BOOST_AUTO_TEST_CASE(an_order_of_little_is_no_constant) {
+    std::vector<ErrorRow> rows;
+    for (const double h : {0.2, 0.1, 0.05})
+        for (const double dt : {0.1, 0.05, 0.025, 0.0125})
+            rows.push_back({{h, dt}, h * h + 0.1 * std::pow(dt, 0.15)});
+    const auto orders = estimate_orders(rows);
+    BOOST_TEST((orders[0].determined && holds(orders[0], 2.0)), orders[0].status);
+    BOOST_TEST((orders[1].determined && holds(orders[1], 0.15)), orders[1].status);
+}
+
+// What three levels of one width do not tell is of no concern to another of four.
+BOOST_AUTO_TEST_CASE(a_width_of_three_levels_takes_no_order_from_another) {
+    std::vector<ErrorRow> rows;
+    for (const double h : {0.2, 0.1, 0.05})
+        for (const double dt : {0.1, 0.05, 0.025, 0.0125})
+            for (const double dz : {0.1, 0.05, 0.025, 0.0125})
+                rows.push_back({{h, dz, dt}, h * h + 0.1 * dz + 1e-3});
+    const auto orders = estimate_orders(rows);
+    BOOST_TEST((orders[1].determined && holds(orders[1], 1.0)), orders[1].status);
+    BOOST_TEST((!orders[0].determined || holds(orders[0], 2.0)));
 }
 
 BOOST_AUTO_TEST_CASE(three_widths_have_three_orders) {
@@ -634,7 +683,7 @@ BOOST_DATA_TEST_CASE(of_three_levels_a_constant_does_not_pass_for_a_next_term,
         determined += order.determined ? 1 : 0;
         missed += order.determined && !holds(order, p) ? 1 : 0;
     }
-    BOOST_TEST(determined >= 0.2 * tables);
+    BOOST_TEST(determined >= 0.4 * tables);
     BOOST_TEST(missed <= 0.05 * determined, missed << " of " << determined);
 }
 
