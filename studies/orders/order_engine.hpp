@@ -17,10 +17,12 @@
 /// stated one, or that of rows at equal widths (replicates). So the interval knows scatter, the
 /// drift of the order along its width (the neighbours), and what extrapolation gives (the models
 /// with next terms, where they are steadier than those without). Where all of that is wide the
-/// order is not determined, nor where it still moves (order_motion.hpp) or is steep and seen at two
-/// levels alone; the status says why. Constants: OrderTuning. Ideas of
-/// others: model averaging by stability and the spread over models as uncertainty (Rider et al.
-/// 2016; Eça and Hoekstra 2014), many models times many windows (StREEQ, Sandia).
+/// order is not determined, nor where it still moves (order_motion.hpp), is steep and seen at two
+/// levels alone, or stands beside a constant that its few levels do not tell from it; the status
+/// says why. In a width of three levels models with next terms do not count whose term in another
+/// width stands still. Constants: OrderTuning. Ideas of others: model averaging by stability and
+/// the spread over models as uncertainty (Rider et al. 2016; Eça and Hoekstra 2014), many models
+/// times many windows (StREEQ, Sandia).
 #pragma once
 
 #include "studies/orders/error_rows.hpp"

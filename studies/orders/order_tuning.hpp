@@ -1,12 +1,13 @@
-/// The constants of the engine of orders, each with what it was set on.
+/// The constants of the engine of orders.
 #pragma once
 
 #include <cstddef>
 
 namespace tvbeam {
 
-/// The constants of the engine. Set on one half of the grids that tests/orders/grids makes, and
-/// scored on the other, but for `grid`: see the README there.
+/// Down to `most_rows` set on one half of the grids that tests/orders/grids makes, and scored on
+/// the other, but for `grid`; those after it on errors made up of exponentials, and of powers on
+/// three levels, and scored on other seeds: see the README there.
 struct OrderTuning {
     /// Half of an interval wider than this says nothing: the order is not determined. Half of the
     /// distance between orders of methods.
@@ -48,9 +49,9 @@ struct OrderTuning {
     std::size_t most_rows = 400;
     /// The smallest part of an error that shows a term.
     double seen = 0.01;
-    /// Orders of terms that a method may have: without a bound next terms follow exp(−1/h), too
-    /// (20 of 200 grids of it), as does a power less a constant, whose order is near zero (of 0.25
-    /// and 0.4 one had an order with 0.25, on two seeds).
+    /// Orders of terms that a method may have: without a bound next terms follow exp(−1/h), too (20
+    /// of 200 grids of it). With 0.25 in place of 0.4 one of 150 and one of 100 such grids had an
+    /// order.
     double least_order = 0.4;
     double greatest_order = 20; ///< see least_order
     /// A model explains a rise of the local orders that it has within this, and scatter besides.
