@@ -169,19 +169,23 @@ double OrderEnsemble::greatest_share(Index width) const {
     return share;
 }
 
-/// Whether a next term's order in a width of three levels goes with another width's term that is
-/// seen and stands still. Three levels do not tell a constant from a next term, and so many models
-/// have one that they outweigh those that do not. Against a reference, which has it, too, there is
-/// none.
-bool OrderEnsemble::leans_on_a_constant(const EnsembleMember& member, Index width) const {
-    if (member.along >= 0 || member.family == 0 || rows_.log_reference.size() > 0 ||
-        levels_[static_cast<std::size_t>(width)].size() > fewest_levels)
-        return false;
+/// Whether another width's term stands still in a fit and is this part of an error.
+bool OrderEnsemble::has_constant_beside(const EnsembleMember& member, Index width,
+                                        double share) const {
     for (Index i = 0; i < rows_.widths(); ++i)
         if (i != width && std::abs(member.fit.order(i).value) < tuning_.constant &&
-            share_of_errors(member.fit, i, rows_) >= tuning_.seen)
+            share_of_errors(member.fit, i, rows_) >= share)
             return true;
     return false;
+}
+
+/// Whether a next term's order in a width of three levels goes with a constant that is seen. Three
+/// levels do not tell it from a next term, and so many models have one that they outweigh those
+/// that do not. Against a reference, which has it, too, there is none.
+bool OrderEnsemble::leans_on_a_constant(const EnsembleMember& member, Index width) const {
+    return member.along < 0 && member.family != 0 && rows_.log_reference.size() == 0 &&
+           levels_[static_cast<std::size_t>(width)].size() == fewest_levels &&
+           has_constant_beside(member, width, tuning_.seen);
 }
 
 /// Whether another order may follow the levels of a width as well, with another correlation between
@@ -196,14 +200,9 @@ bool OrderEnsemble::is_ambiguous(Index width) const {
         levels_[static_cast<std::size_t>(width)].size() > numbers)
         return false;
     return std::ranges::any_of(members_, [&](const EnsembleMember& member) {
-        if (member.family != 0 || member.along >= 0 ||
-            !(member.fit.order(width).value > single + tuning_.narrowest))
-            return false;
-        for (Index i = 0; i < rows_.widths(); ++i)
-            if (i != width && std::abs(member.fit.order(i).value) < tuning_.constant &&
-                share_of_errors(member.fit, i, rows_) >= most_of_it)
-                return true;
-        return false;
+        return member.family == 0 && member.along < 0 &&
+               member.fit.order(width).value > single + tuning_.narrowest &&
+               has_constant_beside(member, width, most_of_it);
     });
 }
 
@@ -274,7 +273,8 @@ std::string OrderEnsemble::status_of(Index width, const OrderInterval& order) co
     if (order.high <= 0)
         return fmt::format("the error grows under refinement, order {:.2f}", order.value);
     if (is_ambiguous(width))
-        return "beside a constant four levels have more than one";
+        return fmt::format("beside a constant {} levels have more than one",
+                           levels_[static_cast<std::size_t>(width)].size());
     const std::string moves = motion_of(width).words();
     if (moves.empty() && !is_seen_as_a_power(width, order))
         return fmt::format("no window shows an order of {:.1f} at three levels", order.value);

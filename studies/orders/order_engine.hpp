@@ -97,6 +97,7 @@ private:
     OrderMotion motion_of(Eigen::Index width) const;
     double greatest_share(Eigen::Index width) const;
     bool is_ambiguous(Eigen::Index width) const;
+    bool has_constant_beside(const EnsembleMember& member, Eigen::Index width, double share) const;
     bool leans_on_a_constant(const EnsembleMember& member, Eigen::Index width) const;
     bool is_seen_as_a_power(Eigen::Index width, const OrderInterval& order) const;
     std::string status_of(Eigen::Index width, const OrderInterval& order) const;
