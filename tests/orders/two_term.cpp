@@ -84,9 +84,10 @@ bool rejects(const TwoTermFit& fit, std::size_t record, Rejection why) {
 
 BOOST_AUTO_TEST_SUITE(two_term_model)
 
-// The grid of the scene reference-sheared, in which time hardly shows: at the bound of ρ nothing
-// moves its angle, and of searches that begin there two in three found another model by the last
-// bit of the errors. One in four still does: the plain fit, from which they begin, has no end.
+// The solution and reference of the scene reference-sheared with half its steps, so that time
+// hardly shows: at the bound of ρ nothing moves its angle, and of searches that begin there two in
+// three found another model by the last bit of the errors. One in four still does: the plain fit,
+// from which they begin, has no end.
 BOOST_AUTO_TEST_CASE(most_intervals_do_not_hang_on_the_last_bit_of_the_errors) {
     const std::vector<Refinement> records{
         {.h = 0.25, .dt = 0.1, .error = 0.01313461454055},
