@@ -40,12 +40,16 @@ public:
                               "': " + std::generic_category().message(errno));
     }
     ~ScratchDirectory() {
-        try {
-            std::error_code ignored;
-            std::filesystem::remove_all(path_, ignored);
-        } catch (const std::bad_alloc&) {
-            return; // a later run takes it away
-        }
+        // Once more where there was no memory for a moment; after that a later run takes it away.
+        for (int attempt = 0; attempt < 2; ++attempt)
+            try {
+                std::error_code error;
+                std::filesystem::remove_all(path_, error);
+                if (!error)
+                    return;
+            } catch (const std::bad_alloc&) {
+                continue;
+            }
     }
     ScratchDirectory(const ScratchDirectory&) = delete;
     ScratchDirectory& operator=(const ScratchDirectory&) = delete;

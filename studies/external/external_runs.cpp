@@ -15,6 +15,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <memory>
+#include <new>
 #include <set>
 #include <utility>
 
@@ -148,10 +149,16 @@ class RunDirectory {
 public:
     explicit RunDirectory(fs::path path) : path_(std::move(path)) {}
     ~RunDirectory() {
-        std::error_code ignored;
-        // What was killed a moment ago may still be in there.
-        for (int attempt = 0; attempt < 10 && fs::exists(path_, ignored); ++attempt)
-            fs::remove_all(path_, ignored);
+        // What was killed a moment ago may still be in there, or there is no memory for a moment.
+        for (int attempt = 0; attempt < 10; ++attempt)
+            try {
+                std::error_code error;
+                fs::remove_all(path_, error);
+                if (!error)
+                    return;
+            } catch (const std::bad_alloc&) {
+                continue;
+            }
     }
     RunDirectory(const RunDirectory&) = delete;
     RunDirectory& operator=(const RunDirectory&) = delete;
