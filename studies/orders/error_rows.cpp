@@ -10,6 +10,23 @@
 
 namespace tvbeam {
 
+namespace {
+
+/// Which rows have the same widths, of these.
+std::map<std::vector<double>, std::vector<Eigen::Index>>
+rows_by(const TermRows& rows, const std::vector<Eigen::Index>& widths) {
+    std::map<std::vector<double>, std::vector<Eigen::Index>> groups;
+    for (Eigen::Index r = 0; r < rows.size(); ++r) {
+        std::vector<double> key;
+        for (const auto i : widths)
+            key.push_back(rows.log_widths(r, i));
+        groups[key].push_back(r);
+    }
+    return groups;
+}
+
+} // namespace
+
 TermRows usable_rows(std::span<const ErrorRow> given, std::size_t most_rows) {
     const auto d =
         given.empty() ? Eigen::Index{0} : static_cast<Eigen::Index>(given.front().widths.size());
@@ -79,6 +96,44 @@ TermRows usable_rows(std::span<const ErrorRow> given, std::size_t most_rows) {
              dof > 0 && squares > 0 && !lattice)
         rows.scatter = std::sqrt(squares / dof / mean_weight) * student_over_normal(dof);
     return rows;
+}
+
+std::vector<Eigen::Index> moving_widths(const TermRows& rows, double most) {
+    std::vector<Eigen::Index> moving;
+    for (Eigen::Index i = 0; i < rows.widths(); ++i) {
+        std::vector<Eigen::Index> others;
+        for (Eigen::Index j = 0; j < rows.widths(); ++j)
+            if (j != i)
+                others.push_back(j);
+        const auto groups = rows_by(rows, others);
+        const auto finest = rows.log_widths(Eigen::all, others).colwise().minCoeff().eval();
+        const auto at_finest = groups.find(std::vector<double>(finest.begin(), finest.end()));
+        const bool is_shown = !others.empty() && at_finest != groups.end() &&
+                              at_finest->second.size() >= fewest_levels;
+        const bool stands = std::ranges::all_of(groups, [&](const auto& group) {
+            const auto errors = rows.log_errors(group.second).eval();
+            return errors.maxCoeff() - errors.minCoeff() <= most;
+        });
+        if (!is_shown || !stands)
+            moving.push_back(i);
+    }
+    return moving;
+}
+
+TermRows with_widths(const TermRows& rows, const std::vector<Eigen::Index>& widths) {
+    const auto groups = rows_by(rows, widths);
+    const auto n = static_cast<Eigen::Index>(groups.size());
+    const auto d = static_cast<Eigen::Index>(widths.size());
+    TermRows merged{Eigen::MatrixXd(n, d), Eigen::VectorXd(n), Eigen::VectorXd(n), rows.scatter};
+    Eigen::Index r = 0;
+    for (const auto& [at, group] : groups) {
+        merged.log_widths.row(r) = Eigen::Map<const Eigen::RowVectorXd>(at.data(), d);
+        merged.log_errors[r] = rows.log_errors(group).mean();
+        merged.weights[r++] = rows.weights(group).mean();
+    }
+    if (rows.log_reference.size() > 0)
+        merged.log_reference = rows.log_reference(widths);
+    return merged;
 }
 
 std::vector<double> levels_of(Eigen::VectorXd log_widths, double one_level) {

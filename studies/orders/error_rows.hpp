@@ -29,6 +29,14 @@ constexpr std::size_t fewest_levels = 3;
 /// lattice. Without σ it is taken from rows of one point, with Student's factor for their number.
 TermRows usable_rows(std::span<const ErrorRow> given, std::size_t most_rows);
 
+/// The widths that errors change with. Along another no two errors of rows that are equal in all
+/// others differ by more than a part `most`; also where the others are finest, at three widths or
+/// more, so that its term is seen to be small where it is the largest part.
+std::vector<Eigen::Index> moving_widths(const TermRows& rows, double most);
+
+/// With these widths alone; rows that are equal in them are one, of their mean, as certain as they.
+TermRows with_widths(const TermRows& rows, const std::vector<Eigen::Index>& widths);
+
 /// ln of the coarsest width of each level, coarse to fine; a level is what lies within one factor.
 std::vector<double> levels_of(Eigen::VectorXd log_widths, double one_level);
 

@@ -21,15 +21,25 @@ double drift_left(const std::vector<double>& levels) {
     return std::max(1.0, (1 - std::sqrt(0.5)) / (1 - std::exp(-step / 2)));
 }
 
-} // namespace
-
-OrderEnsemble::OrderEnsemble(std::span<const ErrorRow> rows, std::vector<double> reference,
-                             const OrderTuning& tuning)
-    : tuning_(tuning), rows_(usable_rows(rows, tuning.most_rows)) {
+/// Rows as usable_rows has them, with the reference.
+TermRows rows_of(std::span<const ErrorRow> given, const std::vector<double>& reference,
+                 std::size_t most_rows) {
+    TermRows rows = usable_rows(given, most_rows);
     if (!reference.empty())
-        rows_.log_reference =
+        rows.log_reference =
             Eigen::Map<const Eigen::ArrayXd>(reference.data(), static_cast<Index>(reference.size()))
                 .log();
+    return rows;
+}
+
+} // namespace
+
+OrderEnsemble::OrderEnsemble(std::span<const ErrorRow> rows, const std::vector<double>& reference,
+                             const OrderTuning& tuning)
+    : OrderEnsemble(rows_of(rows, reference, tuning.most_rows), tuning) {}
+
+OrderEnsemble::OrderEnsemble(TermRows rows, const OrderTuning& tuning)
+    : tuning_(tuning), rows_(std::move(rows)) {
     for (Index i = 0; i < rows_.widths(); ++i) {
         levels_.push_back(levels_of(rows_.log_widths.col(i), tuning_.one_level));
         if (levels_.back().size() < fewest_levels)
@@ -49,6 +59,41 @@ OrderEnsemble::OrderEnsemble(std::span<const ErrorRow> rows, std::vector<double>
         stretch_.push_back(rows_.scatter > 0 && levels.size() > fewest_levels ? drift_left(levels)
                                                                               : 1.0);
     members_ = fit_members(rows_, levels_);
+    const auto moving = moving_widths(rows_, tuning_.idle);
+    if (moving.empty() || std::ssize(moving) == rows_.widths())
+        return;
+    // What these do not determine, they may with a constant in the place of the idle width.
+    const OrderEnsemble without(with_widths(rows_, moving), tuning_);
+    if (std::ranges::all_of(without.orders(), &OrderInterval::determined)) {
+        moving_widths_ = moving;
+        moving_ = std::make_shared<const OrderEnsemble>(without);
+    }
+}
+
+std::optional<Index> OrderEnsemble::place_among_moving(Index width) const {
+    if (!moving_)
+        return width;
+    const auto found = std::ranges::find(moving_widths_, width);
+    return found == moving_widths_.end() ? std::nullopt
+                                         : std::optional(found - moving_widths_.begin());
+}
+
+/// The model that differs from a family's in the next term of one width alone: with one for none,
+/// without for any. The leading terms where there is no such model, and for models of one width.
+int OrderEnsemble::model_beside(int family, Index width) const {
+    const int leading = family - family % families_of_a_width;
+    if (family == leading)
+        return leading + 1 + (leading == 0 ? static_cast<int>(width) : 0);
+    if (leading > 0 || rows_.widths() == 1)
+        return leading;
+    const auto of_family = std::ranges::find(members_, family, &EnsembleMember::family);
+    TermShape shape = of_family->fit.shape;
+    double& next = shape.next[static_cast<std::size_t>(width)];
+    next = next == TermShape::none ? 1.0 : TermShape::none;
+    const auto beside = std::ranges::find_if(members_, [&](const EnsembleMember& member) {
+        return member.along < 0 && member.fit.shape == shape;
+    });
+    return beside == members_.end() ? leading : beside->family;
 }
 
 /// The greatest change of a number when its window changes by one level, on any axis. Where an axis
@@ -70,15 +115,13 @@ std::optional<double> OrderEnsemble::change_of(const Numbers& numbers, int famil
         }
         if (compared)
             continue;
-        // Of the leading terms alone the model with a next term in the width of this axis.
         const int leading = family - family % families_of_a_width;
-        const int axis = leading == 0 ? static_cast<int>(i) : 0;
-        const int stand_in = family == leading ? leading + 1 + axis : leading;
+        const int stand_in = model_beside(family, static_cast<Index>(i));
         const auto found = numbers.find({stand_in, place});
         if (found == numbers.end())
             return std::nullopt;
         change = std::max(change, stretch_[i] * std::abs(found->second.value - value));
-        if (family != leading) {
+        if (stand_in == leading) {
             const auto further = change_of(numbers, leading, place);
             if (!further)
                 return std::nullopt;
@@ -237,6 +280,15 @@ OrderMotion OrderEnsemble::motion_of(Index width) const {
 
 std::vector<OrderInterval> OrderEnsemble::orders() const {
     std::vector<OrderInterval> result(levels_.size());
+    if (moving_) {
+        const auto moving = moving_->orders();
+        for (std::size_t i = 0; i < result.size(); ++i)
+            if (const auto place = place_among_moving(static_cast<Index>(i)))
+                result[i] = moving[static_cast<std::size_t>(*place)];
+            else
+                result[i].status = "no error changes with it";
+        return result;
+    }
     for (std::size_t i = 0; i < result.size(); ++i) {
         auto& order = result[i];
         if (!failure_.empty()) {
@@ -341,6 +393,12 @@ bool OrderEnsemble::has_logarithm() const {
 
 OrderInterval OrderEnsemble::forecast(const std::vector<double>& widths,
                                       bool against_reference) const {
+    if (moving_) {
+        std::vector<double> kept;
+        for (const auto i : moving_widths_)
+            kept.push_back(widths[static_cast<std::size_t>(i)]);
+        return moving_->forecast(kept, against_reference);
+    }
     const Eigen::VectorXd log_widths =
         Eigen::Map<const Eigen::ArrayXd>(widths.data(), static_cast<Index>(widths.size())).log();
     OrderInterval result{.status = failure_};
@@ -359,9 +417,9 @@ OrderInterval OrderEnsemble::forecast(const std::vector<double>& widths,
 }
 
 std::vector<OrderInterval> estimate_orders(std::span<const ErrorRow> rows,
-                                           std::vector<double> reference,
+                                           const std::vector<double>& reference,
                                            const OrderTuning& tuning) {
-    return OrderEnsemble(rows, std::move(reference), tuning).orders();
+    return OrderEnsemble(rows, reference, tuning).orders();
 }
 
 } // namespace tvbeam

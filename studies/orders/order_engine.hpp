@@ -20,9 +20,10 @@
 /// order is not determined, nor where it still moves (order_motion.hpp), is steep and seen at two
 /// levels alone, or stands beside a constant that its few levels do not tell from it; the status
 /// says why. In a width of three levels models with next terms do not count whose term in another
-/// width stands still. Constants: OrderTuning. Ideas of others: model averaging by stability and
-/// the spread over models as uncertainty (Rider et al. 2016; Eça and Hoekstra 2014), many models
-/// times many windows (StREEQ, Sandia).
+/// width stands still. A width that no error changes with is left out where the rest determines all
+/// orders. Constants: OrderTuning.
+/// Ideas of others: model averaging by stability and the spread over models as uncertainty (Rider
+/// et al. 2016; Eça and Hoekstra 2014), many models times many windows (StREEQ, Sandia).
 #pragma once
 
 #include "studies/orders/error_rows.hpp"
@@ -34,6 +35,7 @@
 #include <functional>
 #include <limits>
 #include <map>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -64,9 +66,16 @@ public:
     /// Rows that are not positive and finite are passed over; rows of equal widths are averaged,
     /// and their differences, where there are any, are the scatter of all.
     /// reference: the widths of a run that stands in for the exact solution, NaN where it is exact.
-    explicit OrderEnsemble(std::span<const ErrorRow> rows, std::vector<double> reference = {},
+    explicit OrderEnsemble(std::span<const ErrorRow> rows,
+                           const std::vector<double>& reference = {},
                            const OrderTuning& tuning = {});
 
+    /// Of the rows without the widths that no error changes with, where it determines all orders:
+    /// orders and forecasts are then its. In such a width's place a constant would follow what is
+    /// the others' next term. Null where all count.
+    const OrderEnsemble* without_idle_widths() const { return moving_.get(); }
+    /// Where a width stands among those that count; none where it is left out.
+    std::optional<Eigen::Index> place_among_moving(Eigen::Index width) const;
     /// Why there are no orders at all; empty where there are.
     const std::string& failure() const { return failure_; }
     const std::vector<EnsembleMember>& members() const { return members_; }
@@ -84,6 +93,7 @@ public:
     const OrderTuning& tuning() const { return tuning_; }
 
 private:
+    OrderEnsemble(TermRows rows, const OrderTuning& tuning);
     struct Mixture {
         double value = 0;
         double half = 0;
@@ -91,6 +101,7 @@ private:
     using Numbers = std::map<std::pair<int, std::vector<int>>, FittedNumber>;
     std::optional<double> change_of(const Numbers& numbers, int family,
                                     const std::vector<int>& place) const;
+    int model_beside(int family, Eigen::Index width) const;
     Numbers numbers_of(const Functional& number) const;
     int place_of(Eigen::Index width, double log_width) const;
     std::optional<Mixture> mix(const Functional& number) const;
@@ -110,11 +121,13 @@ private:
     std::vector<double> stretch_;             ///< of a change along each width
     std::vector<EnsembleMember> members_;
     std::string failure_;
+    std::vector<Eigen::Index> moving_widths_;
+    std::shared_ptr<const OrderEnsemble> moving_;
 };
 
 /// The orders of the error in each width; the failure in every status where there are none.
 std::vector<OrderInterval> estimate_orders(std::span<const ErrorRow> rows,
-                                           std::vector<double> reference = {},
+                                           const std::vector<double>& reference = {},
                                            const OrderTuning& tuning = {});
 
 } // namespace tvbeam

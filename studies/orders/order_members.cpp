@@ -120,17 +120,22 @@ void fit_sequence(const TermRows& rows, const std::vector<double>& levels,
         {{TermShape::none}, true}, {{0.5}}};
     constexpr std::size_t most_windows = 24;
     const auto step = static_cast<int>(1 + levels.size() / most_windows);
+    // Of three levels two logarithms, of either sign, have the order and its change: that which
+    // more levels show is the one.
+    std::vector<std::optional<TermFit>> wider(shapes.size());
     for (int place = 0; place * step + 2 <= static_cast<int>(levels.size()); ++place) {
         const int dropped = place * step;
         std::vector<Index> chosen;
         for (Index r = 0; r < rows.size(); ++r)
             if (level_of(levels, rows.log_widths(r, 0)) >= dropped)
                 chosen.push_back(r);
-        const auto window = rows.subset(chosen);
+        TermSearch search(rows.subset(chosen));
         for (std::size_t k = 0; k < shapes.size(); ++k)
             if (static_cast<int>(levels.size()) - dropped >= shapes[k].parameters())
-                if (auto fit = fit_terms(window, shapes[k]))
+                if (auto fit = search.fit(shapes[k], nullptr, wider[k] ? &*wider[k] : nullptr)) {
+                    wider[k] = fit;
                     members.push_back({std::move(*fit), static_cast<int>(k), {place}});
+                }
     }
 }
 
@@ -166,14 +171,15 @@ void fit_all_widths(const TermRows& rows, const AllLevels& levels,
     };
     for (const auto& place : places_within(most)) {
         const auto window = rows_from(rows, levels, place);
+        TermSearch search(window);
         std::optional<TermFit> plain;
         double least_scale = infinity; // of those with next terms of one kind
         for (std::size_t k = 0; k < shapes.size(); ++k) {
             const bool of_two_kinds = has_next_terms_of_two_kinds(shapes[k]);
             if (window.size() <= shapes[k].parameters() + (of_two_kinds ? fewest_spare : 0))
                 continue;
-            auto fit = fit_terms(window, shapes[k], plain ? &*plain : nullptr,
-                                 closest[k] ? &*closest[k] : nullptr);
+            auto fit = search.fit(shapes[k], plain ? &*plain : nullptr,
+                                  closest[k] ? &*closest[k] : nullptr);
             if (!fit || !is_believable(*fit, window))
                 continue;
             if (k == 0)
@@ -192,7 +198,7 @@ void fit_all_widths(const TermRows& rows, const AllLevels& levels,
         if (!is_far_off(member.fit, best))
             continue;
         const auto window = rows_from(rows, levels, member.place);
-        auto fit = fit_terms(window, best.shape, &member.fit, &best);
+        auto fit = TermSearch(window).fit(best.shape, &member.fit, &best);
         if (fit && fit->scale < member.fit.scale && is_believable(*fit, window))
             member.fit = std::move(*fit);
     }
@@ -217,10 +223,10 @@ void fit_each_alone(const TermRows& rows, const AllLevels& levels,
                 if (inside)
                     chosen.push_back(r);
             }
-            const auto window = rows.subset(chosen).along(i);
+            TermSearch search(rows.subset(chosen).along(i));
             for (std::size_t k = 0; k < shapes.size(); ++k)
-                if (window.size() > shapes[k].parameters())
-                    if (auto fit = fit_terms(window, shapes[k]))
+                if (search.rows().size() > shapes[k].parameters())
+                    if (auto fit = search.fit(shapes[k]))
                         members.push_back(
                             {std::move(*fit),
                              families_of_a_width * static_cast<int>(i + 1) + static_cast<int>(k),

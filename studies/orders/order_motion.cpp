@@ -131,15 +131,14 @@ std::vector<Eigen::Index> OrderMotion::finest_rows() const {
     return rows;
 }
 
-/// Whether the fit is one of terms that a method may have, but for such as are nowhere seen:
-/// without any bound on their orders next terms follow exp(−1/h), too. Of leading terms alone one
-/// may be a constant that the error is above or below.
+/// Whether the fit is one of terms that a method may have: without any bound on their orders next
+/// terms follow exp(−1/h), too. Of leading terms alone one may be a constant that the error is
+/// above or below.
 bool OrderMotion::has_usual_terms(const EnsembleMember& member) const {
     int unusual = 0;
     for (Eigen::Index i = 0; i < rows_.widths(); ++i)
         if (const double order = member.fit.order(i).value;
-            !(order >= tuning_.least_order && order <= tuning_.greatest_order) &&
-            !(share_of_errors(member.fit, i, rows_) < tuning_.seen))
+            !(order >= tuning_.least_order && order <= tuning_.greatest_order))
             ++unusual;
     return unusual <= (member.family == 0 ? 1 : 0);
 }

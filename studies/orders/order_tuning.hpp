@@ -66,6 +66,9 @@ struct OrderTuning {
     double steep = 6.5;
     /// A term of an order nearer to zero than this stands still while its width falls.
     double constant = 0.1;
+    /// A width that changes no error by more than this part is left out: what the orders of others
+    /// could owe to it is far below `narrowest`.
+    double idle = 1e-4;
 };
 
 } // namespace tvbeam

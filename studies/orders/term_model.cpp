@@ -200,14 +200,15 @@ std::optional<Start> start_at(const Layout& layout, const TermRows& rows,
             const double rho = x[column++] / 2 / std::exp(start.theta[2 * i] + start.theta[2 * j]);
             start.theta[layout.pair(i, j)] = std::asin(std::clamp(rho, -most_rho, most_rho));
         }
-    if (layout.floor() >= 0)
-        start.theta[layout.floor()] = rows.log_errors.minCoeff() - 1;
     return start;
 }
 
-/// The best few of a net of orders, and the best with a term that stands still where that is
-/// better than all of those.
-std::vector<Eigen::VectorXd> starts_of(const Layout& layout, const TermRows& rows) {
+/// Of the leading terms the best few of a net of orders, and the best with one that stands still
+/// where that is better than all of those.
+std::vector<Eigen::VectorXd> starts_of(const TermRows& rows) {
+    const TermShape leading{
+        std::vector<double>(static_cast<std::size_t>(rows.widths()), TermShape::none)};
+    const Layout layout(leading, rows.widths());
     const std::vector<double> net{0.0, 0.5, 1.0, 1.5, 2.0, 3.0, 4.0};
     const Eigen::Index d = layout.widths();
     std::vector<Start> moving;
@@ -238,30 +239,44 @@ std::vector<Eigen::VectorXd> starts_of(const Layout& layout, const TermRows& row
     return starts;
 }
 
-/// A shorter model's θ with next terms of size zero, and a floor far below; where a term has a
-/// logarithm, with one of either sign and the same slope in the middle: at zero its derivative and
-/// that by the order are one.
-std::vector<Eigen::VectorXd> lengthened(const Layout& layout, const TermRows& rows,
-                                        const TermFit& simpler) {
+/// θ of the leading terms with next terms of size zero, and a floor far below.
+Eigen::VectorXd lengthened(const Layout& layout, const TermRows& rows,
+                           const Eigen::VectorXd& leading) {
     Eigen::VectorXd theta = Eigen::VectorXd::Zero(layout.size());
-    const Eigen::Index shared = layout.pair(layout.widths() - 1, layout.widths());
-    theta.head(shared) = simpler.theta.head(shared);
-    // Off the bounds of ρ, where nothing moves it.
-    for (Eigen::Index k = 2 * layout.widths(); k < shared; ++k)
-        theta[k] = std::asin(std::clamp(std::sin(theta[k]), -most_rho, most_rho));
+    theta.head(leading.size()) = leading;
     if (layout.floor() >= 0)
         theta[layout.floor()] = rows.log_errors.minCoeff() - 1;
-    std::vector<Eigen::VectorXd> starts{theta};
+    return theta;
+}
+
+/// The same from a shorter model.
+Eigen::VectorXd lengthened(const Layout& layout, const TermRows& rows, const TermFit& simpler) {
+    const Eigen::Index shared = layout.pair(layout.widths() - 1, layout.widths());
+    Eigen::VectorXd leading = simpler.theta.head(shared);
+    // Off the bounds of ρ, where nothing moves it.
+    for (Eigen::Index k = 2 * layout.widths(); k < shared; ++k)
+        leading[k] = std::asin(std::clamp(std::sin(leading[k]), -most_rho, most_rho));
+    return lengthened(layout, rows, leading);
+}
+
+/// Where a term has a logarithm, each start with one of size zero, for errors that have none, and
+/// of either sign with the same slope in the middle: at zero its derivative and that by the order
+/// are one.
+std::vector<Eigen::VectorXd> with_logarithms(const Layout& layout,
+                                             std::vector<Eigen::VectorXd> starts) {
     constexpr double part = 0.25; // T stays positive over three halvings to either side
-    for (Eigen::Index i = 0; i < layout.widths(); ++i)
-        if (layout.next(i) >= 0 && layout.power(i) == TermShape::logarithm) {
-            starts.clear();
-            for (const double c : {-part, part}) {
-                starts.push_back(theta);
-                starts.back()[layout.next(i)] = c;
-                starts.back()[2 * i + 1] -= c;
+    for (Eigen::Index i = 0; i < layout.widths(); ++i) {
+        if (layout.next(i) < 0 || layout.power(i) != TermShape::logarithm)
+            continue;
+        std::vector<Eigen::VectorXd> of_either_sign;
+        for (const auto& start : starts)
+            for (const double c : {0.0, -part, part}) {
+                of_either_sign.push_back(start);
+                of_either_sign.back()[layout.next(i)] = c;
+                of_either_sign.back()[2 * i + 1] -= c;
             }
-        }
+        starts = std::move(of_either_sign);
+    }
     return starts;
 }
 
@@ -426,33 +441,53 @@ FittedNumber TermFit::log_error(const Eigen::VectorXd& log_widths, bool against_
                                               : std::sqrt(gradient.dot(covariance * gradient))};
 }
 
-std::optional<TermFit> fit_terms(const TermRows& given, const TermShape& shape,
-                                 const TermFit* simpler, const TermFit* beside) {
-    TermRows rows = given;
-    const Eigen::VectorXd centre = rows.log_widths.colwise().mean();
-    rows.log_widths.rowwise() -= centre.transpose();
-    // So that squares of errors, and theirs, are numbers, however small or large the errors.
-    const double log_unit = std::round(rows.log_errors.mean());
-    rows.log_errors.array() -= log_unit;
-    if (rows.log_reference.size() > 0)
-        rows.log_reference -= centre;
+TermSearch::TermSearch(TermRows given)
+    : rows_(std::move(given)), log_reference_(rows_.log_reference),
+      log_centre_(rows_.log_widths.colwise().mean()),
+      // So that squares of errors, and theirs, are numbers, however small or large the errors.
+      log_unit_(std::round(rows_.log_errors.mean())) {
+    rows_.log_widths.rowwise() -= log_centre_.transpose();
+    rows_.log_errors.array() -= log_unit_;
+    if (rows_.log_reference.size() > 0)
+        rows_.log_reference -= log_centre_;
+}
+
+const std::vector<Eigen::VectorXd>& TermSearch::starts() {
+    if (starts_.empty())
+        starts_ = starts_of(rows_);
+    return starts_;
+}
+
+std::optional<TermFit> TermSearch::fit(const TermShape& shape, const TermFit* simpler,
+                                       const TermFit* beside) {
+    const TermRows& rows = rows_;
     const Layout layout(shape, rows.widths());
     if (rows.size() < layout.size())
         return std::nullopt;
     const ModelFunction model = model_of(layout, rows);
-    const auto starts =
-        simpler != nullptr ? lengthened(layout, rows, *simpler) : starts_of(layout, rows);
+    const bool has_logarithm = std::ranges::count(shape.next, TermShape::logarithm) > 0;
+    std::vector<Eigen::VectorXd> starts;
+    if (simpler != nullptr)
+        starts.push_back(lengthened(layout, rows, *simpler));
+    // From the leading terms alone a logarithm's search often ends in a false valley.
+    if (simpler == nullptr || (has_logarithm && beside == nullptr))
+        for (const auto& leading : this->starts())
+            starts.push_back(lengthened(layout, rows, leading));
+    starts = with_logarithms(layout, std::move(starts));
     auto best = least_squares(model, rows.log_errors, rows.weights, starts, rows.scatter);
-    // Where the search may have ended in a false valley; and where two fit to rounding, as rows of
-    // few levels allow: then that of other rows.
+    // Where the search may have ended in a false valley; where two fit to rounding, as rows of few
+    // levels allow; and of two logarithms of either sign, which bend the error alike: then that of
+    // other rows.
     constexpr double worse = 2;
-    if (beside != nullptr &&
-        (!best || best->scale() > worse * beside->scale || best->scale() <= least_scatter)) {
-        const std::vector<Eigen::VectorXd> start{in_units(layout, *beside, centre, log_unit)};
+    if (beside != nullptr && (!best || has_logarithm || best->scale() > worse * beside->scale ||
+                              best->scale() <= least_scatter)) {
+        const std::vector<Eigen::VectorXd> start{in_units(layout, *beside, log_centre_, log_unit_)};
         auto same = start[0].allFinite()
                         ? least_squares(model, rows.log_errors, rows.weights, start, rows.scatter)
                         : std::nullopt;
-        if (same && (!best || same->scale() <= std::max(best->scale(), least_scatter)))
+        if (same &&
+            (!best || same->scale() <=
+                          std::max((has_logarithm ? worse : 1.0) * best->scale(), least_scatter)))
             best = std::move(same);
     }
     if (!best)
@@ -470,9 +505,9 @@ std::optional<TermFit> fit_terms(const TermRows& given, const TermShape& shape,
                    .theta = best->theta,
                    .covariance = best->covariance,
                    .root = best->root,
-                   .log_centre = centre,
-                   .log_unit = log_unit,
-                   .log_reference = given.log_reference,
+                   .log_centre = log_centre_,
+                   .log_unit = log_unit_,
+                   .log_reference = log_reference_,
                    .residuals = best->residuals,
                    .scale = best->scale(),
                    .scatter = rows.scatter,

@@ -212,14 +212,24 @@ TwoTermFit fit_two_term(std::span<const Refinement> records,
     const auto orders = fit.ensemble->orders();
     fit.p = orders[0];
     fit.q = orders[1];
+    const auto* sizes = steadiest;
+    if (const auto* moving = fit.ensemble->without_idle_widths())
+        sizes = moving->steadiest();
     const double least = fit.ensemble->tuning().least_share;
-    set_term(steadiest->fit, 0, fit.p, least, fit.model.a, fit.model.p);
-    set_term(steadiest->fit, 1, fit.q, least, fit.model.b, fit.model.q);
+    const auto set = [&](Eigen::Index width, const OrderInterval& order, double& size,
+                         double& power, double& error) {
+        power = std::numeric_limits<double>::quiet_NaN();
+        const auto place = fit.ensemble->place_among_moving(width);
+        if (sizes == nullptr || !place)
+            return;
+        set_term(sizes->fit, *place, order, least, size, power);
+        error = sizes->fit.order(*place).error;
+    };
+    set(0, fit.p, fit.model.a, fit.model.p, fit.p_se);
+    set(1, fit.q, fit.model.b, fit.model.q, fit.q_se);
     const auto rho = steadiest->fit.correlation(0, 1);
     fit.model.rho = fit.model.a > 0 && fit.model.b > 0 ? rho.value : 0;
     fit.rho_se = rho.error;
-    fit.p_se = steadiest->fit.order(0).error;
-    fit.q_se = steadiest->fit.order(1).error;
     fit.rms = steadiest->fit.scale;
     sort_records(records, usable, *steadiest, fit);
     return fit;

@@ -17,7 +17,9 @@ struct Table {
     std::string name;
     double order;
     std::vector<double> errors;
-    bool determined; ///< by all levels: pairwise orders of Q2 in Linfty go 3.32, 2.63, 2.97
+    /// By all levels: pairwise orders in Linfty go 0.87, 1.75, 1.94 (Q1), where a logarithm would
+    /// have 2.4, and 3.32, 2.63, 2.97 (Q2).
+    bool determined;
 };
 
 OrderInterval order_of(const Table& table, std::size_t levels) {
@@ -33,7 +35,7 @@ OrderInterval order_of(const Table& table, std::size_t levels) {
 const std::vector<Table> step_7{
     {"Q1 L2", 2, {1.840e+00, 3.570e-02, 1.192e-02, 3.047e-03, 7.660e-04}, true},
     {"Q1 H1", 1, {2.858e+00, 1.199e+00, 7.565e-01, 3.823e-01, 1.917e-01}, true},
-    {"Q1 Linfty", 2, {1.835e+00, 1.307e-01, 7.168e-02, 2.128e-02, 5.554e-03}, true},
+    {"Q1 Linfty", 2, {1.835e+00, 1.307e-01, 7.168e-02, 2.128e-02, 5.554e-03}, false},
     {"Q2 L2", 3, {1.606e-01, 7.638e-03, 8.601e-04, 1.107e-04, 1.393e-05}, true},
     {"Q2 H1", 2, {1.278e+00, 5.248e-01, 1.086e-01, 2.756e-02, 6.915e-03}, true},
     {"Q2 Linfty", 3, {3.029e-01, 4.816e-02, 4.827e-03, 7.802e-04, 9.971e-05}, false}};

@@ -100,20 +100,22 @@ BOOST_AUTO_TEST_CASE(most_intervals_do_not_hang_on_the_last_bit_of_the_errors) {
         {.h = 0.125, .dt = 0.025, .error = 0.0032226049531578834},
         {.h = 0.0625, .dt = 0.025, .error = 0.000768442068224228}};
     const Refinement against{.h = 1.0 / 64, .dt = 0.00625};
-    const auto fit = fit_two_term(records, against);
-    BOOST_REQUIRE(fit.p.determined);
     std::mt19937_64 bits(1);
     std::uniform_real_distribution<double> part(-1e-13, 1e-13);
     constexpr int copies = 40;
-    int moved = 0;
+    std::vector<double> halves;
     for (int copy = 0; copy < copies; ++copy) {
         auto others = records;
         for (auto& record : others)
             record.error *= 1 + part(bits);
         const auto other = fit_two_term(others, against);
         BOOST_REQUIRE(other.p.determined);
-        moved += std::abs(other.p.half_width() / fit.p.half_width() - 1) > 0.01;
+        halves.push_back(other.p.half_width());
     }
+    std::ranges::sort(halves);
+    const double most = halves[copies / 2];
+    const auto moved = std::ranges::count_if(
+        halves, [&](double half) { return std::abs(half / most - 1) > 0.01; });
     BOOST_TEST(moved <= copies / 2, moved);
 }
 
