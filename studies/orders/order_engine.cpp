@@ -198,10 +198,52 @@ double OrderEnsemble::sequence_factor() const {
 }
 
 double OrderEnsemble::grid_factor() const {
-    const bool few = std::ranges::any_of(
-        levels_, [](const auto& levels) { return levels.size() == fewest_levels; });
-    return tuning_.grid * (few ? tuning_.three_levels : 1.0) *
+    return tuning_.grid * (has_width_of_few_levels() ? tuning_.three_levels : 1.0) *
            (rows_.scatter > 0 ? tuning_.scattered : 1.0);
+}
+
+bool OrderEnsemble::has_width_of_few_levels() const {
+    return std::ranges::any_of(levels_,
+                               [](const auto& levels) { return levels.size() == fewest_levels; });
+}
+
+/// How far from an order that of a logarithm is, where scatter, or a width of a grid with three
+/// levels, leaves open whether there is one: of all models of all rows with one that follow them
+/// about as closely as any. With its 95 % where the logarithm's size is told from zero; at zero the
+/// derivatives by both are one, and the order's error says nothing.
+double OrderEnsemble::distance_to_logarithms(Index width, double order) const {
+    if (!(rows_.scatter > 0) && (rows_.widths() == 1 || !has_width_of_few_levels()))
+        return 0;
+    const auto is_of_all = [](const EnsembleMember& member) {
+        return member.along < 0 &&
+               std::ranges::all_of(member.place, [](int dropped) { return dropped == 0; });
+    };
+    TermShape simplest{std::vector<double>(levels_.size(), TermShape::none)};
+    simplest.next[static_cast<std::size_t>(width)] = TermShape::logarithm;
+    double closest = infinity;
+    bool has_simplest = false; // else it is lost without terms beside it (order_members.cpp)
+    for (const auto& member : members_)
+        if (is_of_all(member)) {
+            closest = std::min(closest, member.fit.scale);
+            has_simplest = has_simplest || member.fit.shape == simplest;
+        }
+    if (!has_simplest)
+        return 0;
+    double farthest = 0;
+    for (const auto& member : members_) {
+        const TermFit& fit = member.fit;
+        if (!is_of_all(member) ||
+            fit.shape.next[static_cast<std::size_t>(width)] != TermShape::logarithm ||
+            fit.scale >
+                tuning_.about_as_closely * std::max({closest, rows_.scatter, least_scatter}))
+            continue;
+        const auto [own, error] = fit.order(width);
+        const auto size = fit.next(width);
+        const bool is_told = std::abs(size.value) > 1.96 * size.error;
+        farthest = std::max(farthest, std::abs(own - order) + (is_told ? 1.96 * error : 0.0) +
+                                          tuning_.narrowest);
+    }
+    return farthest;
 }
 
 double OrderEnsemble::greatest_share(Index width) const {
@@ -303,12 +345,14 @@ std::vector<OrderInterval> OrderEnsemble::orders() const {
             return member.fit.order(member.along < 0 ? width : 0);
         });
         if (mixture) {
+            const double half =
+                std::max(mixture->half, distance_to_logarithms(width, mixture->value));
             order.value = mixture->value;
-            order.low = mixture->value - mixture->half;
-            order.high = mixture->value + mixture->half;
+            order.low = mixture->value - half;
+            order.high = mixture->value + half;
         }
         order.determined = mixture && order.share >= tuning_.least_share &&
-                           order.low > tuning_.narrowest && mixture->half <= tuning_.widest &&
+                           order.low > tuning_.narrowest && order.half_width() <= tuning_.widest &&
                            !motion_of(width).goes_on(order.value) && !is_ambiguous(width) &&
                            is_seen_as_a_power(width, order);
         if (!order.determined)

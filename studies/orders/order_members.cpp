@@ -88,7 +88,7 @@ bool has_lost_its_logarithm(const TermFit& fit) {
     constexpr double least = 1e-3;
     for (std::size_t i = 0; i < fit.shape.next.size(); ++i)
         if (fit.shape.next[i] == TermShape::logarithm &&
-            std::abs(fit.next(static_cast<Index>(i))) < least)
+            std::abs(fit.next(static_cast<Index>(i)).value) < least)
             return true;
     return false;
 }

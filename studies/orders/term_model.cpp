@@ -16,8 +16,6 @@ namespace {
 constexpr double cauchy = 2.385;
 /// The median of |z| over the standard deviation of a normal z.
 constexpr double median_of_normal = 0.6745;
-/// Scatter of ln e below this is rounding.
-constexpr double least_scatter = 1e-7;
 constexpr int reweightings = 4;
 /// Most starts end in the same place.
 constexpr std::size_t most_starts = 3;
@@ -411,9 +409,9 @@ FittedNumber TermFit::correlation(Eigen::Index first, Eigen::Index second) const
     return {std::sin(theta[at]), std::abs(std::cos(theta[at])) * std::sqrt(covariance(at, at))};
 }
 
-double TermFit::next(Eigen::Index width) const {
+FittedNumber TermFit::next(Eigen::Index width) const {
     const auto at = Layout(shape, log_centre.size()).next(width);
-    return at < 0 ? 0.0 : theta[at];
+    return at < 0 ? FittedNumber() : FittedNumber{theta[at], std::sqrt(covariance(at, at))};
 }
 
 double TermFit::next_part(Eigen::Index width, double log_width) const {
@@ -421,7 +419,7 @@ double TermFit::next_part(Eigen::Index width, double log_width) const {
     if (power == TermShape::none || power == TermShape::constant)
         return 0;
     const double log_x = log_width - log_centre[width];
-    return next(width) * (power == TermShape::logarithm ? log_x : std::exp(power * log_x));
+    return next(width).value * (power == TermShape::logarithm ? log_x : std::exp(power * log_x));
 }
 
 double TermFit::term(Eigen::Index width, double log_width) const {

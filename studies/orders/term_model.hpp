@@ -21,6 +21,9 @@
 
 namespace tvbeam {
 
+/// Scatter of ln e below this is rounding.
+constexpr double least_scatter = 1e-7;
+
 /// Rows as the regression wants them.
 struct TermRows {
     Eigen::MatrixXd log_widths; ///< a row a record, a column a width
@@ -76,7 +79,7 @@ struct TermFit {
 
     FittedNumber order(Eigen::Index width) const;                            ///< p_i
     FittedNumber correlation(Eigen::Index first, Eigen::Index second) const; ///< ρ
-    double next(Eigen::Index width) const; ///< c_i; 0 without a next term
+    FittedNumber next(Eigen::Index width) const; ///< c_i; 0 without a next term
     /// c_i g_i there: the next term over the leading one; 0 without one, and for a constant.
     double next_part(Eigen::Index width, double log_width) const;
     /// T_i at a row.

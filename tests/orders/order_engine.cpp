@@ -43,6 +43,31 @@ bool holds(const OrderInterval& order, double truth) {
     return order.low <= truth && truth <= order.high;
 }
 
+/// A row whose error scatters by a part of it.
+ErrorRow scattered(std::vector<double> widths, double error, double sigma,
+                   std::mt19937& generator) {
+    if (!(sigma > 0))
+        return {std::move(widths), error};
+    std::normal_distribution<double> normal;
+    return {std::move(widths), error * (1 + sigma * normal(generator)), sigma};
+}
+
+/// How many orders are determined, and how many of these missed.
+struct Count {
+    int determined = 0;
+    int missed = 0;
+
+    void add(const OrderInterval& order, double truth) {
+        determined += order.determined ? 1 : 0;
+        missed += order.determined && !holds(order, truth) ? 1 : 0;
+    }
+    /// Of intervals that hold the order in 95 %, to two standard deviations.
+    bool is_chance() const {
+        const double expected = 0.05 * determined;
+        return missed <= expected + 2 * std::sqrt(0.95 * expected);
+    }
+};
+
 } // namespace
 
 BOOST_DATA_TEST_CASE(a_pure_power_is_known_to_the_narrowest_interval,
@@ -91,16 +116,18 @@ BOOST_DATA_TEST_CASE(of_four_levels_a_logarithm_has_the_sign_that_all_of_them_sh
 }
 
 // Where dt has three levels no window leaves one out, and what changes with a next term of dt is
-// the drift: not what changes without the logarithm of h, of which two thirds were missed.
-BOOST_DATA_TEST_CASE(an_order_with_a_logarithm_is_found_beside_another_width, data::make({3, 4, 5}),
-                     steps) {
+// the drift: not what changes without the logarithm of h, of which two thirds were missed. Of three
+// meshes a next term follows the errors as closely: 3 of 20 were missed. So it is where they
+// scatter: 15 of 27 were.
+BOOST_DATA_TEST_CASE(an_order_with_a_logarithm_is_found_beside_another_width,
+                     data::make({3, 4}) * data::make({3, 4, 5}) * data::make({0.0, 0.001}), meshes,
+                     steps, sigma) {
     std::mt19937 generator(20261128);
     const auto uniform = [&](double low, double high) {
         return std::uniform_real_distribution(low, high)(generator);
     };
     constexpr int tables = 30;
-    int determined = 0;
-    int missed = 0;
+    Count count;
     for (int table = 0; table < tables; ++table) {
         const double p = 1 + table % 3;
         const double q = 1 + table % 2;
@@ -109,23 +136,47 @@ BOOST_DATA_TEST_CASE(an_order_with_a_logarithm_is_found_beside_another_width, da
         const double rho = uniform(-0.9, 1);
         const double h_0 = uniform(0.1, 0.4);
         std::vector<ErrorRow> rows;
-        for (int i = 0; i < 4; ++i)
+        for (int i = 0; i < meshes; ++i)
             for (int j = 0; j < steps; ++j) {
                 const double h = h_0 * std::exp2(-i);
                 const double dt = 0.2 * std::exp2(-j);
                 const double in_h = std::pow(h, p) * (1 - size * std::log(h));
                 const double in_dt = b * std::pow(dt, q);
-                rows.push_back(
-                    {{h, dt}, std::sqrt(in_h * in_h + 2 * rho * in_h * in_dt + in_dt * in_dt)});
+                const double error =
+                    std::sqrt(in_h * in_h + 2 * rho * in_h * in_dt + in_dt * in_dt);
+                rows.push_back(scattered({h, dt}, error, sigma, generator));
             }
-        const auto order = estimate_orders(rows)[0];
-        determined += order.determined ? 1 : 0;
-        missed += order.determined && !holds(order, p) ? 1 : 0;
+        count.add(estimate_orders(rows)[0], p);
     }
-    BOOST_TEST(determined >= 0.6 * tables);
-    const double expected = 0.05 * determined; // of intervals that hold the order in 95 %
-    BOOST_TEST(missed <= expected + 2 * std::sqrt(0.95 * expected),
-               missed << " of " << determined);
+    BOOST_TEST(count.determined >= (meshes == 3 ? 0.2 : 0.6) * tables);
+    BOOST_TEST(count.is_chance(), count.missed << " of " << count.determined);
+}
+
+// Leading and next terms follow such errors as closely, with other orders: up to 19 of 28 were
+// missed.
+BOOST_DATA_TEST_CASE(scatter_does_not_hide_a_logarithm,
+                     data::make({4, 5, 6, 8}) * data::make({1e-4, 3e-3, 1e-2}), levels, sigma) {
+    std::mt19937 generator(20261129);
+    const auto uniform = [&](double low, double high) {
+        return std::uniform_real_distribution(low, high)(generator);
+    };
+    constexpr int tables = 60;
+    Count count;
+    for (int table = 0; table < tables; ++table) {
+        const double p = 1 + table % 3;
+        const double size = uniform(0.1, 1.5);
+        const double h_0 = uniform(0.1, 0.4);
+        const double ratio = uniform(1.5, 2.5);
+        std::vector<ErrorRow> rows;
+        for (int i = 0; i < levels; ++i) {
+            const double h = h_0 * std::pow(ratio, -i);
+            const double error = std::pow(h, p) * (1 - size * std::log(h));
+            rows.push_back(scattered({h}, error, sigma, generator));
+        }
+        count.add(estimate_orders(rows)[0], p);
+    }
+    BOOST_TEST(count.determined >= 0.4 * tables);
+    BOOST_TEST(count.is_chance(), count.missed << " of " << count.determined);
 }
 
 // √h/10 beside h: at the coarsest level a fifth of the error, at the finest of nine a factor
