@@ -437,12 +437,6 @@ bool OrderEnsemble::has_logarithm() const {
 
 OrderInterval OrderEnsemble::forecast(const std::vector<double>& widths,
                                       bool against_reference) const {
-    if (moving_) {
-        std::vector<double> kept;
-        for (const auto i : moving_widths_)
-            kept.push_back(widths[static_cast<std::size_t>(i)]);
-        return moving_->forecast(kept, against_reference);
-    }
     const Eigen::VectorXd log_widths =
         Eigen::Map<const Eigen::ArrayXd>(widths.data(), static_cast<Index>(widths.size())).log();
     OrderInterval result{.status = failure_};

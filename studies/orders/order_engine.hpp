@@ -72,7 +72,7 @@ public:
                            const OrderTuning& tuning = {});
 
     /// Of the rows without the widths that no error changes with, where it determines all orders:
-    /// orders and forecasts are then its. In such a width's place a constant would follow what is
+    /// orders() are then its. In such a width's place a constant would follow what is
     /// the others' next term. Null where all count.
     const OrderEnsemble* without_idle_widths() const { return moving_.get(); }
     /// Where a width stands among those that count; none where it is left out.
