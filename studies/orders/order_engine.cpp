@@ -207,41 +207,44 @@ bool OrderEnsemble::has_width_of_few_levels() const {
                                [](const auto& levels) { return levels.size() == fewest_levels; });
 }
 
-/// How far from an order that of a logarithm is, where scatter, or a width of a grid with three
-/// levels, leaves open whether there is one: of all models of all rows with one that follow them
-/// about as closely as any. With its 95 % where the logarithm's size is told from zero; at zero the
-/// derivatives by both are one, and the order's error says nothing.
-double OrderEnsemble::distance_to_logarithms(Index width, double order) const {
+/// How far from an order that of a logarithm, or of a next term half an order on, is, where
+/// scatter, or a width of a grid with three levels, leaves open whether there is one: of all models
+/// of all rows with one that follow them about as closely as any. With its 95 % where the size of
+/// that term is told from zero; at zero it and the order have nearly one derivative, and the
+/// order's error says nothing.
+double OrderEnsemble::distance_to_slow_terms(Index width, double order) const {
     if (!(rows_.scatter > 0) && (rows_.widths() == 1 || !has_width_of_few_levels()))
         return 0;
+    const auto at = static_cast<std::size_t>(width);
     const auto is_of_all = [](const EnsembleMember& member) {
         return member.along < 0 &&
                std::ranges::all_of(member.place, [](int dropped) { return dropped == 0; });
     };
-    TermShape simplest{std::vector<double>(levels_.size(), TermShape::none)};
-    simplest.next[static_cast<std::size_t>(width)] = TermShape::logarithm;
     double closest = infinity;
-    bool has_simplest = false; // else it is lost without terms beside it (order_members.cpp)
     for (const auto& member : members_)
-        if (is_of_all(member)) {
+        if (is_of_all(member))
             closest = std::min(closest, member.fit.scale);
-            has_simplest = has_simplest || member.fit.shape == simplest;
-        }
-    if (!has_simplest)
-        return 0;
+    const double most =
+        tuning_.about_as_closely * std::max({closest, rows_.scatter, least_scatter});
     double farthest = 0;
-    for (const auto& member : members_) {
-        const TermFit& fit = member.fit;
-        if (!is_of_all(member) ||
-            fit.shape.next[static_cast<std::size_t>(width)] != TermShape::logarithm ||
-            fit.scale >
-                tuning_.about_as_closely * std::max({closest, rows_.scatter, least_scatter}))
+    for (const double slow : {TermShape::logarithm, 0.5}) {
+        TermShape alone{std::vector<double>(levels_.size(), TermShape::none)};
+        alone.next[at] = slow;
+        // A logarithm that is lost without terms beside it (order_members.cpp) is none.
+        if (std::ranges::none_of(members_, [&](const EnsembleMember& member) {
+                return is_of_all(member) && member.fit.shape == alone;
+            }))
             continue;
-        const auto [own, error] = fit.order(width);
-        const auto size = fit.next(width);
-        const bool is_told = std::abs(size.value) > 1.96 * size.error;
-        farthest = std::max(farthest, std::abs(own - order) + (is_told ? 1.96 * error : 0.0) +
-                                          tuning_.narrowest);
+        for (const auto& member : members_) {
+            const TermFit& fit = member.fit;
+            if (!is_of_all(member) || fit.shape.next[at] != slow || fit.scale > most)
+                continue;
+            const auto [own, error] = fit.order(width);
+            const auto size = fit.next(width);
+            const bool is_told = std::abs(size.value) > 1.96 * size.error;
+            farthest = std::max(farthest, std::abs(own - order) + (is_told ? 1.96 * error : 0.0) +
+                                              tuning_.narrowest);
+        }
     }
     return farthest;
 }
@@ -346,7 +349,7 @@ std::vector<OrderInterval> OrderEnsemble::orders() const {
         });
         if (mixture) {
             const double half =
-                std::max(mixture->half, distance_to_logarithms(width, mixture->value));
+                std::max(mixture->half, distance_to_slow_terms(width, mixture->value));
             order.value = mixture->value;
             order.low = mixture->value - half;
             order.high = mixture->value + half;

@@ -19,12 +19,12 @@
 /// with next terms, where they are steadier than those without). Where all of that is wide the
 /// order is not determined, nor where it still moves (order_motion.hpp), is steep and seen at two
 /// levels alone, or stands beside a constant that its few levels do not tell from it; the status
-/// says why. Where scatter, or a width of three levels, does not tell a logarithm from next terms,
-/// the interval reaches its order. In a width of three levels models with next terms do not count
-/// whose term in another width stands still. A width that no error changes with is left out where
-/// the rest determines all orders. Constants: OrderTuning. Ideas of others: model averaging by
-/// stability and the spread over models as uncertainty (Rider et al. 2016; Eça and Hoekstra 2014),
-/// many models times many windows (StREEQ, Sandia).
+/// says why. Where scatter, or a width of three levels, leaves open whether there is a logarithm or
+/// a next term half an order on, the interval reaches its order. In a width of three levels models
+/// with next terms do not count whose term in another width stands still. A width that no error
+/// changes with is left out where the rest determines all orders. Constants: OrderTuning. Ideas of
+/// others: model averaging by stability and the spread over models as uncertainty (Rider et al.
+/// 2016; Eça and Hoekstra 2014), many models times many windows (StREEQ, Sandia).
 #pragma once
 
 #include "studies/orders/error_rows.hpp"
@@ -116,7 +116,7 @@ private:
     double sequence_factor() const;
     double grid_factor() const;
     bool has_width_of_few_levels() const;
-    double distance_to_logarithms(Eigen::Index width, double order) const;
+    double distance_to_slow_terms(Eigen::Index width, double order) const;
 
     OrderTuning tuning_;
     TermRows rows_;
