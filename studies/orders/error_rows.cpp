@@ -17,10 +17,8 @@ std::map<std::vector<double>, std::vector<Eigen::Index>>
 rows_by(const TermRows& rows, const std::vector<Eigen::Index>& widths) {
     std::map<std::vector<double>, std::vector<Eigen::Index>> groups;
     for (Eigen::Index r = 0; r < rows.size(); ++r) {
-        std::vector<double> key;
-        for (const auto i : widths)
-            key.push_back(rows.log_widths(r, i));
-        groups[key].push_back(r);
+        const Eigen::VectorXd at = rows.log_widths(r, widths).transpose();
+        groups[std::vector<double>(at.begin(), at.end())].push_back(r);
     }
     return groups;
 }
