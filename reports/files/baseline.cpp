@@ -5,7 +5,7 @@
 #include "reports/document/json_text.hpp"
 #include "reports/files/held_values.hpp"
 #include "reports/files/said_result.hpp"
-#include "studies/ladder/ladder_block.hpp"
+#include "studies/ladder/ladder.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -48,6 +48,12 @@ bool are_zero(const std::string& what, double one, double other) {
            std::max(std::abs(one), std::abs(other)) < round_off;
 }
 
+/// Errors of a scheme that is exact for the solution.
+bool are_rounding(const BaselineEntry& entry, const std::string& what, double one, double other) {
+    const auto most = entry.rounding.find(what);
+    return most != entry.rounding.end() && std::max(std::abs(one), std::abs(other)) <= most->second;
+}
+
 /// A number; null: there is none; "inf" or "-inf".
 Json figure_json(double figure) {
     if (std::isfinite(figure))
@@ -69,20 +75,25 @@ void require_recordable(const Scene& scene) {
 }
 
 BaselineEntry baseline_entry(const StudyResult& result) {
-    std::map<std::string, double> errors;
+    BaselineEntry entry{result.scene.name, {result.scene.file}, {}};
     for (const auto& [kind, record] : result.records.entries())
         for (const auto& [name, figure] : kind->figures(record))
             if (!is_round_off(kind->name(), name))
-                errors[fmt::format("{}.{}", kind->name(), name)] = figure;
+                entry.figures[fmt::format("{}.{}", kind->name(), name)] = figure;
+    const auto* ladder = result.get<LadderResult>();
     for (const auto& [series, results] : result.runs())
         for (const auto& run : *results)
-            for (std::size_t k = 0; k < series.measures.size(); ++k)
-                errors[fmt::format("{}.{}: {} at {}", series.study, series.measures[k].name,
-                                   series.measures[k].is_value ? "value" : "error",
-                                   run.rung.name([](double dt) {
-                                       return fmt::format("{}", dt);
-                                   }))] = error_of(run, k).value_or(std::nan(""));
-    return {result.scene.name, {result.scene.file}, std::move(errors)};
+            for (std::size_t k = 0; k < series.measures.size(); ++k) {
+                const std::string name =
+                    fmt::format("{}.{}: {} at {}", series.study, series.measures[k].name,
+                                series.measures[k].is_value ? "value" : "error",
+                                run.rung.name([](double dt) { return fmt::format("{}", dt); }));
+                entry.figures[name] = error_of(run, k).value_or(std::nan(""));
+                if (ladder != nullptr && results == &ladder->rungs && k < ladder->norms.size() &&
+                    ladder->norms[k].rounding)
+                    entry.rounding[name] = *ladder->norms[k].rounding;
+            }
+    return entry;
 }
 
 BaselineEntry whole_entry(const StudyResult& result,
@@ -132,7 +143,7 @@ std::string baseline_of(const std::vector<BaselineEntry>& entries, const std::st
     std::set<std::string> names;
     if (!earlier.empty())
         scenes = Json::parse(earlier)["scenes"];
-    for (const auto& [name, place, figures, said] : entries) {
+    for (const auto& [name, place, figures, rounding, said] : entries) {
         require_another_name(names, name, place);
         Json errors = Json::object();
         for (const auto& [what, error] : figures)
@@ -207,7 +218,7 @@ std::vector<CheckedExpectation> Baseline::check(const BaselineEntry& entry,
             const double before = *found->second.number;
             one.expected = fmt::format("{} within {}", before, tolerance);
             one.holds = std::abs(error - before) <= tolerance * std::abs(before) ||
-                        are_zero(what, error, before);
+                        are_zero(what, error, before) || are_rounding(entry, what, error, before);
         } else if (found != recorded.end() && !std::isfinite(error)) {
             // A field that is missing, or infinite, and was.
             const auto text = [](const std::string& json) {

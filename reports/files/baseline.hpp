@@ -19,6 +19,8 @@ struct BaselineEntry {
     std::string name;
     Place place; ///< for messages
     std::map<std::string, double> figures;
+    /// Of figures that are rounding, what they are below: another processor has others.
+    std::map<std::string, double> rounding = {};
     std::string said = {}; ///< all that the result says (said_result.hpp), as JSON; empty: not kept
 };
 BaselineEntry baseline_entry(const StudyResult& result);
@@ -52,9 +54,10 @@ public:
     explicit Baseline(const std::string& file);
 
     /// Holds new figures against what was recorded by their name: every error within the relative
-    /// tolerance of the recorded one, on both sides. A scene, run or norm that was not recorded, or
-    /// that is not there any more, does not hold. The figures found are always those of the new
-    /// result. Of what it says besides (held_values.hpp) only what does not hold is told.
+    /// tolerance of the recorded one, on both sides, or rounding as that was. A scene, run or norm
+    /// that was not recorded, or that is not there any more, does not hold. The figures found are
+    /// always those of the new result. Of what it says besides (held_values.hpp) only what does not
+    /// hold is told.
     [[nodiscard]] std::vector<CheckedExpectation> check(const BaselineEntry& entry,
                                                         double tolerance) const;
 

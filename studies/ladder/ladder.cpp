@@ -170,9 +170,11 @@ LadderResult analyse_ladder(const LadderBlock& block, const Method& method,
         }
         if (!remark.empty())
             shown.remarks.push_back(std::move(remark));
-        if (auto exact = solver.exact ? solver.exact(series, result.rungs, k) : "";
-            !exact.empty()) {
-            shown.remarks = {std::move(exact)};
+        if (const auto rounding =
+                solver.rounding ? solver.rounding(series, result.rungs, k) : std::nullopt) {
+            shown.rounding = rounding->most;
+            std::ranges::fill(shown.orders, std::nullopt);
+            shown.remarks = {rounding->remark};
             for (auto& row : shown.verdicts)
                 if (row.verdict != Verdict::failed && row.verdict != Verdict::exact)
                     row = {Verdict::unresolved, "its error is rounding"};

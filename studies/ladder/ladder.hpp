@@ -16,9 +16,11 @@ namespace tvbeam {
 /// One norm, or value, along a ladder.
 struct LadderNorm {
     Measure norm;
-    /// Observed order against the rung before, and what each rung shows; empty of a value.
+    /// Observed order against the rung before, none of rounding, and what each rung shows; empty of
+    /// a value.
     std::vector<std::optional<double>> orders;
     std::vector<RowVerdict> verdicts;
+    std::optional<double> rounding;         ///< every error is, and below this
     std::vector<OrderInterval> predictions; ///< of the fits of [orders], 95 %; empty without them
     std::vector<std::string> remarks;       ///< what the orders mean, in sentences
 };

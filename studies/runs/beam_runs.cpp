@@ -115,14 +115,14 @@ StudiedSolver beam_runs(const Scene& scene, const ProblemData& data, const Probl
                                         std::size_t k) {
         return round_off_remark(scene.beam, data, series, runs, k);
     };
-    const auto exact = [&scene, &data](const Series& series, const std::vector<RungResult>& runs,
-                                       std::size_t k) {
-        return exact_remark(scene.beam, data, series, runs, k);
+    const auto rounding = [&scene, &data](const Series& series, const std::vector<RungResult>& runs,
+                                          std::size_t k) {
+        return rounding_errors(scene.beam, data, series, runs, k);
     };
     return {.run = run,
             .reference = scene.reference,
             .remark = remark,
-            .exact = exact,
+            .rounding = rounding,
             .has_defect = !defects.none()};
 }
 

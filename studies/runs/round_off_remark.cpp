@@ -126,12 +126,13 @@ std::string round_off_remark(const Beam& beam, const ProblemData& data, const Se
     return {};
 }
 
-std::string exact_remark(const Beam& beam, const ProblemData& data, const Series& series,
-                         const std::vector<RungResult>& rungs, std::size_t k) {
+std::optional<RoundingErrors> rounding_errors(const Beam& beam, const ProblemData& data,
+                                              const Series& series,
+                                              const std::vector<RungResult>& rungs, std::size_t k) {
     const Measure& measure = series.measures[k];
     const auto norm = Norm::named(measure.root());
     if (!data.exact || !norm)
-        return {};
+        return std::nullopt;
     const auto [size, words] = scale_of(beam, data, *norm, series.final_time);
     std::vector<double> errors;
     for (const auto& rung : rungs)
@@ -143,12 +144,14 @@ std::string exact_remark(const Beam& beam, const ProblemData& data, const Series
                                return !(fine <= falls * coarse);
                            }) == errors.end();
     const double greatest = std::accumulate(errors.begin(), errors.end(), 0.0, worse);
-    if (converges || !(greatest > 0.0 && greatest <= round_off * size))
-        return {};
-    return fmt::format(
-        "{}: every error is rounding, {:.2g} at most {}: the scheme is exact for the "
-        "solution, which tests nothing of its order",
-        measure.name, greatest, words);
+    const double most = round_off * size;
+    if (converges || !(greatest > 0.0 && greatest <= most))
+        return std::nullopt;
+    return RoundingErrors{
+        measure.squared ? most * most : most,
+        fmt::format("{}: every error is rounding, {:.2g} at most {}: the scheme is exact for the "
+                    "solution, which tests nothing of its order",
+                    measure.name, greatest, words)};
 }
 
 } // namespace tvbeam

@@ -2,8 +2,10 @@
 
 #include "core/problem.hpp"
 #include "studies/runs/run.hpp"
+#include "studies/runs/studied_solver.hpp"
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,11 +18,12 @@ namespace tvbeam {
 std::string round_off_remark(const Beam& beam, const ProblemData& data, const Series& series,
                              const std::vector<RungResult>& rungs, std::size_t k);
 
-/// A sentence where every error is below 16 ε of the norm of the exact solution, or of what that
+/// Where every error is below 16 ε of the norm of the exact solution, or of what that
 /// comes from (α u_xx beside θ, α θ beside u, u_xx beside σ; the sources where all of that is
-/// zero), not all are 0 and they do not fall from row to row: the scheme is exact for it. Empty
+/// zero), not all are 0 and they do not fall from row to row: the scheme is exact for it. None
 /// otherwise, and where no exact solution is known.
-std::string exact_remark(const Beam& beam, const ProblemData& data, const Series& series,
-                         const std::vector<RungResult>& rungs, std::size_t k);
+std::optional<RoundingErrors> rounding_errors(const Beam& beam, const ProblemData& data,
+                                              const Series& series,
+                                              const std::vector<RungResult>& rungs, std::size_t k);
 
 } // namespace tvbeam

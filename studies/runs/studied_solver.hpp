@@ -10,6 +10,12 @@
 
 namespace tvbeam {
 
+/// That every error of a measure is rounding: the scheme is exact for the solution.
+struct RoundingErrors {
+    double most = 0;    ///< of the measure: no discretisation error is told from less
+    std::string remark; ///< said in place of what the orders mean
+};
+
 /// A solver under study: how it is run, and what an analysis of its runs must know besides them.
 struct StudiedSolver {
     RunCall run;
@@ -21,7 +27,11 @@ struct StudiedSolver {
     using Remark =
         std::function<std::string(const Series&, const std::vector<RungResult>&, std::size_t k)>;
     Remark remark = {}; ///< on what limits it; an empty function: nothing ever does
-    Remark exact = {};  ///< that its errors are rounding: said in place of what their orders mean
+
+    /// Of measure k along a ladder: that its errors are rounding; an empty function: nothing says.
+    std::function<std::optional<RoundingErrors>(const Series&, const std::vector<RungResult>&,
+                                                std::size_t k)>
+        rounding = {};
 
     /// Its runs are made with a deliberate defect.
     bool has_defect = false;

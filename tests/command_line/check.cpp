@@ -79,6 +79,30 @@ BOOST_AUTO_TEST_CASE(a_baseline_is_compared_with_the_new_run_and_never_read_in_i
         2);
 }
 
+// Rounding of another processor is no change; an error that was, or is, more than rounding is one.
+BOOST_AUTO_TEST_CASE(errors_that_are_rounding_are_those_of_any_processor) {
+    const TemporaryDirectory directory;
+    const std::string file = (directory.path() / "base.json").string();
+    BOOST_TEST(call(directory, "check nothing-heated --record " + file).exit == 0);
+    const auto recorded = nlohmann::json::parse(directory.read("base.json"));
+    const auto exit_with = [&](double factor) {
+        auto changed = recorded;
+        for (auto& [what, error] : changed.at("scenes").at("nothing-heated").items())
+            error = factor * error.get<double>();
+        return call(directory, "check nothing-heated --baseline " +
+                                   directory.write("changed.json", changed.dump()))
+            .exit;
+    };
+    BOOST_TEST(exit_with(0.3) == 0);
+    BOOST_TEST(exit_with(1.5) == 0);
+    BOOST_TEST(exit_with(1e3) == 1);
+    // A scheme that is exact no more.
+    const Called inexact = call(
+        directory,
+        "check nothing-heated --set defect.heat_source=1e-9 --set expect={} --baseline " + file);
+    BOOST_TEST(inexact.exit == 1, inexact.output);
+}
+
 BOOST_AUTO_TEST_CASE(a_tolerance_that_holds_anything_or_nothing_is_refused) {
     const TemporaryDirectory directory;
     const std::string file = (directory.path() / "base.json").string();
