@@ -243,6 +243,18 @@ BOOST_AUTO_TEST_CASE(the_error_of_a_reference_run_is_part_of_the_model) {
         BOOST_CHECK_THROW(fit_two_term(records, coarse), std::invalid_argument);
 }
 
+BOOST_AUTO_TEST_CASE(a_reference_that_is_coarser_than_a_run_in_either_width_is_refused) {
+    std::vector<Refinement> records;
+    for (const double h : {0.2, 0.1, 0.05})
+        for (const double dt : {0.1, 0.05, 0.025})
+            records.push_back({.h = h, .dt = dt, .error = h * h + dt});
+    BOOST_CHECK_NO_THROW(fit_two_term(records, Refinement{.h = 0.05, .dt = 0.025}));
+    BOOST_CHECK_THROW(fit_two_term(records, Refinement{.h = 0.06, .dt = 0.025}),
+                      std::invalid_argument);
+    BOOST_CHECK_THROW(fit_two_term(records, Refinement{.h = 0.05, .dt = 0.03}),
+                      std::invalid_argument);
+}
+
 // With A = 2 (0.04 - 0.0025) and B = 0.5 (0.1 - 0.01).
 BOOST_AUTO_TEST_CASE(a_reference_takes_its_own_terms_off_those_of_the_model) {
     const TwoTermModel model{.a = 2, .p = 2, .b = 0.5, .q = 1, .rho = 0.3};
