@@ -87,12 +87,15 @@ int digits_of(double value, double half) {
 
 /// The rows of a grid by what the fit says of them.
 std::vector<RowVerdict> verdicts_of(const TwoTermFit& fit, std::size_t rows) {
-    const bool known = fit.predicts();
-    std::vector<RowVerdict> verdicts(rows, {known ? Verdict::asymptotic : Verdict::pre_asymptotic,
-                                            known          ? "in the window where both orders stand"
-                                            : !fit.holds() ? fit.failure
-                                            : !fit.misfit.empty() ? fit.misfit
-                                                                  : "an order is not determined"});
+    const bool both = fit.predicts();
+    const bool one = fit.holds() && fit.misfit.empty() && fit.ensemble->without_idle_widths();
+    std::vector<RowVerdict> verdicts(rows,
+                                     {both || one ? Verdict::asymptotic : Verdict::pre_asymptotic,
+                                      both           ? "in the window where both orders stand"
+                                      : one          ? "in the window where the order stands"
+                                      : !fit.holds() ? fit.failure
+                                      : !fit.misfit.empty() ? fit.misfit
+                                                            : "an order is not determined"});
     for (const auto& [row, why, reason] : fit.rejected)
         verdicts[row] = {verdict_of(why), reason};
     return verdicts;

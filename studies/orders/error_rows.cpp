@@ -108,9 +108,10 @@ std::vector<Eigen::Index> moving_widths(const TermRows& rows, double most) {
         const auto at_finest = groups.find(std::vector<double>(finest.begin(), finest.end()));
         const bool is_shown = !others.empty() && at_finest != groups.end() &&
                               at_finest->second.size() >= fewest_levels;
+        // One row shows no change, nor that there is none.
         const bool stands = std::ranges::all_of(groups, [&](const auto& group) {
             const auto errors = rows.log_errors(group.second).eval();
-            return errors.maxCoeff() - errors.minCoeff() <= most;
+            return errors.size() > 1 && errors.maxCoeff() - errors.minCoeff() <= most;
         });
         if (!is_shown || !stands)
             moving.push_back(i);

@@ -30,8 +30,9 @@ constexpr std::size_t fewest_levels = 3;
 TermRows usable_rows(std::span<const ErrorRow> given, std::size_t most_rows);
 
 /// The widths that errors change with. Along another no two errors of rows that are equal in all
-/// others differ by more than a part `most`; also where the others are finest, at three widths or
-/// more, so that its term is seen to be small where it is the largest part.
+/// others differ by more than a part `most`, of two rows or more wherever there is one; and where
+/// the others are finest of three or more, so that its term is seen to be small where it is the
+/// largest part.
 std::vector<Eigen::Index> moving_widths(const TermRows& rows, double most);
 
 /// With these widths alone; rows that are equal in them are one, of their mean, as certain as they.

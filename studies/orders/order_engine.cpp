@@ -32,6 +32,11 @@ TermRows rows_of(std::span<const ErrorRow> given, const std::vector<double>& ref
     return rows;
 }
 
+bool is_of_all_rows(const EnsembleMember& member) {
+    return member.along < 0 &&
+           std::ranges::all_of(member.place, [](int dropped) { return dropped == 0; });
+}
+
 } // namespace
 
 OrderEnsemble::OrderEnsemble(std::span<const ErrorRow> rows, const std::vector<double>& reference,
@@ -163,7 +168,8 @@ std::optional<OrderEnsemble::Mixture> OrderEnsemble::mix(const Functional& numbe
         if (!change || !std::isfinite(std::hypot(one.error, *change)))
             continue;
         const double unit = std::hypot(one.error, *change) + tuning_.agreement;
-        all.push_back({one.value, one.error, *change, 1 / (unit * unit)});
+        const double part = 1 / (1 + std::pow(unit / tuning_.says_nothing, 2));
+        all.push_back({one.value, one.error, *change, part / (unit * unit)});
         weights += all.back().weight;
         mean += all.back().weight * one.value;
     }
@@ -216,13 +222,9 @@ double OrderEnsemble::distance_to_slow_terms(Index width, double order) const {
     if (!(rows_.scatter > 0) && (rows_.widths() == 1 || !has_width_of_few_levels()))
         return 0;
     const auto at = static_cast<std::size_t>(width);
-    const auto is_of_all = [](const EnsembleMember& member) {
-        return member.along < 0 &&
-               std::ranges::all_of(member.place, [](int dropped) { return dropped == 0; });
-    };
     double closest = infinity;
     for (const auto& member : members_)
-        if (is_of_all(member))
+        if (is_of_all_rows(member))
             closest = std::min(closest, member.fit.scale);
     const double most =
         tuning_.about_as_closely * std::max({closest, rows_.scatter, least_scatter});
@@ -232,12 +234,12 @@ double OrderEnsemble::distance_to_slow_terms(Index width, double order) const {
         alone.next[at] = slow;
         // A logarithm that is lost without terms beside it (order_members.cpp) is none.
         if (std::ranges::none_of(members_, [&](const EnsembleMember& member) {
-                return is_of_all(member) && member.fit.shape == alone;
+                return is_of_all_rows(member) && member.fit.shape == alone;
             }))
             continue;
         for (const auto& member : members_) {
             const TermFit& fit = member.fit;
-            if (!is_of_all(member) || fit.shape.next[at] != slow || fit.scale > most)
+            if (!is_of_all_rows(member) || fit.shape.next[at] != slow || fit.scale > most)
                 continue;
             const auto [own, error] = fit.order(width);
             const auto size = fit.next(width);
@@ -255,6 +257,15 @@ double OrderEnsemble::greatest_share(Index width) const {
         if (member.family == 0)
             share = std::max(share, share_of_errors(member.fit, width, rows_));
     return share;
+}
+
+/// Whether a model of all rows follows them: of what none follows windows say this and that.
+bool OrderEnsemble::is_followed() const {
+    constexpr double deviations = 3;
+    return rows_.widths() == 1 || std::ranges::any_of(members_, [&](const EnsembleMember& member) {
+               return is_of_all_rows(member) &&
+                      member.fit.scale <= std::max(tuning_.followed, deviations * rows_.scatter);
+           });
 }
 
 /// Whether another width's term stands still in a fit and is this part of an error.
@@ -331,7 +342,8 @@ std::vector<OrderInterval> OrderEnsemble::orders() const {
             if (const auto place = place_among_moving(static_cast<Index>(i)))
                 result[i] = moving[static_cast<std::size_t>(*place)];
             else
-                result[i].status = "no error changes with it";
+                result[i].status =
+                    fmt::format("it changes no error by more than {:g} of it", tuning_.idle);
         return result;
     }
     for (std::size_t i = 0; i < result.size(); ++i) {
@@ -356,8 +368,8 @@ std::vector<OrderInterval> OrderEnsemble::orders() const {
         }
         order.determined = mixture && order.share >= tuning_.least_share &&
                            order.low > tuning_.narrowest && order.half_width() <= tuning_.widest &&
-                           !motion_of(width).goes_on(order.value) && !is_ambiguous(width) &&
-                           is_seen_as_a_power(width, order);
+                           !motion_of(width).goes_on(order.value) && is_followed() &&
+                           !is_ambiguous(width) && is_seen_as_a_power(width, order);
         if (!order.determined)
             order.status = status_of(width, order);
     }
@@ -377,7 +389,9 @@ std::string OrderEnsemble::status_of(Index width, const OrderInterval& order) co
     const std::string moves = motion_of(width).words();
     if (moves.empty() && !is_seen_as_a_power(width, order))
         return fmt::format("no window shows an order of {:.1f} at three levels", order.value);
-    return moves.empty() ? "models and windows do not agree" : moves;
+    if (!moves.empty())
+        return moves;
+    return is_followed() ? "models and windows do not agree" : "no model follows all rows";
 }
 
 int OrderEnsemble::place_of(Index width, double log_width) const {

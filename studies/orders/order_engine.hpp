@@ -10,8 +10,8 @@
 /// error allows:
 ///
 ///     u_m² = max(t_{dof} s_m / 1.96, σ_m)² + (greatest change to a neighbouring window)²,
-///     p = Σ p_m / u_m² / Σ 1 / u_m²,      half² = mean of (p_m − p)² + u_m², with the same
-///     weights.
+///     p = Σ w_m p_m / Σ w_m,      half² = Σ w_m ((p_m − p)² + u_m²) / Σ w_m,
+///     w_m = 1 / (u_m² (1 + (u_m / 10)²)),
 ///
 /// with the standard errors s_m from the residuals and σ_m from a known scatter of the rows: a
 /// stated one, or that of rows at equal widths (replicates). So the interval knows scatter, the
@@ -21,8 +21,9 @@
 /// levels alone, or stands beside a constant that its few levels do not tell from it; the status
 /// says why. Where scatter, or a width of three levels, leaves open whether there is a logarithm or
 /// a next term half an order on, the interval reaches its order. In a width of three levels models
-/// with next terms do not count whose term in another width stands still. A width that no error
-/// changes with is left out where the rest determines all orders. Constants: OrderTuning. Ideas of
+/// with next terms do not count whose term in another width stands still. A width that
+/// changes no error by more than OrderTuning::idle of it is left out where the rest determines all
+/// orders. Constants: OrderTuning. Ideas of
 /// others: model averaging by stability and the spread over models as uncertainty (Rider et al.
 /// 2016; Eça and Hoekstra 2014), many models times many windows (StREEQ, Sandia).
 #pragma once
@@ -71,9 +72,9 @@ public:
                            const std::vector<double>& reference = {},
                            const OrderTuning& tuning = {});
 
-    /// Of the rows without the widths that no error changes with, where it determines all orders:
-    /// orders() are then its. In such a width's place a constant would follow what is
-    /// the others' next term. Null where all count.
+    /// Of the rows without the widths that change no error by more than OrderTuning::idle, where it
+    /// determines all orders: orders() are then its. In such a width's place a constant would
+    /// follow what is the others' next term. Null where all count.
     const OrderEnsemble* without_idle_widths() const { return moving_.get(); }
     /// Where a width stands among those that count; none where it is left out.
     std::optional<Eigen::Index> place_among_moving(Eigen::Index width) const;
@@ -108,6 +109,7 @@ private:
     std::optional<Mixture> mix(const Functional& number) const;
     OrderMotion motion_of(Eigen::Index width) const;
     double greatest_share(Eigen::Index width) const;
+    bool is_followed() const;
     bool is_ambiguous(Eigen::Index width) const;
     bool has_constant_beside(const EnsembleMember& member, Eigen::Index width, double share) const;
     bool leans_on_a_constant(const EnsembleMember& member, Eigen::Index width) const;

@@ -93,8 +93,27 @@ bool has_lost_its_logarithm(const TermFit& fit) {
     return false;
 }
 
+/// Whether a term that a reference has as well goes on to no order at all, b (x^q − x_ref^q) with
+/// q → 0 and b → ∞, or to ever greater ones: what the search ends at then hangs on the last bit of
+/// the errors.
+bool has_no_end(const TermFit& fit, const TermRows& rows) {
+    constexpr double least = 0.02;
+    constexpr double greatest = 10;
+    for (Index i = 0; i < rows.log_reference.size(); ++i)
+        if (const double order = std::abs(fit.order(i).value);
+            !std::isnan(rows.log_reference[i]) && !(order >= least && order <= greatest))
+            return true;
+    return false;
+}
+
 bool is_believable(const TermFit& fit, const TermRows& rows) {
     return !is_a_difference(fit, rows) && !has_lost_its_logarithm(fit);
+}
+
+/// Where the leading terms alone have no end the rest is of use, but nothing is known of them.
+void forget_errors(TermFit& fit) {
+    fit.covariance.diagonal().setConstant(infinity);
+    fit.root.resize(0, 0);
 }
 
 /// All combinations of 0 … most[i].
@@ -166,7 +185,7 @@ void fit_all_widths(const TermRows& rows, const AllLevels& levels,
     constexpr int fewest_spare = 2; // rows: seven parameters follow any nine
     std::vector<std::optional<TermFit>> closest(
         shapes.size()); // of the widest window, if it can be
-    const auto is_far_off = [&](const TermFit& fit, const TermFit& other) {
+    const auto is_far_worse = [&](const TermFit& fit, const TermFit& other) {
         return fit.scale > far_better * std::max(other.scale, to_rounding);
     };
     for (const auto& place : places_within(most)) {
@@ -182,24 +201,30 @@ void fit_all_widths(const TermRows& rows, const AllLevels& levels,
                                   closest[k] ? &*closest[k] : nullptr);
             if (!fit || !is_believable(*fit, window))
                 continue;
+            if (has_no_end(*fit, window)) {
+                if (k > 0)
+                    continue;
+                forget_errors(*fit);
+            }
             if (k == 0)
                 plain = fit;
             if (!of_two_kinds)
                 least_scale = std::min(least_scale, fit->scale);
             else if (fit->scale > std::max(least_scale, to_rounding))
                 continue; // what fits no better with more parameters follows scatter
-            if (!closest[k] || is_far_off(*closest[k], *fit))
+            if (!closest[k] || is_far_worse(*closest[k], *fit))
                 closest[k] = fit;
             members.push_back({std::move(*fit), static_cast<int>(k), place});
         }
     }
     for (auto& member : members) {
         const auto& best = *closest[static_cast<std::size_t>(member.family)];
-        if (!is_far_off(member.fit, best))
+        if (!is_far_worse(member.fit, best))
             continue;
         const auto window = rows_from(rows, levels, member.place);
         auto fit = TermSearch(window).fit(best.shape, &member.fit, &best);
-        if (fit && fit->scale < member.fit.scale && is_believable(*fit, window))
+        if (fit && fit->scale < member.fit.scale && is_believable(*fit, window) &&
+            !has_no_end(*fit, window))
             member.fit = std::move(*fit);
     }
 }

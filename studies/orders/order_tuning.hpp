@@ -39,6 +39,10 @@ struct OrderTuning {
     /// scatter, which it was not tuned on, 105 of 1782 intervals miss (5.9 %), 146 of 1856 without
     /// it. More would leave more undetermined that is a power alone.
     double hidden_drift = 0.35;
+    /// A member that is uncertain by u counts for 1 / (1 + (u / this)²) of one: each adds its u_m²
+    /// over itself to half², and whether a fit that determines nothing has an infinite error or one
+    /// of a million is a matter of rounding.
+    double says_nothing = 10;
     /// Added to u_m in the weights: models do not agree better than by chance.
     double agreement = 0.002;
     /// Widths within this factor are one level: an order read between them is noise. Scatter of 1 %
@@ -69,6 +73,9 @@ struct OrderTuning {
     /// Models whose scatters are within this factor follow the rows about as closely. Of 2 and 5 on
     /// grids of three levels the second missed fewer, and left as many undetermined.
     double about_as_closely = 5;
+    /// A model follows rows that stand off it by no more than this (root of mean square), or thrice
+    /// known scatter.
+    double followed = 0.15;
     /// A width that changes no error by more than this part is left out: what the orders of others
     /// could owe to it is far below `narrowest`.
     double idle = 1e-4;

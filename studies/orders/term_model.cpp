@@ -1,11 +1,14 @@
 #include "studies/orders/term_model.hpp"
 
+#include <boost/math/tools/minima.hpp>
+
 #include <Eigen/QR>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <span>
 #include <utility>
 
 namespace tvbeam {
@@ -19,7 +22,8 @@ constexpr double median_of_normal = 0.6745;
 constexpr int reweightings = 4;
 /// Most starts end in the same place.
 constexpr std::size_t most_starts = 3;
-constexpr double most_rho = 0.99; ///< of a start
+constexpr std::size_t most_moved = 8; ///< starts of a model with a next term
+constexpr double most_rho = 0.99;     ///< of a start
 
 /// Where the parameters stand in θ.
 class Layout {
@@ -162,24 +166,57 @@ struct Start {
     double left = infinity; ///< how far off it is: the sum of squares of e²_model / e² − 1
 };
 
-/// For given orders the squares are linear in a_i a_j ρ_ij.
+/// x^p, and what stands beside it: x^p times the next term's factor, or one beside a constant.
+struct Factors {
+    double leading = 0;
+    double next = 0;
+};
+
+Factors factors_at(const Layout& layout, Eigen::Index i, double order, double log_x) {
+    const double leading = std::exp(order * log_x);
+    if (layout.next(i) < 0)
+        return {leading, 0};
+    const double power = layout.power(i);
+    if (power == TermShape::constant)
+        return {leading, 1};
+    return {leading, leading * (power == TermShape::logarithm ? log_x : std::exp(power * log_x))};
+}
+
+/// For given orders the squares are linear in a_i a_j ρ_ij, and where widths have next terms in
+/// these times c_i, and in a_i² c_i², if each counts as a number of its own.
 std::optional<Start> start_at(const Layout& layout, const TermRows& rows,
                               const Eigen::VectorXd& orders) {
     const Eigen::Index d = layout.widths();
     Eigen::MatrixXd powers(rows.size(), d);
+    Eigen::MatrixXd nexts(rows.size(), d);
     for (Eigen::Index i = 0; i < d; ++i) {
-        powers.col(i) = (orders[i] * rows.log_widths.col(i)).array().exp();
         const double reference = reference_of(rows.log_reference, i);
-        if (!std::isnan(reference))
-            powers.col(i).array() -= std::exp(orders[i] * reference);
-        powers.col(i).array() /= rows.log_errors.array().exp();
+        for (Eigen::Index r = 0; r < rows.size(); ++r) {
+            const Factors here = factors_at(layout, i, orders[i], rows.log_widths(r, i));
+            const Factors there =
+                std::isnan(reference) ? Factors() : factors_at(layout, i, orders[i], reference);
+            const double error = std::exp(rows.log_errors[r]);
+            powers(r, i) = (here.leading - there.leading) / error;
+            nexts(r, i) = (here.next - there.next) / error;
+        }
     }
-    Eigen::MatrixXd design(rows.size(), d + d * (d - 1) / 2);
+    std::vector<Eigen::Index> longer; // the widths with next terms
+    for (Eigen::Index i = 0; i < d; ++i)
+        if (layout.next(i) >= 0)
+            longer.push_back(i);
+    const auto own = static_cast<Eigen::Index>(longer.size());
+    const Eigen::Index pairs = d * (d - 1) / 2;
+    Eigen::MatrixXd design(rows.size(), d + pairs + own * (d + 1));
     design.leftCols(d) = powers.cwiseAbs2();
     Eigen::Index column = d;
     for (Eigen::Index i = 0; i < d; ++i)
         for (Eigen::Index j = i + 1; j < d; ++j)
             design.col(column++) = powers.col(i).cwiseProduct(powers.col(j));
+    for (const Eigen::Index i : longer) {
+        for (Eigen::Index j = 0; j < d; ++j)
+            design.col(column++) = nexts.col(i).cwiseProduct(powers.col(j));
+        design.col(column++) = nexts.col(i).cwiseAbs2();
+    }
     const Eigen::VectorXd ones = Eigen::VectorXd::Ones(rows.size());
     const Eigen::VectorXd x = design.colPivHouseholderQr().solve(ones);
     if (!x.allFinite())
@@ -198,17 +235,43 @@ std::optional<Start> start_at(const Layout& layout, const TermRows& rows,
             const double rho = x[column++] / 2 / std::exp(start.theta[2 * i] + start.theta[2 * j]);
             start.theta[layout.pair(i, j)] = std::asin(std::clamp(rho, -most_rho, most_rho));
         }
+    for (const Eigen::Index i : longer) {
+        start.theta[layout.next(i)] = x[column + i] / 2 / std::exp(2 * start.theta[2 * i]);
+        column += d + 1;
+    }
     return start;
 }
 
-/// Of the leading terms the best few of a net of orders, and the best with one that stands still
-/// where that is better than all of those.
-std::vector<Eigen::VectorXd> starts_of(const TermRows& rows) {
-    const TermShape leading{
-        std::vector<double>(static_cast<std::size_t>(rows.widths()), TermShape::none)};
-    const Layout layout(leading, rows.widths());
-    const std::vector<double> net{0.0, 0.5, 1.0, 1.5, 2.0, 3.0, 4.0};
+/// To the best order of one width between its neighbours in the net: beside a next term a far
+/// smaller one is seen there alone.
+void move_order(const Layout& layout, const TermRows& rows, Eigen::Index i, Start& start) {
+    constexpr double step = 0.5;
+    constexpr int bits = 20;
+    Eigen::VectorXd orders(layout.widths());
+    for (Eigen::Index k = 0; k < layout.widths(); ++k)
+        orders[k] = start.theta[2 * k + 1];
+    const auto left_at = [&](double order) {
+        orders[i] = order;
+        const auto other = start_at(layout, rows, orders);
+        return other ? other->left : infinity;
+    };
+    const auto [order, left] = boost::math::tools::brent_find_minima(
+        left_at, std::max(orders[i] - step, step / 2), orders[i] + step, bits);
+    if (!(left < start.left))
+        return;
+    orders[i] = order;
+    if (auto other = start_at(layout, rows, orders))
+        start = std::move(*other);
+}
+
+/// The best few of a net of orders, and the best with one that stands still where that is better
+/// than all of those.
+std::vector<Eigen::VectorXd> starts_of(const Layout& layout, const TermRows& rows) {
     const Eigen::Index d = layout.widths();
+    bool has_next_term = false;
+    for (Eigen::Index i = 0; i < d; ++i)
+        has_next_term = has_next_term || layout.next(i) >= 0;
+    const std::vector<double> net{0.0, 0.5, 1.0, 1.5, 2.0, 3.0, 4.0};
     std::vector<Start> moving;
     std::optional<Start> standing;
     std::vector<std::size_t> at(static_cast<std::size_t>(d), 0);
@@ -217,7 +280,7 @@ std::vector<Eigen::VectorXd> starts_of(const TermRows& rows) {
         for (Eigen::Index k = 0; k < d; ++k)
             orders[k] = net[at[static_cast<std::size_t>(k)]];
         const auto still = std::ranges::count(at, std::size_t{0});
-        if (still < std::min(d, Eigen::Index{2}))
+        if (still < (has_next_term ? 1 : std::min(d, Eigen::Index{2})))
             if (auto start = start_at(layout, rows, orders)) {
                 if (still == 0)
                     moving.push_back(std::move(*start));
@@ -227,8 +290,17 @@ std::vector<Eigen::VectorXd> starts_of(const TermRows& rows) {
         for (i = 0; i < at.size() && ++at[i] == net.size(); ++i)
             at[i] = 0;
     }
-    std::stable_sort(moving.begin(), moving.end(),
-                     [](const Start& l, const Start& r) { return l.left < r.left; });
+    const auto sort = [&] {
+        std::stable_sort(moving.begin(), moving.end(),
+                         [](const Start& l, const Start& r) { return l.left < r.left; });
+    };
+    sort();
+    for (Eigen::Index i = 0; i < d; ++i)
+        if (layout.next(i) >= 0) {
+            for (auto& start : std::span(moving).first(std::min(most_moved, moving.size())))
+                move_order(layout, rows, i, start);
+            sort();
+        }
     std::vector<Eigen::VectorXd> starts;
     for (std::size_t k = 0; k < std::min(most_starts, moving.size()); ++k)
         starts.push_back(moving[k].theta);
@@ -336,14 +408,22 @@ LeastSquares reweighted(const ModelFunction& model, const TermRows& rows, LeastS
     return fit;
 }
 
-/// At ρ = ±1 sin φ has no derivative, and nothing an interval: the others have theirs with ρ held.
-LeastSquares with_rho_held_at_its_bound(const ModelFunction& model, const Layout& layout,
-                                        const TermRows& rows, LeastSquares fit) {
+/// Whether one width has a next term, half an order on, and no other has one.
+bool is_half_an_order_on(const TermShape& shape) {
+    return std::ranges::count(shape.next, 0.5) == 1 &&
+           std::ranges::count(shape.next, TermShape::none) + 1 == std::ssize(shape.next);
+}
+
+/// At ρ = ±1 sin φ has no derivative, and nothing an interval; nor where ρ and the size of a term
+/// so small that its square is not seen are one number: the others have theirs with ρ held.
+LeastSquares with_rho_held(const ModelFunction& model, const Layout& layout, const TermRows& rows,
+                           LeastSquares fit) {
     constexpr double at_the_bound = 1e-3; // 1 − |ρ| < 5e-7
+    const bool is_determined = fit.root.size() > 0;
     std::vector<Eigen::Index> free;
     for (Eigen::Index k = 0; k < layout.size(); ++k)
         if (k < 2 * layout.widths() || k >= layout.pair(layout.widths() - 1, layout.widths()) ||
-            std::abs(std::cos(fit.theta[k])) >= at_the_bound)
+            (is_determined && std::abs(std::cos(fit.theta[k])) >= at_the_bound))
             free.push_back(k);
     if (static_cast<Eigen::Index>(free.size()) == layout.size())
         return fit;
@@ -363,7 +443,13 @@ LeastSquares with_rho_held_at_its_bound(const ModelFunction& model, const Layout
     rest = reweighted(held, rows, std::move(*rest));
     LeastSquares whole = fit;
     whole.theta(free) = rest->theta;
+    if (rest->root.size() == 0)
+        return fit;
     whole.covariance.setZero();
+    if (!is_determined)
+        for (Eigen::Index k = 2 * layout.widths();
+             k < layout.pair(layout.widths() - 1, layout.widths()); ++k)
+            whole.covariance(k, k) = infinity;
     whole.covariance(free, free) = rest->covariance;
     whole.root.resize(0, 0);
     if (rest->root.size() > 0) {
@@ -451,8 +537,11 @@ TermSearch::TermSearch(TermRows given)
 }
 
 const std::vector<Eigen::VectorXd>& TermSearch::starts() {
-    if (starts_.empty())
-        starts_ = starts_of(rows_);
+    if (starts_.empty()) {
+        const TermShape leading{
+            std::vector<double>(static_cast<std::size_t>(rows_.widths()), TermShape::none)};
+        starts_ = starts_of(Layout(leading, rows_.widths()), rows_);
+    }
     return starts_;
 }
 
@@ -467,11 +556,16 @@ std::optional<TermFit> TermSearch::fit(const TermShape& shape, const TermFit* si
     std::vector<Eigen::VectorXd> starts;
     if (simpler != nullptr)
         starts.push_back(lengthened(layout, rows, *simpler));
-    // From the leading terms alone a logarithm's search often ends in a false valley.
+    // From the leading terms alone a logarithm's search often ends in a false valley …
     if (simpler == nullptr || (has_logarithm && beside == nullptr))
         for (const auto& leading : this->starts())
             starts.push_back(lengthened(layout, rows, leading));
     starts = with_logarithms(layout, std::move(starts));
+    // … and that of a next term half an order on, beside a term that is far smaller. Others would
+    // have a constant in the place of a leading term.
+    if (rows.widths() > 1 && beside == nullptr && is_half_an_order_on(shape))
+        for (auto& start : starts_of(layout, rows))
+            starts.push_back(std::move(start));
     auto best = least_squares(model, rows.log_errors, rows.weights, starts, rows.scatter);
     // Where the search may have ended in a false valley; where two fit to rounding, as rows of few
     // levels allow; and of two logarithms of either sign, which bend the error alike: then that of
@@ -498,7 +592,7 @@ std::optional<TermFit> TermSearch::fit(const TermShape& shape, const TermFit* si
     // A longer model that fits far worse than the one within it has ended in a false valley.
     constexpr double far_worse = 2;
     if (simpler == nullptr || best->scale() <= far_worse * simpler->scale)
-        *best = with_rho_held_at_its_bound(model, layout, rows, std::move(*best));
+        *best = with_rho_held(model, layout, rows, std::move(*best));
     return TermFit{.shape = shape,
                    .theta = best->theta,
                    .covariance = best->covariance,

@@ -85,10 +85,8 @@ bool rejects(const TwoTermFit& fit, std::size_t record, Rejection why) {
 BOOST_AUTO_TEST_SUITE(two_term_model)
 
 // The solution and reference of the scene reference-sheared with half its steps, so that time
-// hardly shows: at the bound of ρ nothing moves its angle, and of searches that begin there two in
-// three found another model by the last bit of the errors. One in four still does: the plain fit,
-// from which they begin, has no end.
-BOOST_AUTO_TEST_CASE(most_intervals_do_not_hang_on_the_last_bit_of_the_errors) {
+// hardly shows: fits then go on to an order of zero in dt, or to ever greater ones.
+BOOST_AUTO_TEST_CASE(no_interval_hangs_on_the_last_bit_of_the_errors) {
     const std::vector<Refinement> records{
         {.h = 0.25, .dt = 0.1, .error = 0.01313461454055},
         {.h = 0.125, .dt = 0.1, .error = 0.003263054956700577},
@@ -100,23 +98,18 @@ BOOST_AUTO_TEST_CASE(most_intervals_do_not_hang_on_the_last_bit_of_the_errors) {
         {.h = 0.125, .dt = 0.025, .error = 0.0032226049531578834},
         {.h = 0.0625, .dt = 0.025, .error = 0.000768442068224228}};
     const Refinement against{.h = 1.0 / 64, .dt = 0.00625};
+    const auto fit = fit_two_term(records, against);
+    BOOST_REQUIRE(fit.p.determined);
     std::mt19937_64 bits(1);
     std::uniform_real_distribution<double> part(-1e-13, 1e-13);
-    constexpr int copies = 40;
-    std::vector<double> halves;
-    for (int copy = 0; copy < copies; ++copy) {
+    for (int copy = 0; copy < 40; ++copy) {
         auto others = records;
         for (auto& record : others)
             record.error *= 1 + part(bits);
         const auto other = fit_two_term(others, against);
-        BOOST_REQUIRE(other.p.determined);
-        halves.push_back(other.p.half_width());
+        BOOST_TEST(other.p.value == fit.p.value, boost::test_tools::tolerance(1e-6));
+        BOOST_TEST(other.p.half_width() == fit.p.half_width(), boost::test_tools::tolerance(1e-4));
     }
-    std::ranges::sort(halves);
-    const double most = halves[copies / 2];
-    const auto moved = std::ranges::count_if(
-        halves, [&](double half) { return std::abs(half / most - 1) > 0.01; });
-    BOOST_TEST(moved <= copies / 2, moved);
 }
 
 // Every error times a number: the same orders, and sizes times that number, as far as doubles go.

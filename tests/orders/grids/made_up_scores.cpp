@@ -1,9 +1,11 @@
-// Scores the engine on errors by laws that are known: how many orders of h it calls determined, and
-// how many of those intervals miss. Usage: made_up_scores SEED TABLES. Of h^p T + b dt^q, added
-// with a correlation, T one of the kinds below; without dt on sequences.
+// Scores the engine on errors by laws that are known: how many orders of h, and of dt, it calls
+// determined, and how many of those intervals miss. Usage: made_up_scores SEED TABLES. Of h^p T +
+// b dt^q, added with a correlation that is -1 in one of four, T one of the kinds below; without dt
+// on sequences.
 
 #include "studies/orders/order_engine.hpp"
 
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -18,17 +20,24 @@ namespace {
 struct Kind {
     const char* name;
     double least, greatest; ///< of c
-    std::function<double(double h, double c)> factor;
+    /// d: of a further term, of h or of dt.
+    std::function<double(double h, double c, double d)> factor;
     bool has_next_in_dt = false;
 };
 
 const std::vector<Kind> kinds{
-    {"h^p", 0, 0, [](double, double) { return 1.0; }},
-    {"h^p (1 + c h)", -1.5, 2, [](double h, double c) { return 1 + c * h; }},
-    {"h^p (1 + c h^0.5)", 0.1, 1.5, [](double h, double c) { return 1 + c * std::sqrt(h); }},
-    {"h^p (1 + c ln 1/h)", 0.1, 1.5, [](double h, double c) { return 1 - c * std::log(h); }},
-    {"... and dt^q (1 + d dt)", 0.1, 1.5, [](double h, double c) { return 1 - c * std::log(h); },
-     true}};
+    {"h^p", 0, 0, [](double, double, double) { return 1.0; }},
+    {"h^p (1 + c h)", -1.5, 2, [](double h, double c, double) { return 1 + c * h; }},
+    {"h^p (1 + c h^0.5)", 0.1, 1.5,
+     [](double h, double c, double) { return 1 + c * std::sqrt(h); }},
+    {"h^p (1 + c ln 1/h)", 0.1, 1.5,
+     [](double h, double c, double) { return 1 - c * std::log(h); }},
+    {"... and dt^q (1 + d dt)", 0.1, 1.5,
+     [](double h, double c, double) { return 1 - c * std::log(h); }, true},
+    {"h^p (1 + c h^0.5 + d h)", 0.1, 1.5,
+     [](double h, double c, double d) { return 1 + c * std::sqrt(h) + d * h; }},
+    {"h^p (1 + c ln 1/h + d h)", 0.1, 1.5,
+     [](double h, double c, double d) { return 1 - c * std::log(h) + d * h; }}};
 
 class Drawn {
 public:
@@ -36,6 +45,10 @@ public:
 
     double number(double low, double high) {
         return std::uniform_real_distribution(low, high)(generator_);
+    }
+    /// One of two a whole number, up to `greatest`.
+    double order(double greatest) {
+        return number(0, 1) < 0.5 ? std::floor(number(1, greatest + 1)) : number(0.8, greatest);
     }
     ErrorRow row(std::vector<double> widths, double error, double scatter) {
         ErrorRow row{std::move(widths), std::abs(error)};
@@ -51,8 +64,8 @@ private:
 };
 
 struct Score {
-    int determined = 0;
     int missed = 0;
+    int determined = 0;
 
     void add(const OrderInterval& order, double truth) {
         if (!order.determined)
@@ -60,37 +73,52 @@ struct Score {
         ++determined;
         missed += std::abs(order.value - truth) > order.half_width() ? 1 : 0;
     }
+    Score& operator+=(const Score& other) {
+        missed += other.missed;
+        determined += other.determined;
+        return *this;
+    }
 };
 
+using Scores = std::array<Score, 2>; // of h and dt
+
 /// steps: of dt; 0 for a sequence.
-Score score_of(const Kind& kind, int meshes, int steps, double scatter, int tables, Drawn& drawn) {
-    Score score;
+Scores scores_of(const Kind& kind, int meshes, int steps, double scatter, int tables,
+                 Drawn& drawn) {
+    Scores scores;
     for (int table = 0; table < tables; ++table) {
-        const double p = std::floor(drawn.number(1, 4));
-        const double q = std::floor(drawn.number(1, 3));
+        const double p = drawn.order(3);
+        const double q = drawn.order(2);
         const double c = drawn.number(kind.least, kind.greatest);
-        const double d = kind.has_next_in_dt ? drawn.number(-1.5, 2) : 0;
-        const double b = std::pow(10, drawn.number(-3, 0));
-        const double rho = drawn.number(-0.9, 1);
+        const double d = drawn.number(-0.7, 1.5);
+        const double rho = drawn.number(0, 1) < 0.25 ? -1 : drawn.number(-0.9, 1);
         const double coarsest = drawn.number(0.1, 0.4);
         const double ratio = steps == 0 ? drawn.number(1.5, 2.5) : 2;
+        const auto in_space = [&](double h) { return std::pow(h, p) * kind.factor(h, c, d); };
+        // Of the errors, from ten times one to hardly seen.
+        const double size = std::pow(10, drawn.number(-4, 1)) *
+                            in_space(coarsest * std::pow(ratio, -0.5 * (meshes - 1)));
         std::vector<ErrorRow> rows;
         for (int i = 0; i < meshes; ++i) {
             const double h = coarsest * std::pow(ratio, -i);
-            const double in_h = std::pow(h, p) * kind.factor(h, c);
+            const double in_h = in_space(h);
             if (steps == 0)
                 rows.push_back(drawn.row({h}, in_h, scatter));
             for (int j = 0; j < steps; ++j) {
                 const double dt = 0.2 * std::exp2(-j);
-                const double in_dt = b * std::pow(dt, q) * (1 + d * dt);
+                const double in_dt =
+                    size * std::pow(dt / 0.2, q) * (kind.has_next_in_dt ? 1 + d * dt : 1);
                 rows.push_back(drawn.row(
                     {h, dt}, std::sqrt(in_h * in_h + 2 * rho * in_h * in_dt + in_dt * in_dt),
                     scatter));
             }
         }
-        score.add(estimate_orders(rows).front(), p);
+        const auto orders = estimate_orders(rows);
+        scores[0].add(orders[0], p);
+        if (steps > 0)
+            scores[1].add(orders[1], q);
     }
-    return score;
+    return scores;
 }
 
 } // namespace
@@ -102,25 +130,47 @@ int main(int arguments, char** words) {
     }
     Drawn drawn(static_cast<unsigned>(std::atoi(words[1])));
     const int tables = std::atoi(words[2]);
-    const auto print = [&](int meshes, int steps, double scatter) {
-        std::printf("%d x %d, %.1f %%", meshes, steps, 100 * scatter);
-        for (const auto& kind : kinds) {
-            const bool is_asked = steps > 0 || !kind.has_next_in_dt;
-            const Score score =
-                is_asked ? score_of(kind, meshes, steps, scatter, tables, drawn) : Score();
-            std::printf(" | %3d %3d", score.missed, score.determined);
+    std::vector<Scores> sums(kinds.size());
+    const auto print_all = [&](const std::vector<Scores>& all, bool has_dt) {
+        for (const auto& [in_h, in_dt] : all) {
+            std::printf(" | %3d %3d", in_h.missed, in_h.determined);
+            if (has_dt)
+                std::printf(" , %3d %3d", in_dt.missed, in_dt.determined);
         }
         std::puts("");
         std::fflush(stdout);
     };
-    std::printf("missed and determined, of %d: levels of h and dt, scatter", tables);
+    const auto print = [&](int meshes, int steps, double scatter) {
+        std::printf("%d x %d, %.1f %%", meshes, steps, 100 * scatter);
+        std::vector<Scores> row;
+        for (std::size_t k = 0; k < kinds.size(); ++k) {
+            const bool is_asked = steps > 0 || !kinds[k].has_next_in_dt;
+            row.push_back(is_asked ? scores_of(kinds[k], meshes, steps, scatter, tables, drawn)
+                                   : Scores());
+            for (const std::size_t width : {0, 1})
+                sums[k][width] += row.back()[width];
+        }
+        print_all(row, steps > 0);
+    };
+    const auto print_sums = [&](bool has_dt) {
+        std::printf("all");
+        print_all(sums, has_dt);
+        sums.assign(kinds.size(), {});
+    };
+    std::printf("missed and determined, in h and, on grids, in dt, of %d: levels of h and dt, "
+                "scatter",
+                tables);
     for (const auto& kind : kinds)
         std::printf(" | %s", kind.name);
     std::puts("");
-    for (const double scatter : {0.0, 1e-3})
+    for (const double scatter : {0.0, 1e-3}) {
         for (const auto& [meshes, steps] : {std::pair{3, 3}, {3, 4}, {4, 3}, {4, 4}, {5, 5}})
             print(meshes, steps, scatter);
-    for (const double scatter : {0.0, 3e-3, 1e-2})
+        print_sums(true);
+    }
+    for (const double scatter : {0.0, 3e-3, 1e-2}) {
         for (const int levels : {3, 4, 5, 6, 8})
             print(levels, 0, scatter);
+        print_sums(false);
+    }
 }
