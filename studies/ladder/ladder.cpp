@@ -177,7 +177,7 @@ LadderResult analyse_ladder(const LadderBlock& block, const Method& method,
             shown.remarks = {rounding->remark};
             for (auto& row : shown.verdicts)
                 if (row.verdict != Verdict::failed && row.verdict != Verdict::exact)
-                    row = {Verdict::unresolved, "its error is rounding"};
+                    row = {Verdict::unresolved, rounding->reason};
         }
     }
     result.quadrature_remark = quadrature_remark(result.rungs, series.measures);

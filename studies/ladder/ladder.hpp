@@ -20,7 +20,7 @@ struct LadderNorm {
     /// a value.
     std::vector<std::optional<double>> orders;
     std::vector<RowVerdict> verdicts;
-    std::optional<double> rounding;         ///< every error is, and below this
+    std::optional<double> rounding;         ///< every error is, or may be, rounding below this
     std::vector<OrderInterval> predictions; ///< of the fits of [orders], 95 %; empty without them
     std::vector<std::string> remarks;       ///< what the orders mean, in sentences
 };

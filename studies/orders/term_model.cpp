@@ -414,42 +414,89 @@ bool is_half_an_order_on(const TermShape& shape) {
            std::ranges::count(shape.next, TermShape::none) + 1 == std::ssize(shape.next);
 }
 
-/// At ρ = ±1 sin φ has no derivative, and nothing an interval; nor where ρ and the size of a term
-/// so small that its square is not seen are one number: the others have theirs with ρ held.
-LeastSquares with_rho_held(const ModelFunction& model, const Layout& layout, const TermRows& rows,
-                           LeastSquares fit) {
-    constexpr double at_the_bound = 1e-3; // 1 − |ρ| < 5e-7
-    const bool is_determined = fit.root.size() > 0;
-    std::vector<Eigen::Index> free;
-    for (Eigen::Index k = 0; k < layout.size(); ++k)
-        if (k < 2 * layout.widths() || k >= layout.pair(layout.widths() - 1, layout.widths()) ||
-            (is_determined && std::abs(std::cos(fit.theta[k])) >= at_the_bound))
-            free.push_back(k);
-    if (static_cast<Eigen::Index>(free.size()) == layout.size())
-        return fit;
-    const ModelFunction held = [&](const Eigen::VectorXd& theta, Eigen::VectorXd& values,
-                                   Eigen::MatrixXd* jacobian) {
-        Eigen::VectorXd all = fit.theta;
-        all(free) = theta;
-        Eigen::MatrixXd by_all = Eigen::MatrixXd::Zero(rows.size(), layout.size());
+/// The model with all of θ held but for `free`.
+ModelFunction held(const ModelFunction& model, const Eigen::VectorXd& theta,
+                   const std::vector<Eigen::Index>& free) {
+    return [&model, theta, free](const Eigen::VectorXd& some, Eigen::VectorXd& values,
+                                 Eigen::MatrixXd* jacobian) {
+        Eigen::VectorXd all = theta;
+        all(free) = some;
+        Eigen::MatrixXd by_all = Eigen::MatrixXd::Zero(values.size(), theta.size());
         model(all, values, jacobian == nullptr ? nullptr : &by_all);
         if (jacobian != nullptr)
             *jacobian = by_all(Eigen::all, free);
     };
+}
+
+bool is_rho(const Layout& layout, Eigen::Index k) {
+    return k >= 2 * layout.widths() && k < layout.pair(layout.widths() - 1, layout.widths());
+}
+
+/// Close to ρ = ±1 sin φ has hardly a derivative, and the search creeps. So from each start with
+/// all ρ at their bounds, which is the sum of the terms with signs of their own: to where the best
+/// of that ends, if that is far better.
+void search_sums_with_signs(const ModelFunction& model, const Layout& layout, const TermRows& rows,
+                            std::span<const Eigen::VectorXd> starts, LeastSquares& fit) {
+    constexpr Eigen::Index most = 3; // widths: four choices of signs
+    const Eigen::Index d = layout.widths();
+    std::vector<Eigen::Index> free;
+    for (Eigen::Index k = 0; k < layout.size(); ++k)
+        if (!is_rho(layout, k))
+            free.push_back(k);
+    std::vector<Eigen::VectorXd> there;
+    for (unsigned minus = 0; d <= most && minus < 1U << (d - 1); ++minus) {
+        const auto is_minus = [&](Eigen::Index i) { return i > 0 && (minus >> (i - 1) & 1U) != 0; };
+        Eigen::VectorXd theta = starts.front();
+        for (Eigen::Index i = 0; i < d; ++i)
+            for (Eigen::Index j = i + 1; j < d; ++j)
+                theta[layout.pair(i, j)] =
+                    (is_minus(i) == is_minus(j) ? 1 : -1) * std::numbers::pi / 2;
+        std::vector<Eigen::VectorXd> from;
+        for (const auto& start : starts)
+            from.emplace_back(start(free));
+        const auto rest = least_squares(held(model, theta, free), rows.log_errors, rows.weights,
+                                        from, rows.scatter);
+        if (rest && rest->chi2 < fit.chi2) {
+            theta(free) = rest->theta;
+            there.push_back(theta);
+        }
+    }
+    constexpr double far_better = 10; // of the scale; what is hardly better has stranger orders
+    if (auto better = least_squares(model, rows.log_errors, rows.weights, there, rows.scatter);
+        better && far_better * better->scale() < fit.scale())
+        fit = std::move(*better);
+}
+
+/// At ρ = ±1 sin φ has no derivative, and nothing an interval; nor where ρ and the size of a term
+/// so small that its square is not seen are one number: the others have theirs with ρ held. Of the
+/// leading terms alone, whose sizes are told, that stays open.
+LeastSquares with_rho_held(const ModelFunction& model, const Layout& layout, const TermRows& rows,
+                           LeastSquares fit) {
+    constexpr double at_the_bound = 1e-3; // 1 − |ρ| < 5e-7
+    const bool has_next_terms = layout.size() > layout.pair(layout.widths() - 1, layout.widths());
+    const bool is_one_number = fit.root.size() == 0 && has_next_terms;
+    std::vector<Eigen::Index> free;
+    for (Eigen::Index k = 0; k < layout.size(); ++k)
+        if (!is_rho(layout, k) ||
+            (!is_one_number && std::abs(std::cos(fit.theta[k])) >= at_the_bound))
+            free.push_back(k);
+    if (static_cast<Eigen::Index>(free.size()) == layout.size())
+        return fit;
+    const ModelFunction rest_of_it = held(model, fit.theta, free);
     const std::vector<Eigen::VectorXd> start{fit.theta(free)};
-    auto rest = least_squares(held, rows.log_errors, rows.weights, start, rows.scatter);
+    auto rest = least_squares(rest_of_it, rows.log_errors, rows.weights, start, rows.scatter);
     if (!rest)
         return fit;
-    rest = reweighted(held, rows, std::move(*rest));
+    rest = reweighted(rest_of_it, rows, std::move(*rest));
+    if (is_one_number && rest->root.size() == 0)
+        return fit;
     LeastSquares whole = fit;
     whole.theta(free) = rest->theta;
-    if (rest->root.size() == 0)
-        return fit;
     whole.covariance.setZero();
-    if (!is_determined)
-        for (Eigen::Index k = 2 * layout.widths();
-             k < layout.pair(layout.widths() - 1, layout.widths()); ++k)
-            whole.covariance(k, k) = infinity;
+    if (is_one_number)
+        for (Eigen::Index k = 0; k < layout.size(); ++k)
+            if (is_rho(layout, k))
+                whole.covariance(k, k) = infinity;
     whole.covariance(free, free) = rest->covariance;
     whole.root.resize(0, 0);
     if (rest->root.size() > 0) {
@@ -584,6 +631,8 @@ std::optional<TermFit> TermSearch::fit(const TermShape& shape, const TermFit* si
     }
     if (!best)
         return std::nullopt;
+    if (simpler == nullptr && beside == nullptr && rows.widths() > 1)
+        search_sums_with_signs(model, layout, rows, starts, *best);
     // At a bound of ρ its angle may have gone round many times: a step is small beside it then.
     for (Eigen::Index k = 2 * layout.widths();
          k < layout.pair(layout.widths() - 1, layout.widths()); ++k)

@@ -135,23 +135,37 @@ std::optional<RoundingErrors> rounding_errors(const Beam& beam, const ProblemDat
         return std::nullopt;
     const auto [size, words] = scale_of(beam, data, *norm, series.final_time);
     std::vector<double> errors;
+    double most = 0.0; // it grows with the number of elements that it is summed up over
+    constexpr double elements_of_it = 16.0;
     for (const auto& rung : rungs)
-        if (!rung.errors.empty())
+        if (!rung.errors.empty()) {
             errors.push_back(measure.root_of(rung.errors[k]));
+            const auto elements = static_cast<double>(rung.rung.elements);
+            most = std::max(most, round_off * size * std::max(1.0, elements / elements_of_it));
+        }
     // What converges is no rounding, however small: of an end temperature of 1e10 the rest is.
     constexpr double falls = 0.8;
-    const bool converges = std::ranges::adjacent_find(errors, [&](double coarse, double fine) {
-                               return !(fine <= falls * coarse);
-                           }) == errors.end();
+    const bool may_converge = std::ranges::adjacent_find(errors, [&](double coarse, double fine) {
+                                  return !(fine <= falls * coarse);
+                              }) == errors.end();
     const double greatest = std::accumulate(errors.begin(), errors.end(), 0.0, worse);
-    const double most = round_off * size;
-    if (converges || !(greatest > 0.0 && greatest <= most))
+    constexpr std::size_t told = 3; // two fall by chance
+    if ((may_converge && errors.size() >= told) || !(greatest > 0.0 && greatest <= most))
         return std::nullopt;
+    const double of_measure = measure.squared ? most * most : most;
+    if (may_converge)
+        return RoundingErrors{
+            of_measure,
+            fmt::format("{}: no error is larger than rounding may be, {:.2g} at most {}: three "
+                        "levels would tell whether the scheme is exact for the solution",
+                        measure.name, greatest, words),
+            "its error may be rounding"};
     return RoundingErrors{
-        measure.squared ? most * most : most,
+        of_measure,
         fmt::format("{}: every error is rounding, {:.2g} at most {}: the scheme is exact for the "
                     "solution, which tests nothing of its order",
-                    measure.name, greatest, words)};
+                    measure.name, greatest, words),
+        "its error is rounding"};
 }
 
 } // namespace tvbeam

@@ -10,10 +10,12 @@
 
 namespace tvbeam {
 
-/// That every error of a measure is rounding: the scheme is exact for the solution.
+/// That every error of a measure is rounding: the scheme is exact for the solution. Or that it may
+/// be, where fewer than three levels do not tell.
 struct RoundingErrors {
     double most = 0;    ///< of the measure: no discretisation error is told from less
     std::string remark; ///< said in place of what the orders mean
+    std::string reason; ///< of each row's verdict
 };
 
 /// A solver under study: how it is run, and what an analysis of its runs must know besides them.
