@@ -386,7 +386,7 @@ std::string OrderEnsemble::status_of(Index width, const OrderInterval& order) co
     if (is_ambiguous(width))
         return fmt::format("beside a constant {} levels have more than one",
                            levels_[static_cast<std::size_t>(width)].size());
-    const std::string moves = motion_of(width).words();
+    std::string moves = motion_of(width).words();
     if (moves.empty() && !is_seen_as_a_power(width, order))
         return fmt::format("no window shows an order of {:.1f} at three levels", order.value);
     if (!moves.empty())

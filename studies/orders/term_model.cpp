@@ -252,8 +252,7 @@ void move_order(const Layout& layout, const TermRows& rows, Eigen::Index i, Star
         orders[k] = start.theta[2 * k + 1];
     const auto left_at = [&](double order) {
         orders[i] = order;
-        const auto other = start_at(layout, rows, orders);
-        return other ? other->left : infinity;
+        return start_at(layout, rows, orders).value_or(Start()).left;
     };
     const auto [order, left] = boost::math::tools::brent_find_minima(
         left_at, std::max(orders[i] - step, step / 2), orders[i] + step, bits);
