@@ -1,5 +1,7 @@
 #include "studies/orders/order_members.hpp"
 
+#include "studies/orders/term_search.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -250,7 +252,7 @@ void fit_each_alone(const TermRows& rows, const AllLevels& levels,
             }
             TermSearch search(rows.subset(chosen).along(i));
             for (std::size_t k = 0; k < shapes.size(); ++k)
-                if (search.rows().size() > shapes[k].parameters())
+                if (std::ssize(chosen) > shapes[k].parameters())
                     if (auto fit = search.fit(shapes[k]))
                         members.push_back(
                             {std::move(*fit),

@@ -135,13 +135,16 @@ std::optional<RoundingErrors> rounding_errors(const Beam& beam, const ProblemDat
         return std::nullopt;
     const auto [size, words] = scale_of(beam, data, *norm, series.final_time);
     std::vector<double> errors;
-    double most = 0.0; // it grows with the number of elements that it is summed up over
-    constexpr double elements_of_it = 16.0;
+    double most = 0.0;
+    bool is_below = true;
+    constexpr double elements_of_it = 16.0; // it grows with those that it is summed up over
     for (const auto& rung : rungs)
         if (!rung.errors.empty()) {
             errors.push_back(measure.root_of(rung.errors[k]));
             const auto elements = static_cast<double>(rung.rung.elements);
-            most = std::max(most, round_off * size * std::max(1.0, elements / elements_of_it));
+            const double below = round_off * size * std::max(1.0, elements / elements_of_it);
+            is_below = is_below && errors.back() <= below;
+            most = std::max(most, below);
         }
     // What converges is no rounding, however small: of an end temperature of 1e10 the rest is.
     constexpr double falls = 0.8;
@@ -150,22 +153,19 @@ std::optional<RoundingErrors> rounding_errors(const Beam& beam, const ProblemDat
                               }) == errors.end();
     const double greatest = std::accumulate(errors.begin(), errors.end(), 0.0, worse);
     constexpr std::size_t told = 3; // two fall by chance
-    if ((may_converge && errors.size() >= told) || !(greatest > 0.0 && greatest <= most))
+    if ((may_converge && errors.size() >= told) || !(greatest > 0.0 && is_below))
         return std::nullopt;
-    const double of_measure = measure.squared ? most * most : most;
-    if (may_converge)
-        return RoundingErrors{
-            of_measure,
-            fmt::format("{}: no error is larger than rounding may be, {:.2g} at most {}: three "
-                        "levels would tell whether the scheme is exact for the solution",
-                        measure.name, greatest, words),
-            "its error may be rounding"};
     return RoundingErrors{
-        of_measure,
-        fmt::format("{}: every error is rounding, {:.2g} at most {}: the scheme is exact for the "
-                    "solution, which tests nothing of its order",
-                    measure.name, greatest, words),
-        "its error is rounding"};
+        measure.squared ? most * most : most,
+        fmt::format("{}: {}, {:.2g} at most {}: {}", measure.name,
+                    may_converge ? "no error is larger than rounding may be"
+                                 : "every error is rounding",
+                    greatest, words,
+                    may_converge ? "three levels would tell whether the scheme is exact for the "
+                                   "solution"
+                                 : "the scheme is exact for the solution, which tests nothing of "
+                                   "its order"),
+        may_converge ? "its error may be rounding" : "its error is rounding"};
 }
 
 } // namespace tvbeam
