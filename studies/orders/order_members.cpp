@@ -7,6 +7,7 @@
 #include <functional>
 #include <limits>
 #include <optional>
+#include <set>
 #include <utility>
 
 namespace tvbeam {
@@ -95,15 +96,28 @@ bool has_lost_its_logarithm(const TermFit& fit) {
     return false;
 }
 
+/// At how many values of a width its term is a part of an error that is seen.
+std::size_t levels_with(const TermFit& fit, Index width, const TermRows& rows) {
+    constexpr double seen = 0.01;
+    std::set<double> levels;
+    for (Index r = 0; r < rows.size(); ++r)
+        if (const double log_width = rows.log_widths(r, width);
+            fit.term(width, log_width) >= seen * std::exp(rows.log_errors[r]))
+            levels.insert(log_width);
+    return levels.size();
+}
+
 /// Whether a term that a reference has as well goes on to no order at all, b (x^q − x_ref^q) with
-/// q → 0 and b → ∞, or to ever greater ones: what the search ends at then hangs on the last bit of
-/// the errors.
+/// q → 0 and b → ∞, or to ever greater ones that a level or two alone show: what the search ends at
+/// then hangs on the last bit of the errors.
 bool has_no_end(const TermFit& fit, const TermRows& rows) {
     constexpr double least = 0.02;
-    constexpr double greatest = 10;
+    constexpr double great = 10;
     for (Index i = 0; i < rows.log_reference.size(); ++i)
-        if (const double order = std::abs(fit.order(i).value);
-            !std::isnan(rows.log_reference[i]) && !(order >= least && order <= greatest))
+        if (const double order = fit.order(i).value;
+            !std::isnan(rows.log_reference[i]) &&
+            (!(std::abs(order) >= least && order >= -great) ||
+             (order > great && levels_with(fit, i, rows) < fewest_levels)))
             return true;
     return false;
 }

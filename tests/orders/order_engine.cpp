@@ -667,6 +667,18 @@ BOOST_AUTO_TEST_CASE(the_error_of_a_reference_is_part_of_the_model) {
     BOOST_TEST(order.half_width() < 2 * OrderTuning{}.narrowest);
 }
 
+BOOST_DATA_TEST_CASE(a_great_order_is_determined_against_a_reference,
+                     data::make({4.0, 9.0, 11.0, 12.0}), p) {
+    std::vector<ErrorRow> rows;
+    for (const double h : {0.5, 0.4, 0.3, 0.25, 0.2})
+        for (const double dt : {0.1, 0.05, 0.025, 0.0125})
+            rows.push_back(
+                {{h, dt},
+                 std::hypot(50 * (std::pow(h, p) - std::pow(0.1, p)), 1e-4 * (dt - 0.001))});
+    const auto order = estimate_orders(rows, {0.1, 0.001})[0];
+    BOOST_TEST((order.determined && holds(order, p)), order.status);
+}
+
 BOOST_AUTO_TEST_CASE(a_forecast_holds_what_finer_runs_give) {
     const auto error = [](double h, double dt) {
         const double space = h * h * (1 + 0.5 * h * h);
