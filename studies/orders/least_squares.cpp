@@ -144,8 +144,14 @@ private:
 
     void linearise() {
         // Coefficient by coefficient: Eigen's blocked product is mostly overhead here.
-        normal_ = here_.jacobian.transpose().lazyProduct(here_.jacobian);
-        gradient_ = here_.jacobian.transpose().lazyProduct(here_.residuals);
+        const auto& jacobian = here_.jacobian;
+        normal_.resize(jacobian.cols(), jacobian.cols());
+        gradient_.resize(jacobian.cols());
+        for (Eigen::Index i = 0; i < jacobian.cols(); ++i) {
+            for (Eigen::Index j = 0; j <= i; ++j)
+                normal_(i, j) = normal_(j, i) = jacobian.col(j).dot(jacobian.col(i));
+            gradient_[i] = jacobian.col(i).dot(here_.residuals);
+        }
     }
 
     /// A hundredth of a standard error from where an earlier start has ended, this one ends too.

@@ -10,81 +10,15 @@ namespace tvbeam {
 
 namespace {
 
-Term term_of(const Layout& layout, const Eigen::VectorXd& theta, Eigen::Index i, double log_x,
-             double log_reference) {
-    const Term here = term_at(layout, theta, i, log_x);
-    if (std::isnan(log_reference))
-        return here;
-    const Term there = term_at(layout, theta, i, log_reference);
-    return {here.value - there.value, here.by_order - there.by_order, here.by_next - there.by_next};
+/// x^k or ln x, by which a next term exceeds its leading one; of no use where there is none.
+double next_power(const Layout& layout, Eigen::Index i, double log_x) {
+    if (layout.next(i) < 0 || layout.power(i) == TermShape::constant)
+        return 0;
+    return layout.power(i) == TermShape::logarithm ? log_x : std::exp(layout.power(i) * log_x);
 }
 
-/// The model at one θ.
-class ModelAt {
-public:
-    ModelAt(const Layout& layout, const Eigen::VectorXd& theta) : layout_(layout), theta_(theta) {
-        const Eigen::Index first = 2 * layout.widths();
-        const Eigen::Index pairs = layout.pair(layout.widths() - 1, layout.widths()) - first;
-        rho_ = theta.segment(first, pairs).array().sin();
-        by_angle_ = theta.segment(first, pairs).array().cos();
-    }
-
-    /// ln e at one row; NaN where the model has no error. Its derivative by θ_k goes to
-    /// gradient[k · stride] where that is not null.
-    double log_error(const Eigen::Ref<const Eigen::VectorXd, 0, Eigen::InnerStride<>>& log_widths,
-                     const Eigen::VectorXd& log_reference, double* gradient,
-                     Eigen::Index stride) const {
-        const Eigen::Index d = layout_.widths();
-        Term terms[most_widths];
-        double pull[most_widths]; // Σ_j ρ_ij T_j, half the derivative of e² by T_i
-        for (Eigen::Index i = 0; i < d; ++i) {
-            terms[i] = term_of(layout_, theta_, i, log_widths[i], reference_of(log_reference, i));
-            if (!(terms[i].value > 0))
-                return std::numeric_limits<double>::quiet_NaN();
-            pull[i] = terms[i].value;
-        }
-        Eigen::Index pair = 0;
-        for (Eigen::Index i = 0; i < d; ++i)
-            for (Eigen::Index j = i + 1; j < d; ++j, ++pair) {
-                pull[i] += rho_[pair] * terms[j].value;
-                pull[j] += rho_[pair] * terms[i].value;
-            }
-        const double floor = layout_.floor() < 0 ? 0.0 : std::exp(2 * theta_[layout_.floor()]);
-        double square = floor;
-        for (Eigen::Index i = 0; i < d; ++i)
-            square += terms[i].value * pull[i];
-        if (gradient != nullptr) {
-            pair = 0;
-            for (Eigen::Index i = 0; i < d; ++i) {
-                const double by_term = pull[i] / square;
-                gradient[2 * i * stride] = by_term * terms[i].value;
-                gradient[(2 * i + 1) * stride] = by_term * terms[i].by_order;
-                if (layout_.next(i) >= 0)
-                    gradient[layout_.next(i) * stride] = by_term * terms[i].by_next;
-                for (Eigen::Index j = i + 1; j < d; ++j, ++pair)
-                    gradient[layout_.pair(i, j) * stride] =
-                        by_angle_[pair] * terms[i].value * terms[j].value / square;
-            }
-            if (layout_.floor() >= 0)
-                gradient[layout_.floor() * stride] = floor / square;
-        }
-        return square > 0 ? std::log(square) / 2 : std::numeric_limits<double>::quiet_NaN();
-    }
-
-private:
-    static constexpr Eigen::Index most_widths = 8;
-    static constexpr int most_pairs = most_widths * (most_widths - 1) / 2;
-    using Pairs = Eigen::Array<double, Eigen::Dynamic, 1, 0, most_pairs, 1>;
-
-    const Layout& layout_;
-    const Eigen::VectorXd& theta_;
-    Pairs rho_;
-    Pairs by_angle_; ///< ∂ρ/∂φ
-};
-
-} // namespace
-
-Term term_at(const Layout& layout, const Eigen::VectorXd& theta, Eigen::Index i, double log_x) {
+Term term_with(const Layout& layout, const Eigen::VectorXd& theta, Eigen::Index i, double log_x,
+               double next) {
     const double plain = std::exp(theta[2 * i] + theta[2 * i + 1] * log_x);
     const Eigen::Index k = layout.next(i);
     if (k < 0)
@@ -93,10 +27,91 @@ Term term_at(const Layout& layout, const Eigen::VectorXd& theta, Eigen::Index i,
         const double size = std::exp(theta[2 * i]);
         return {plain + size * theta[k], plain * log_x, size};
     }
-    const double next =
-        layout.power(i) == TermShape::logarithm ? log_x : std::exp(layout.power(i) * log_x);
     const double value = plain * (1 + theta[k] * next);
     return {value, value * log_x, plain * next};
+}
+
+/// The model at one θ.
+class ModelAt {
+public:
+    ModelAt(const Layout& layout, const Eigen::VectorXd& theta,
+            const Eigen::VectorXd& log_reference)
+        : layout_(layout), theta_(theta),
+          floor_(layout.floor() < 0 ? 0.0 : std::exp(2 * theta[layout.floor()])) {
+        const Eigen::Index d = layout.widths();
+        Eigen::Index pair = 0;
+        for (Eigen::Index i = 0; i < d; ++i)
+            for (Eigen::Index j = i + 1; j < d; ++j, ++pair) {
+                rho_[pair] = std::sin(theta[layout.pair(i, j)]);
+                by_angle_[pair] = std::cos(theta[layout.pair(i, j)]);
+            }
+        for (Eigen::Index i = 0; i < d && log_reference.size() > 0; ++i)
+            if (!std::isnan(log_reference[i]))
+                reference_[i] = term_at(layout, theta, i, log_reference[i]);
+    }
+
+    /// ln e at one row, whose widths have these next powers; NaN where the model has no error. Its
+    /// derivative by θ_k goes to gradient[k · stride] where that is not null.
+    template <typename Row>
+    double log_error(const Row& log_widths, const Row& next_powers, double* gradient,
+                     Eigen::Index stride) const {
+        const Eigen::Index d = layout_.widths();
+        double value[most_widths];
+        double by_order[most_widths];
+        double by_next[most_widths];
+        double pull[most_widths]; // Σ_j ρ_ij T_j, half the derivative of e² by T_i
+        for (Eigen::Index i = 0; i < d; ++i) {
+            const Term term = term_with(layout_, theta_, i, log_widths[i], next_powers[i]);
+            value[i] = term.value - reference_[i].value;
+            by_order[i] = term.by_order - reference_[i].by_order;
+            by_next[i] = term.by_next - reference_[i].by_next;
+            if (!(value[i] > 0))
+                return std::numeric_limits<double>::quiet_NaN();
+            pull[i] = value[i];
+        }
+        Eigen::Index pair = 0;
+        for (Eigen::Index i = 0; i < d; ++i)
+            for (Eigen::Index j = i + 1; j < d; ++j, ++pair) {
+                pull[i] += rho_[pair] * value[j];
+                pull[j] += rho_[pair] * value[i];
+            }
+        double square = floor_;
+        for (Eigen::Index i = 0; i < d; ++i)
+            square += value[i] * pull[i];
+        if (gradient != nullptr) {
+            pair = 0;
+            for (Eigen::Index i = 0; i < d; ++i) {
+                const double by_term = pull[i] / square;
+                gradient[2 * i * stride] = by_term * value[i];
+                gradient[(2 * i + 1) * stride] = by_term * by_order[i];
+                if (layout_.next(i) >= 0)
+                    gradient[layout_.next(i) * stride] = by_term * by_next[i];
+                for (Eigen::Index j = i + 1; j < d; ++j, ++pair)
+                    gradient[layout_.pair(i, j) * stride] =
+                        by_angle_[pair] * value[i] * value[j] / square;
+            }
+            if (layout_.floor() >= 0)
+                gradient[layout_.floor() * stride] = floor_ / square;
+        }
+        return square > 0 ? std::log(square) / 2 : std::numeric_limits<double>::quiet_NaN();
+    }
+
+private:
+    static constexpr Eigen::Index most_widths = 8;
+    static constexpr Eigen::Index most_pairs = most_widths * (most_widths - 1) / 2;
+
+    const Layout& layout_;
+    const Eigen::VectorXd& theta_;
+    double floor_; ///< its square
+    double rho_[most_pairs];
+    double by_angle_[most_pairs]; ///< ∂ρ/∂φ
+    Term reference_[most_widths]; ///< 0 where the comparison is exact
+};
+
+} // namespace
+
+Term term_at(const Layout& layout, const Eigen::VectorXd& theta, Eigen::Index i, double log_x) {
+    return term_with(layout, theta, i, log_x, next_power(layout, i, log_x));
 }
 
 double reference_of(const Eigen::VectorXd& log_reference, Eigen::Index i) {
@@ -104,12 +119,17 @@ double reference_of(const Eigen::VectorXd& log_reference, Eigen::Index i) {
 }
 
 ModelFunction model_of(const Layout& layout, const TermRows& rows) {
-    return [&layout, &rows](const Eigen::VectorXd& theta, Eigen::VectorXd& values,
-                            Eigen::MatrixXd* jacobian) {
-        const ModelAt model(layout, theta);
+    // A column for each row: what one evaluation reads stands together.
+    Eigen::MatrixXd next_powers(rows.widths(), rows.size());
+    for (Eigen::Index r = 0; r < rows.size(); ++r)
+        for (Eigen::Index i = 0; i < rows.widths(); ++i)
+            next_powers(i, r) = next_power(layout, i, rows.log_widths(r, i));
+    return [&layout, &rows, log_widths = Eigen::MatrixXd(rows.log_widths.transpose()), next_powers](
+               const Eigen::VectorXd& theta, Eigen::VectorXd& values, Eigen::MatrixXd* jacobian) {
+        const ModelAt model(layout, theta, rows.log_reference);
         for (Eigen::Index r = 0; r < rows.size(); ++r)
             values[r] =
-                model.log_error(rows.log_widths.row(r).transpose(), rows.log_reference,
+                model.log_error(log_widths.col(r), next_powers.col(r),
                                 jacobian == nullptr ? nullptr : &(*jacobian)(r, 0), rows.size());
     };
 }
@@ -169,8 +189,12 @@ FittedNumber TermFit::log_error(const Eigen::VectorXd& log_widths, bool against_
     const Eigen::VectorXd reference = against_reference && log_reference.size() > 0
                                           ? Eigen::VectorXd(log_reference - log_centre)
                                           : Eigen::VectorXd();
+    const Eigen::VectorXd log_x = log_widths - log_centre;
+    Eigen::VectorXd next_powers(log_x.size());
+    for (Eigen::Index i = 0; i < log_x.size(); ++i)
+        next_powers[i] = next_power(layout, i, log_x[i]);
     const double value =
-        ModelAt(layout, theta).log_error(log_widths - log_centre, reference, gradient.data(), 1);
+        ModelAt(layout, theta, reference).log_error(log_x, next_powers, gradient.data(), 1);
     return {log_unit + value, root.size() > 0 ? (root.transpose() * gradient).norm()
                                               : std::sqrt(gradient.dot(covariance * gradient))};
 }
