@@ -118,9 +118,10 @@ public:
         result.residuals = -best_.residuals.cwiseQuotient(root_weights_);
         result.chi2 = best_.chi2;
         result.dof = static_cast<int>(y_.size() - best_.theta.size());
-        const double s = std::max(result.scale(), scatter_);
-        result.root =
-            root_of_covariance(best_.jacobian, result.dof < 1 && !(scatter_ > 0) ? infinity : s);
+        double s = std::max(result.scale(), scatter_);
+        if (result.dof < 1 && !(scatter_ > 0))
+            s = infinity;
+        result.root = root_of_covariance(best_.jacobian, s);
         result.covariance = Eigen::MatrixXd::Zero(best_.theta.size(), best_.theta.size());
         if (result.root.size() > 0)
             result.covariance = result.root * result.root.transpose();
