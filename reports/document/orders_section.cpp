@@ -117,7 +117,7 @@ Section orders_section(const OrdersResult& orders, const OrdersBlock& block) {
     std::vector<std::pair<std::string, const TwoTermFit*>> fits;
     std::vector<Block> findings;
     std::vector<Block> notes;
-    for (const auto& [norm, fit] : orders.norms) {
+    for (const auto& [norm, fit, rounding] : orders.norms) {
         if (fit.holds()) {
             fits.emplace_back(norm, &fit);
             findings.emplace_back(finding(norm, fit));

@@ -5,6 +5,7 @@
 #include "reports/document/json_text.hpp"
 #include "reports/files/held_values.hpp"
 #include "reports/files/said_result.hpp"
+#include "studies/grid/grid.hpp"
 #include "studies/ladder/ladder.hpp"
 
 #include <fmt/format.h>
@@ -61,6 +62,18 @@ Json figure_json(double figure) {
     return std::isnan(figure) ? Json() : Json(figure > 0.0 ? "inf" : "-inf");
 }
 
+/// What the errors of measure k are below, where its study found them to be rounding.
+std::optional<double> rounding_of(const StudyResult& result, const std::vector<RungResult>& runs,
+                                  std::size_t k) {
+    if (const auto* ladder = result.get<LadderResult>();
+        ladder != nullptr && &runs == &ladder->rungs && k < ladder->norms.size())
+        return ladder->norms[k].rounding;
+    if (const auto* orders = result.get<OrdersResult>();
+        orders != nullptr && &runs == &orders->runs && k < orders->norms.size())
+        return orders->norms[k].rounding;
+    return std::nullopt;
+}
+
 } // namespace
 
 void require_recordable(const Scene& scene) {
@@ -80,7 +93,6 @@ BaselineEntry baseline_entry(const StudyResult& result) {
         for (const auto& [name, figure] : kind->figures(record))
             if (!is_round_off(kind->name(), name))
                 entry.figures[fmt::format("{}.{}", kind->name(), name)] = figure;
-    const auto* ladder = result.get<LadderResult>();
     for (const auto& [series, results] : result.runs())
         for (const auto& run : *results)
             for (std::size_t k = 0; k < series.measures.size(); ++k) {
@@ -89,9 +101,8 @@ BaselineEntry baseline_entry(const StudyResult& result) {
                                 series.measures[k].is_value ? "value" : "error",
                                 run.rung.name([](double dt) { return fmt::format("{}", dt); }));
                 entry.figures[name] = error_of(run, k).value_or(std::nan(""));
-                if (ladder != nullptr && results == &ladder->rungs && k < ladder->norms.size() &&
-                    ladder->norms[k].rounding)
-                    entry.rounding[name] = *ladder->norms[k].rounding;
+                if (const auto most = rounding_of(result, *results, k))
+                    entry.rounding[name] = *most;
             }
     return entry;
 }

@@ -25,7 +25,7 @@ Json interval_json(const OrderInterval& of) {
 
 Json json_of(const OrdersResult& orders, const OrdersBlock& block) {
     Json norms = Json::object();
-    for (const auto& [norm, fit] : orders.norms) {
+    for (const auto& [norm, fit, rounding] : orders.norms) {
         if (!fit.holds()) {
             norms[norm] = {{"status", "failed"}, {"reason", fit.failure}};
             continue;

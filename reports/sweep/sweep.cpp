@@ -96,13 +96,12 @@ void add_ladder(const LadderResult& ladder, std::vector<Cell>& cells) {
                          !norm.is_value, norm.words});
         if (norm.is_value)
             continue;
-        const auto orders = observed_orders(records_of(ladder.rungs, k));
-        cells.push_back({norm.name, "ord.", orders.back(), false});
+        cells.push_back({norm.name, "ord.", ladder.norms[k].orders.back(), false});
     }
 }
 
 void add_orders(const OrdersResult& orders, std::vector<Cell>& cells) {
-    for (const auto& [norm, fit] : orders.norms)
+    for (const auto& [norm, fit, rounding] : orders.norms)
         for (const auto& [heading, interval, order] :
              {std::tuple{"p", &fit.p, fit.model.p}, {"q", &fit.q, fit.model.q}})
             cells.push_back(

@@ -5,6 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <iterator>
+#include <map>
 #include <span>
 #include <utility>
 
@@ -58,6 +61,18 @@ std::vector<double> rounding(std::span<const Refinement> records,
     return deviations_of_rounding(errors, units, std::min(level_ratio(meshes), level_ratio(steps)));
 }
 
+/// The runs that refine both widths, in their order: the i-th mesh with the i-th step.
+std::vector<RungResult> refined_in_both(const std::vector<RungResult>& runs) {
+    std::map<std::int64_t, std::map<double, const RungResult*, std::greater<>>> grid;
+    for (const auto& run : runs)
+        grid[run.rung.elements][run.rung.dt] = &run;
+    std::vector<RungResult> refined;
+    for (const auto& [elements, line] : grid)
+        if (refined.size() < line.size())
+            refined.push_back(*std::next(line.begin(), std::ssize(refined))->second);
+    return refined;
+}
+
 } // namespace
 
 const TwoTermFit* OrdersResult::fit_of(const Measure& norm) const {
@@ -98,6 +113,15 @@ OrdersResult run_orders(const OrdersBlock& block, const Method& method, const St
     if (block.until)
         refined = refine(block, series, runs, solver.run, execution);
     OrdersResult result = analyse_grid(runs, block.norms, solver.reference);
+    const auto both = refined_in_both(runs);
+    for (std::size_t k = 0; k < result.norms.size(); ++k)
+        if (const auto rounding =
+                solver.rounding ? solver.rounding(series, runs, both, k) : std::nullopt) {
+            NormOrders& orders = result.norms[k];
+            orders.fit = {};
+            orders.fit.failure = rounding->sentence;
+            orders.rounding = rounding->most;
+        }
     result.runs = std::move(runs);
     result.refined = std::move(refined);
     return result;

@@ -16,6 +16,7 @@ namespace tvbeam {
 struct NormOrders {
     std::string norm; ///< the norm itself, not its square
     TwoTermFit fit;
+    std::optional<double> rounding = {}; ///< of the measure: every error is, or may be, below this
 };
 
 /// The constants C of a theorem (Measure::theorem) over the grid: error ≤ C (h² + Δt²).

@@ -170,11 +170,12 @@ LadderResult analyse_ladder(const LadderBlock& block, const Method& method,
         }
         if (!remark.empty())
             shown.remarks.push_back(std::move(remark));
-        if (const auto rounding =
-                solver.rounding ? solver.rounding(series, result.rungs, k) : std::nullopt) {
+        if (const auto rounding = solver.rounding
+                                      ? solver.rounding(series, result.rungs, result.rungs, k)
+                                      : std::nullopt) {
             shown.rounding = rounding->most;
             std::ranges::fill(shown.orders, std::nullopt);
-            shown.remarks = {rounding->remark};
+            shown.remarks = {norm.name + ": " + rounding->sentence};
             for (auto& row : shown.verdicts)
                 if (row.verdict != Verdict::failed && row.verdict != Verdict::exact)
                     row = {Verdict::unresolved, rounding->reason};

@@ -116,8 +116,8 @@ StudiedSolver beam_runs(const Scene& scene, const ProblemData& data, const Probl
         return round_off_remark(scene.beam, data, series, runs, k);
     };
     const auto rounding = [&scene, &data](const Series& series, const std::vector<RungResult>& runs,
-                                          std::size_t k) {
-        return rounding_errors(scene.beam, data, series, runs, k);
+                                          const std::vector<RungResult>& refined, std::size_t k) {
+        return rounding_errors(scene.beam, data, series, runs, refined, k);
     };
     return {.run = run,
             .reference = scene.reference,

@@ -12,7 +12,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <vector>
 
 namespace tvbeam {
@@ -128,36 +127,42 @@ std::string round_off_remark(const Beam& beam, const ProblemData& data, const Se
 
 std::optional<RoundingErrors> rounding_errors(const Beam& beam, const ProblemData& data,
                                               const Series& series,
-                                              const std::vector<RungResult>& rungs, std::size_t k) {
+                                              const std::vector<RungResult>& runs,
+                                              const std::vector<RungResult>& refined,
+                                              std::size_t k) {
     const Measure& measure = series.measures[k];
     const auto norm = Norm::named(measure.root());
     if (!data.exact || !norm)
         return std::nullopt;
     const auto [size, words] = scale_of(beam, data, *norm, series.final_time);
-    std::vector<double> errors;
+    double greatest = 0.0;
     double most = 0.0;
     bool is_below = true;
     constexpr double elements_of_it = 16.0; // it grows with those that it is summed up over
-    for (const auto& rung : rungs)
-        if (!rung.errors.empty()) {
-            errors.push_back(measure.root_of(rung.errors[k]));
-            const auto elements = static_cast<double>(rung.rung.elements);
+    for (const auto& run : runs)
+        if (!run.errors.empty()) {
+            const double error = measure.root_of(run.errors[k]);
+            const auto elements = static_cast<double>(run.rung.elements);
             const double below = round_off * size * std::max(1.0, elements / elements_of_it);
-            is_below = is_below && errors.back() <= below;
+            is_below = is_below && error <= below;
+            greatest = worse(greatest, error);
             most = std::max(most, below);
         }
     // What converges is no rounding, however small: of an end temperature of 1e10 the rest is.
+    std::vector<double> errors;
+    for (const auto& run : refined)
+        if (!run.errors.empty())
+            errors.push_back(measure.root_of(run.errors[k]));
     constexpr double falls = 0.8;
     const bool may_converge = std::ranges::adjacent_find(errors, [&](double coarse, double fine) {
                                   return !(fine <= falls * coarse);
                               }) == errors.end();
-    const double greatest = std::accumulate(errors.begin(), errors.end(), 0.0, worse);
     constexpr std::size_t told = 3; // two fall by chance
     if ((may_converge && errors.size() >= told) || !(greatest > 0.0 && is_below))
         return std::nullopt;
     return RoundingErrors{
         measure.squared ? most * most : most,
-        fmt::format("{}: {}, {:.2g} at most {}: {}", measure.name,
+        fmt::format("{}, {:.2g} at most {}: {}",
                     may_converge ? "no error is larger than rounding may be"
                                  : "every error is rounding",
                     greatest, words,

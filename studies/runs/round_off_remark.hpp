@@ -20,10 +20,13 @@ std::string round_off_remark(const Beam& beam, const ProblemData& data, const Se
 
 /// Where every error is below 16 ε of the norm of the exact solution, or of what that
 /// comes from (α u_xx beside θ, α θ beside u, u_xx beside σ; the sources where all of that is
-/// zero), not all are 0 and they do not fall from row to row: the scheme is exact for it. None
-/// otherwise, and where no exact solution is known.
+/// zero), not all are 0 and they do not fall from one to the next of `refined`, the runs that
+/// refine every width: the scheme is exact for it. None otherwise, and where no exact solution is
+/// known.
 std::optional<RoundingErrors> rounding_errors(const Beam& beam, const ProblemData& data,
                                               const Series& series,
-                                              const std::vector<RungResult>& rungs, std::size_t k);
+                                              const std::vector<RungResult>& runs,
+                                              const std::vector<RungResult>& refined,
+                                              std::size_t k);
 
 } // namespace tvbeam

@@ -13,9 +13,9 @@ namespace tvbeam {
 /// That every error of a measure is rounding: the scheme is exact for the solution. Or that it may
 /// be, where fewer than three levels do not tell.
 struct RoundingErrors {
-    double most = 0;    ///< of the measure: no discretisation error is told from less
-    std::string remark; ///< said in place of what the orders mean
-    std::string reason; ///< of each row's verdict
+    double most = 0;      ///< of the measure: no discretisation error is told from less
+    std::string sentence; ///< said in place of what the orders mean, behind the measure's name
+    std::string reason;   ///< of each row's verdict
 };
 
 /// A solver under study: how it is run, and what an analysis of its runs must know besides them.
@@ -30,8 +30,10 @@ struct StudiedSolver {
         std::function<std::string(const Series&, const std::vector<RungResult>&, std::size_t k)>;
     Remark remark = {}; ///< on what limits it; an empty function: nothing ever does
 
-    /// Of measure k along a ladder: that its errors are rounding; an empty function: nothing says.
-    std::function<std::optional<RoundingErrors>(const Series&, const std::vector<RungResult>&,
+    /// Of measure k: that its errors are rounding. refined: those of the runs that refine every
+    /// width, in their order. An empty function: nothing says.
+    std::function<std::optional<RoundingErrors>(const Series&, const std::vector<RungResult>& runs,
+                                                const std::vector<RungResult>& refined,
                                                 std::size_t k)>
         rounding = {};
 

@@ -85,6 +85,10 @@ BOOST_AUTO_TEST_CASE(errors_that_are_rounding_are_those_of_any_processor) {
     const std::string file = (directory.path() / "base.json").string();
     BOOST_TEST(call(directory, "check nothing-heated --record " + file).exit == 0);
     const auto recorded = nlohmann::json::parse(directory.read("base.json"));
+    for (const std::string study : {"ladder.", "orders."})
+        BOOST_TEST(
+            std::ranges::any_of(recorded.at("scenes").at("nothing-heated").items(),
+                                [&](const auto& one) { return one.key().starts_with(study); }));
     const auto exit_with = [&](double factor) {
         auto changed = recorded;
         for (auto& [what, error] : changed.at("scenes").at("nothing-heated").items())

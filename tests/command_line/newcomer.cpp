@@ -158,6 +158,27 @@ BOOST_AUTO_TEST_CASE(a_sweep_gives_a_row_a_value) {
     BOOST_TEST(call(directory, "run sheared --set beam.zeta=1,2 --set beam.alpha=1,2").exit == 2);
 }
 
+// Errors alone, as in the tables of the ladder and the grid: an order of rounding is none.
+BOOST_AUTO_TEST_CASE(a_sweep_has_no_orders_of_rounding) {
+    const TemporaryDirectory directory;
+    const Called called = call(directory, "run nothing-heated --set beam.zeta=0.2,0.3 --quiet "
+                                          "--csv -");
+    std::istringstream lines(called.output);
+    std::string heads;
+    std::getline(lines, heads);
+    for (std::string line; std::getline(lines, line);) {
+        std::istringstream columns(heads);
+        std::istringstream cells(line);
+        std::string head;
+        for (std::string cell; std::getline(columns, head, ',');) {
+            cell.clear();
+            std::getline(cells, cell, ',');
+            const bool is_order = head.ends_with("ord.") || head.find("(fit)") != std::string::npos;
+            BOOST_TEST(cell.empty() == (is_order || head == "failed"), head + ": " + cell);
+        }
+    }
+}
+
 // α = 1e200 is beyond what a step can be solved with; the other row is there all the same.
 BOOST_AUTO_TEST_CASE(a_row_of_a_sweep_that_failed_says_why) {
     const TemporaryDirectory directory;

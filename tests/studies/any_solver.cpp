@@ -204,4 +204,44 @@ BOOST_AUTO_TEST_CASE(the_size_of_the_largest_run_is_no_negative_number) {
     BOOST_TEST(node_steps(largest) == 10'000'000'000'000'000'000ULL);
 }
 
+// What says that errors are rounding is asked with all runs, and with those that refine both
+// widths: three meshes with four steps have three of them.
+BOOST_AUTO_TEST_CASE(a_grid_of_rounding_has_no_orders) {
+    std::vector<Rung> grid;
+    for (const std::int64_t s : {8, 4, 16})
+        for (const std::int64_t steps : {10, 80, 20, 40})
+            grid.push_back({s, steps, 1.0 / static_cast<double>(steps)});
+    const OrdersBlock block{.final_time = 1.0, .grid = grid, .norms = norms};
+    const auto run_with = [&](bool is_rounding) {
+        return run_orders(
+            block, method("first"),
+            {.run = made_up,
+             .rounding = [&](const Series& series, const std::vector<RungResult>& runs,
+                             const std::vector<RungResult>& refined,
+                             std::size_t k) -> std::optional<RoundingErrors> {
+                 BOOST_TEST(series.study == "orders");
+                 BOOST_TEST(runs.size() == 12U);
+                 BOOST_REQUIRE(refined.size() == 3U);
+                 for (std::size_t i = 0; i < 3; ++i) {
+                     BOOST_TEST(refined[i].rung.elements == 4 << i);
+                     BOOST_TEST(refined[i].rung.steps == 10 << i);
+                 }
+                 if (!is_rounding || k != 1)
+                     return std::nullopt;
+                 return RoundingErrors{1e-15, "every error is rounding", "its error is rounding"};
+             }});
+    };
+    const OrdersResult plain = run_with(false);
+    const OrdersResult rounded = run_with(true);
+    for (const OrdersResult* result : {&plain, &rounded}) {
+        BOOST_REQUIRE(result->norms.size() == 2U);
+        BOOST_TEST(result->norms[0].fit.holds());
+        BOOST_TEST(!result->norms[0].rounding);
+    }
+    BOOST_TEST(plain.norms[1].fit.holds());
+    BOOST_TEST(!rounded.norms[1].fit.holds());
+    BOOST_TEST(rounded.norms[1].fit.failure == "every error is rounding");
+    BOOST_TEST(rounded.norms[1].rounding.value() == 1e-15);
+}
+
 BOOST_AUTO_TEST_SUITE_END()
