@@ -107,6 +107,8 @@ private:
     Numbers numbers_of(const Functional& number) const;
     int place_of(Eigen::Index width, double log_width) const;
     std::optional<Mixture> mix(const Functional& number) const;
+    void fit();
+    double scatter_of_residuals() const;
     OrderMotion motion_of(Eigen::Index width) const;
     double greatest_share(Eigen::Index width) const;
     bool is_followed() const;
@@ -122,6 +124,7 @@ private:
 
     OrderTuning tuning_;
     TermRows rows_;
+    double known_scatter_; ///< of the rows; that of rows_ may be read off residuals
     std::vector<std::vector<double>> levels_; ///< ln of each width's levels, coarse to fine
     std::vector<double> stretch_;             ///< of a change along each width
     std::vector<EnsembleMember> members_;
