@@ -379,7 +379,8 @@ ColumnAnalysis analyse_values(const DataAnalysis& data, const DataColumn& values
     } else {
         column.limit.emplace();
         column.limit->limit.status = column.limit->order.status =
-            "a limit is found along one way of refinement, and the widths are refined in turns";
+            "a limit is found along one way of refinement, and these rows refine several widths "
+            "apart from each other";
     }
     const auto& [limit, order, uncertainty, basis, gci, celik, eca, step] = *column.limit;
     column.by_width[along] = order;

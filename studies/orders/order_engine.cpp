@@ -44,7 +44,7 @@ OrderEnsemble::OrderEnsemble(std::span<const ErrorRow> rows, const std::vector<d
     : OrderEnsemble(rows_of(rows, reference, tuning.most_rows), tuning) {}
 
 OrderEnsemble::OrderEnsemble(TermRows rows, const OrderTuning& tuning)
-    : tuning_(tuning), rows_(std::move(rows)), known_scatter_(rows_.scatter) {
+    : tuning_(tuning), rows_(std::move(rows)) {
     for (Index i = 0; i < rows_.widths(); ++i) {
         levels_.push_back(levels_of(rows_.log_widths.col(i), tuning_.one_level));
         if (levels_.back().size() < fewest_levels)
@@ -58,38 +58,28 @@ OrderEnsemble::OrderEnsemble(TermRows rows, const OrderTuning& tuning)
                                      : "one width alone has a positive error";
     if (!failure_.empty())
         return;
-    const TermRows given = rows_;
-    fit();
-    rows_.scatter = std::max(rows_.scatter, scatter_of_residuals());
-    if (rows_.scatter > known_scatter_)
-        fit();
-    const auto moving = moving_widths(given, tuning_.idle);
-    if (moving.empty() || std::ssize(moving) == given.widths())
+    members_ = fit_members(rows_, levels_);
+    scatters_ = rows_.scatter > 0 || residuals_scatter();
+    // Scatter hides from the models with a next term what they would say of it.
+    // Three levels make intervals as wide as that already.
+    for (const auto& levels : levels_)
+        stretch_.push_back(scatters_ && levels.size() > fewest_levels ? drift_left(levels) : 1.0);
+    const auto moving = moving_widths(rows_, tuning_.idle);
+    if (moving.empty() || std::ssize(moving) == rows_.widths())
         return;
     // What these do not determine, they may with a constant in the place of the idle width.
-    const OrderEnsemble without(with_widths(given, moving), tuning_);
+    const OrderEnsemble without(with_widths(rows_, moving), tuning_);
     if (std::ranges::all_of(without.orders(), &OrderInterval::determined)) {
         moving_widths_ = moving;
         moving_ = std::make_shared<const OrderEnsemble>(without);
     }
 }
 
-void OrderEnsemble::fit() {
-    // Scatter hides from the models with a next term what they would say of it.
-    // Three levels make intervals as wide as that already.
-    stretch_.clear();
-    for (const auto& levels : levels_)
-        stretch_.push_back(rows_.scatter > 0 && levels.size() > fewest_levels ? drift_left(levels)
-                                                                              : 1.0);
-    members_ = fit_members(rows_, levels_);
-}
-
-/// Of a grid whose rows say nothing of it: the least that any window leaves of them, where all rows
-/// leave no more. What the models lack falls from window to window with the widths, and scatter
-/// does not. 0: none is seen.
-double OrderEnsemble::scatter_of_residuals() const {
-    if (rows_.widths() == 1 || rows_.scatter > 0)
-        return 0;
+/// Whether rows of a grid that nothing is said of scatter: all of them leave some, and no window
+/// leaves far less. What the models lack falls from window to window with the widths.
+bool OrderEnsemble::residuals_scatter() const {
+    if (rows_.widths() == 1 || rows_.log_reference.size() > 0)
+        return false;
     constexpr int fewest_spare = 3; // rows beyond the parameters: fewer are followed by chance
     double of_windows = infinity;
     double of_all = infinity;
@@ -99,9 +89,8 @@ double OrderEnsemble::scatter_of_residuals() const {
         if (is_of_all_rows(member))
             of_all = std::min(of_all, member.fit.scale);
     }
-    const bool is_scatter = std::isfinite(of_windows) && of_windows > tuning_.least_seen_scatter &&
-                            of_all <= tuning_.as_in_windows * of_windows;
-    return is_scatter ? of_windows : 0;
+    return std::isfinite(of_windows) && of_windows > tuning_.least_seen_scatter &&
+           of_all <= tuning_.as_in_windows * of_windows;
 }
 
 std::optional<Index> OrderEnsemble::place_among_moving(Index width) const {
@@ -234,7 +223,7 @@ double OrderEnsemble::sequence_factor() const {
 
 double OrderEnsemble::grid_factor() const {
     return tuning_.grid * (has_width_of_few_levels() ? tuning_.three_levels : 1.0) *
-           (rows_.scatter > 0 ? tuning_.scattered : 1.0);
+           (scatters_ ? tuning_.scattered : 1.0);
 }
 
 bool OrderEnsemble::has_width_of_few_levels() const {
@@ -293,7 +282,7 @@ bool OrderEnsemble::is_followed() const {
     constexpr double deviations = 3;
     return rows_.widths() == 1 || std::ranges::any_of(members_, [&](const EnsembleMember& member) {
                return is_of_all_rows(member) &&
-                      member.fit.scale <= std::max(tuning_.followed, deviations * known_scatter_);
+                      member.fit.scale <= std::max(tuning_.followed, deviations * rows_.scatter);
            });
 }
 
@@ -366,13 +355,15 @@ OrderMotion OrderEnsemble::motion_of(Index width) const {
 std::vector<OrderInterval> OrderEnsemble::orders() const {
     std::vector<OrderInterval> result(levels_.size());
     if (moving_) {
+        constexpr double printed_step = 3.5; // of rounding, over its standard deviation: √12
         const auto moving = moving_->orders();
         for (std::size_t i = 0; i < result.size(); ++i)
             if (const auto place = place_among_moving(static_cast<Index>(i)))
                 result[i] = moving[static_cast<std::size_t>(*place)];
             else
                 result[i].status =
-                    fmt::format("it changes no error by more than {:g} of it", tuning_.idle);
+                    fmt::format("it changes no error by more than {:.1g} of it",
+                                std::max(tuning_.idle, printed_step * rows_.scatter));
         return result;
     }
     for (std::size_t i = 0; i < result.size(); ++i) {

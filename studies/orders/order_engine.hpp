@@ -14,18 +14,20 @@
 ///     w_m = 1 / (u_m² (1 + (u_m / 10)²)),
 ///
 /// with the standard errors s_m from the residuals and σ_m from a known scatter of the rows: a
-/// stated one, or that of rows at equal widths (replicates). So the interval knows scatter, the
-/// drift of the order along its width (the neighbours), and what extrapolation gives (the models
-/// with next terms, where they are steadier than those without). Where all of that is wide the
-/// order is not determined, nor where it still moves (order_motion.hpp), is steep and seen at two
-/// levels alone, or stands beside a constant that its few levels do not tell from it; the status
-/// says why. Where scatter, or a width of three levels, leaves open whether there is a logarithm or
-/// a next term half an order on, the interval reaches its order. In a width of three levels models
-/// with next terms do not count whose term in another width stands still. There is none where no
-/// model of all rows follows them. A width that changes no error by more than OrderTuning::idle of
-/// it is left out where the rest determines all orders. Constants: OrderTuning. Ideas of others:
-/// model averaging by stability and the spread over models as uncertainty (Rider et al. 2016; Eça
-/// and Hoekstra 2014), many models times many windows (StREEQ, Sandia).
+/// stated one, or that of rows at equal widths (replicates). Of a grid it is wider where residuals
+/// look like scatter that nobody stated. So the
+/// interval knows scatter, the drift of the order along its width (the neighbours), and what
+/// extrapolation gives (the models with next terms, where they are steadier than those without).
+/// Where all of that is wide the order is not determined, nor where it still moves
+/// (order_motion.hpp), is steep and seen at two levels alone, or stands beside a constant that its
+/// few levels do not tell from it; the status says why. Where scatter, or a width of three levels,
+/// leaves open whether there is a logarithm or a next term half an order on, the interval reaches
+/// its order. In a width of three levels models with next terms do not count whose term in another
+/// width stands still. There is none where no model of all rows follows them. A width that changes
+/// no error by more than OrderTuning::idle of it is left out where the rest determines all orders.
+/// Constants: OrderTuning. Ideas of others: model averaging by stability and the spread over models
+/// as uncertainty (Rider et al. 2016; Eça and Hoekstra 2014), many models times many windows
+/// (StREEQ, Sandia).
 #pragma once
 
 #include "studies/orders/error_rows.hpp"
@@ -107,8 +109,7 @@ private:
     Numbers numbers_of(const Functional& number) const;
     int place_of(Eigen::Index width, double log_width) const;
     std::optional<Mixture> mix(const Functional& number) const;
-    void fit();
-    double scatter_of_residuals() const;
+    bool residuals_scatter() const;
     OrderMotion motion_of(Eigen::Index width) const;
     double greatest_share(Eigen::Index width) const;
     bool is_followed() const;
@@ -124,8 +125,8 @@ private:
 
     OrderTuning tuning_;
     TermRows rows_;
-    double known_scatter_; ///< of the rows; that of rows_ may be read off residuals
     std::vector<std::vector<double>> levels_; ///< ln of each width's levels, coarse to fine
+    bool scatters_ = false;                   ///< by what is known of the rows, or residuals
     std::vector<double> stretch_;             ///< of a change along each width
     std::vector<EnsembleMember> members_;
     std::string failure_;

@@ -195,6 +195,41 @@ BOOST_DATA_TEST_CASE(scatter_does_not_hide_a_logarithm,
     BOOST_TEST(count.is_chance(), count.missed << " of " << count.determined);
 }
 
+// Errors scatter by as much as nobody says, as on meshes of a generator, and both terms have a next
+// one, up to half of the leading one on the coarsest level: of 2 % a sixth of the intervals missed.
+BOOST_DATA_TEST_CASE(scatter_that_nobody_states_is_in_the_intervals,
+                     data::make({4, 5}) * data::make({3e-3, 2e-2}), levels, sigma) {
+    std::mt19937 generator(20261130);
+    const auto uniform = [&](double low, double high) {
+        return std::uniform_real_distribution(low, high)(generator);
+    };
+    constexpr int tables = 60;
+    Count count;
+    for (int table = 0; table < tables; ++table) {
+        const double p = 1 + table % 3;
+        const double q = 1 + table % 2;
+        const double ratio = uniform(1.4, 2.2);
+        const double size = std::pow(10, uniform(-0.5, 0.5));
+        const double c = uniform(-0.5, 0.5);
+        const double d = uniform(-0.5, 0.5);
+        std::vector<ErrorRow> rows;
+        for (int i = 0; i < levels; ++i)
+            for (int j = 0; j < levels; ++j) {
+                const double h = std::pow(ratio, -i);
+                const double dt = std::pow(ratio, -j);
+                const double in_h = std::pow(h, p) * (1 + c * h);
+                const double in_dt = size * std::pow(dt, q) * (1 + d * dt);
+                rows.push_back(scattered({h, dt}, in_h + in_dt, sigma, generator));
+                rows.back().sigma = std::numeric_limits<double>::quiet_NaN();
+            }
+        const auto orders = estimate_orders(rows);
+        count.add(orders[0], p);
+        count.add(orders[1], q);
+    }
+    BOOST_TEST(count.determined >= 0.2 * 2 * tables);
+    BOOST_TEST(count.is_chance(), count.missed << " of " << count.determined);
+}
+
 // √h/10 beside h: at the coarsest level a fifth of the error, at the finest of nine a factor
 // of 3.5. 1/|ln h| goes to the order 0 more slowly than any power.
 BOOST_DATA_TEST_CASE(an_order_that_falls_slowly_is_not_taken_for_one_that_stands,

@@ -1,7 +1,7 @@
 // Scores the engine on errors by laws that are known: how many orders of h, and of dt, it calls
 // determined, and how many of those intervals miss. Usage: made_up_scores SEED TABLES. Of h^p T +
 // b dt^q, added with a correlation that is -1 in one of four, T one of the kinds below; without dt
-// on sequences.
+// on sequences. Scatter of errors is stated, and of grids once more not.
 
 #include "studies/orders/order_engine.hpp"
 
@@ -34,6 +34,8 @@ const std::vector<Kind> kinds{
      [](double h, double c, double) { return 1 - c * std::log(h); }},
     {"... and dt^q (1 + d dt)", 0.1, 1.5,
      [](double h, double c, double) { return 1 - c * std::log(h); }, true},
+    {"h^p (1 + c h) and dt^q (1 + d dt)", -1.5, 2,
+     [](double h, double c, double) { return 1 + c * h; }, true},
     {"h^p (1 + c h^0.5 + d h)", 0.1, 1.5,
      [](double h, double c, double d) { return 1 + c * std::sqrt(h) + d * h; }},
     {"h^p (1 + c ln 1/h + d h)", 0.1, 1.5,
@@ -50,11 +52,12 @@ public:
     double order(double greatest) {
         return number(0, 1) < 0.5 ? std::floor(number(1, greatest + 1)) : number(0.8, greatest);
     }
-    ErrorRow row(std::vector<double> widths, double error, double scatter) {
+    ErrorRow row(std::vector<double> widths, double error, double scatter, bool is_stated) {
         ErrorRow row{std::move(widths), std::abs(error)};
         if (scatter > 0) {
             row.error *= 1 + scatter * std::normal_distribution<double>()(generator_);
-            row.sigma = scatter;
+            if (is_stated)
+                row.sigma = scatter;
         }
         return row;
     }
@@ -83,8 +86,8 @@ struct Score {
 using Scores = std::array<Score, 2>; // of h and dt
 
 /// steps: of dt; 0 for a sequence.
-Scores scores_of(const Kind& kind, int meshes, int steps, double scatter, int tables,
-                 Drawn& drawn) {
+Scores scores_of(const Kind& kind, int meshes, int steps, double scatter, bool is_stated,
+                 int tables, Drawn& drawn) {
     Scores scores;
     for (int table = 0; table < tables; ++table) {
         const double p = drawn.order(3);
@@ -103,14 +106,14 @@ Scores scores_of(const Kind& kind, int meshes, int steps, double scatter, int ta
             const double h = coarsest * std::pow(ratio, -i);
             const double in_h = in_space(h);
             if (steps == 0)
-                rows.push_back(drawn.row({h}, in_h, scatter));
+                rows.push_back(drawn.row({h}, in_h, scatter, is_stated));
             for (int j = 0; j < steps; ++j) {
                 const double dt = 0.2 * std::exp2(-j);
                 const double in_dt =
                     size * std::pow(dt / 0.2, q) * (kind.has_next_in_dt ? 1 + d * dt : 1);
                 rows.push_back(drawn.row(
                     {h, dt}, std::sqrt(in_h * in_h + 2 * rho * in_h * in_dt + in_dt * in_dt),
-                    scatter));
+                    scatter, is_stated));
             }
         }
         const auto orders = estimate_orders(rows);
@@ -140,13 +143,15 @@ int main(int arguments, char** words) {
         std::puts("");
         std::fflush(stdout);
     };
-    const auto print = [&](int meshes, int steps, double scatter) {
-        std::printf("%d x %d, %.1f %%", meshes, steps, 100 * scatter);
+    const auto print = [&](int meshes, int steps, double scatter, bool is_stated) {
+        std::printf("%d x %d, %.1f %%%s", meshes, steps, 100 * scatter,
+                    is_stated ? "" : " not stated");
         std::vector<Scores> row;
         for (std::size_t k = 0; k < kinds.size(); ++k) {
             const bool is_asked = steps > 0 || !kinds[k].has_next_in_dt;
-            row.push_back(is_asked ? scores_of(kinds[k], meshes, steps, scatter, tables, drawn)
-                                   : Scores());
+            row.push_back(
+                is_asked ? scores_of(kinds[k], meshes, steps, scatter, is_stated, tables, drawn)
+                         : Scores());
             for (const std::size_t width : {0, 1})
                 sums[k][width] += row.back()[width];
         }
@@ -163,14 +168,15 @@ int main(int arguments, char** words) {
     for (const auto& kind : kinds)
         std::printf(" | %s", kind.name);
     std::puts("");
-    for (const double scatter : {0.0, 1e-3}) {
+    for (const auto& [scatter, is_stated] :
+         {std::pair{0.0, true}, {1e-3, true}, {1e-3, false}, {1e-2, false}}) {
         for (const auto& [meshes, steps] : {std::pair{3, 3}, {3, 4}, {4, 3}, {4, 4}, {5, 5}})
-            print(meshes, steps, scatter);
+            print(meshes, steps, scatter, is_stated);
         print_sums(true);
     }
     for (const double scatter : {0.0, 3e-3, 1e-2}) {
         for (const int levels : {3, 4, 5, 6, 8})
-            print(levels, 0, scatter);
+            print(levels, 0, scatter, true);
         print_sums(false);
     }
 }
