@@ -617,6 +617,16 @@ BOOST_DATA_TEST_CASE(a_width_that_no_error_changes_with_takes_nothing_from_the_o
     BOOST_TEST(orders[0].half_width() == alone.half_width(), boost::test_tools::tolerance(0.05));
 }
 
+// Errors of dt alone, in two digits: they know of h no more than their last one, √12 σ and a
+// little.
+BOOST_AUTO_TEST_CASE(an_idle_width_is_known_to_the_digits_of_the_errors) {
+    std::vector<ErrorRow> rows;
+    for (const double h : {0.4, 0.2, 0.1})
+        for (const double dt : {0.4, 0.2, 0.1, 0.05})
+            rows.push_back({{h, dt}, dt, 0.02});
+    BOOST_TEST(estimate_orders(rows)[0].status == "it changes no error by more than 0.07 of it");
+}
+
 BOOST_AUTO_TEST_CASE(a_width_is_idle_only_where_the_others_are_finest) {
     std::vector<ErrorRow> rows;
     for (const double h : {0.2, 0.1, 0.05, 0.025})
