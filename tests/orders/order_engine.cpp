@@ -52,6 +52,13 @@ ErrorRow scattered(std::vector<double> widths, double error, double sigma,
     return {std::move(widths), error * (1 + sigma * normal(generator)), sigma};
 }
 
+/// Draws from an interval.
+auto uniform_from(std::mt19937& generator) {
+    return [&generator](double low, double high) {
+        return std::uniform_real_distribution(low, high)(generator);
+    };
+}
+
 /// How many orders are determined, and how many of these missed.
 struct Count {
     int determined = 0;
@@ -72,9 +79,7 @@ struct Count {
 Count orders_beside_another_width(int meshes, int steps, double sigma,
                                   const std::function<double(double h, double c)>& factor) {
     std::mt19937 generator(20261128);
-    const auto uniform = [&](double low, double high) {
-        return std::uniform_real_distribution(low, high)(generator);
-    };
+    const auto uniform = uniform_from(generator);
     Count count;
     for (int table = 0; table < 30; ++table) {
         const double p = 1 + table % 3;
@@ -173,9 +178,7 @@ BOOST_DATA_TEST_CASE(an_order_with_half_an_order_on_is_found_beside_another_widt
 BOOST_DATA_TEST_CASE(scatter_does_not_hide_a_logarithm,
                      data::make({4, 5, 6, 8}) * data::make({1e-4, 3e-3, 1e-2}), levels, sigma) {
     std::mt19937 generator(20261129);
-    const auto uniform = [&](double low, double high) {
-        return std::uniform_real_distribution(low, high)(generator);
-    };
+    const auto uniform = uniform_from(generator);
     constexpr int tables = 60;
     Count count;
     for (int table = 0; table < tables; ++table) {
@@ -200,9 +203,7 @@ BOOST_DATA_TEST_CASE(scatter_does_not_hide_a_logarithm,
 BOOST_DATA_TEST_CASE(scatter_that_nobody_states_is_in_the_intervals,
                      data::make({4, 5}) * data::make({3e-3, 2e-2}), levels, sigma) {
     std::mt19937 generator(20261130);
-    const auto uniform = [&](double low, double high) {
-        return std::uniform_real_distribution(low, high)(generator);
-    };
+    const auto uniform = uniform_from(generator);
     constexpr int tables = 60;
     Count count;
     for (int table = 0; table < tables; ++table) {
@@ -893,9 +894,7 @@ BOOST_AUTO_TEST_CASE(drift_that_stated_scatter_may_hide_is_in_the_interval) {
 // to 75 % missed; of four levels hardly any do.
 BOOST_AUTO_TEST_CASE(of_three_levels_in_a_width_of_a_grid_the_interval_holds_as_of_more) {
     std::mt19937 generator(20261125);
-    const auto uniform = [&](double low, double high) {
-        return std::uniform_real_distribution(low, high)(generator);
-    };
+    const auto uniform = uniform_from(generator);
     int determined = 0;
     int missed = 0;
     for (int table = 0; table < 120; ++table) {
@@ -929,9 +928,7 @@ BOOST_AUTO_TEST_CASE(of_three_levels_in_a_width_of_a_grid_the_interval_holds_as_
 BOOST_DATA_TEST_CASE(of_three_levels_a_constant_does_not_pass_for_a_next_term,
                      data::make({2.0, 1.5}), ratio) {
     std::mt19937 generator(20261127);
-    const auto uniform = [&](double low, double high) {
-        return std::uniform_real_distribution(low, high)(generator);
-    };
+    const auto uniform = uniform_from(generator);
     constexpr int tables = 80;
     int determined = 0;
     int missed = 0;
