@@ -27,8 +27,8 @@ using GiNaC::ex;
 
 namespace {
 
-constexpr double jump_tolerance = 1e-9; ///< relative to what jumps
-constexpr double least_jump = 1e-3;     ///< within a phase, relative likewise
+constexpr double jump_tolerance = 1e-9;      ///< relative to what jumps
+constexpr double least_relative_jump = 1e-3; ///< within a phase, relative likewise
 
 bool in_all(const DerivedSolution& derived, const auto& holds) {
     return std::all_of(derived.derived.begin(), derived.derived.end(), holds);
@@ -82,7 +82,8 @@ std::vector<Switch> switches(const DerivedSolution& derived, double final_time) 
         const double end = std::min(phase.end_value, final_time);
         // At its begin the phase before it holds.
         const double begin = phase.begin_value + 1e-9 * (end - phase.begin_value);
-        if (const auto jump = find_jump(at_one_place, uneven_grid(begin, end), least_jump)) {
+        if (const auto jump =
+                find_jump(at_one_place, uneven_grid(begin, end), least_relative_jump)) {
             const double size = std::abs(jump->size);
             result.push_back({jump->at, jump->row == 0 ? size : 0.0, jump->row == 1 ? size : 0.0});
         }
@@ -193,9 +194,9 @@ Forecast slower(const Forecast& a, const Forecast& b) {
 enum class Method { euler, bdf2, sdirk2 };
 
 /// Every norm's orders, once what is known of the solution is.
-class Orders {
+class PredictedOrders {
 public:
-    Orders(const ExpectedOrders& known, const Beam& beam)
+    PredictedOrders(const ExpectedOrders& known, const Beam& beam)
         : known_(known), beam_(beam), coupled_(beam.alpha != 0.0) {}
 
     [[nodiscard]] std::vector<ExpectedOrder> all() const {
@@ -355,7 +356,7 @@ std::optional<Kink> kink_in(const DerivedSolution& derived, double final_time) {
         for (const ex& formula : {derived.derived[i].u_xx, derived.derived[i].u_xxx}) {
             const Tape tape = compile_tape({formula});
             const auto in_x = [&](const ArrayXd& x) { return tape.evaluate(x, t); };
-            if (const auto jump = find_jump(in_x, uneven_grid(0.0, 1.0), least_jump))
+            if (const auto jump = find_jump(in_x, uneven_grid(0.0, 1.0), least_relative_jump))
                 return Kink{jump->at, derivative};
             ++derivative;
         }
@@ -550,7 +551,7 @@ ExpectedOrders expected_orders(const Solution& solution, const Beam& beam, doubl
         if (coupled)
             result.theta_is_quadratic = result.u_is_quadratic =
                 result.theta_is_quadratic && result.u_is_quadratic;
-        result.orders = Orders(result, beam).all();
+        result.orders = PredictedOrders(result, beam).all();
         result.reasons = reasons(result, beam);
         return result;
     });

@@ -22,7 +22,7 @@ using Eigen::Index;
 
 namespace {
 
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
+constexpr double machine_epsilon = std::numeric_limits<double>::epsilon();
 constexpr double shortest = 0x1p-48;
 constexpr double seen = 1e-5; // of max|φ|: what a look at a place notices
 
@@ -84,7 +84,7 @@ ArrayXd differences(const std::vector<Interval>& intervals, const AtRule& whole,
         const double lowest = std::min({v.minCoeff(), v_left.minCoeff(), v_right.minCoeff()});
         const double greatest = std::max(std::abs(highest), std::abs(lowest));
         const double round_off =
-            4.0 * epsilon * (length * greatest + (start + length) * (highest - lowest));
+            4.0 * machine_epsilon * (length * greatest + (start + length) * (highest - lowest));
         const double excess =
             std::max((length * of_moments - round_off) / norm,
                      (length * of_square - 2.0 * greatest * round_off) / (norm * norm));
@@ -95,7 +95,7 @@ ArrayXd differences(const std::vector<Interval>& intervals, const AtRule& whole,
 
 /// count places all over (0, 1), in order: neighbours are at most 1.2/count apart, other ones for
 /// every offset, and none with a period.
-ArrayXd places(Index count, double offset) {
+ArrayXd spread_places(Index count, double offset) {
     const auto turned = [](double turns) { return turns - std::floor(turns); };
     const ArrayXd i = ArrayXd::LinSpaced(count, 0.0, static_cast<double>(count - 1));
     const ArrayXd turns = (i + 0.5) / std::numbers::phi;
@@ -144,7 +144,7 @@ public:
     /// A look at a function in so many places; offset: others than before.
     static Look look(SpaceFunction function, Index count, double offset) {
         Look look;
-        look.x = places(count, offset);
+        look.x = spread_places(count, offset);
         look.values = function(look.x);
         look.sampled = {std::move(function), std::sqrt(look.values.square().mean()),
                         look.values.abs().maxCoeff()};
@@ -330,13 +330,14 @@ double Resolution::uncertainty(const Mesh& mesh) const {
 namespace {
 
 constexpr Index profile_places = 8192;
-constexpr Index gentle_places = 32;      // of what is known to hold nothing narrow
-constexpr Index step_places = 128;       // at every time
-constexpr Index once_places = 2048;      // at one time
-constexpr double noise = 64.0 * epsilon; // of the greatest field: what terms leave that cancel
-constexpr double narrow = 1.0 / 256.0;   // an interval in which more places are worth while
-constexpr std::size_t first_times = 5;   // of every phase
-constexpr std::size_t more_times = 4;    // that must show nothing new; twice as many after they do
+constexpr Index gentle_places = 32; // of what is known to hold nothing narrow
+constexpr Index step_places = 128;  // at every time
+constexpr Index once_places = 2048; // at one time
+constexpr double cancellation_noise =
+    64.0 * machine_epsilon;            // of the greatest field: what terms leave that cancel
+constexpr double narrow = 1.0 / 256.0; // an interval in which more places are worth while
+constexpr std::size_t first_times = 5; // of every phase
+constexpr std::size_t more_times = 4;  // that must show nothing new; twice as many after they do
 // The last of these are not cut for: they tell what is left.
 constexpr std::size_t most_times = 129;
 
@@ -455,7 +456,7 @@ Resolution resolve(const ProblemData& data, const std::vector<const Field*>& fie
         for (const auto& look : looks)
             greatest = std::max(greatest, look.sampled.greatest);
         for (const auto& look : looks)
-            if (look.sampled.greatest <= noise * greatest)
+            if (look.sampled.greatest <= cancellation_noise * greatest)
                 continue;
             else if (last)
                 resolver.test(look, Resolution::step_tolerance, Resolution::most_step_intervals);

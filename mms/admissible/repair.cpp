@@ -13,7 +13,7 @@ namespace tvbeam {
 
 namespace {
 
-constexpr std::size_t longest_formula = 80;
+constexpr std::size_t longest_offered = 80;
 
 /// Rounds to four significant digits by the rounding given.
 double four_digits(double value, double (*rounding)(double)) {
@@ -27,7 +27,7 @@ double four_digits(double value, double (*rounding)(double)) {
 
 std::string subtraction(const GiNaC::ex& excess, const std::string& name, const std::string& from) {
     const std::string text = formula_text(excess);
-    if (text.size() > longest_formula)
+    if (text.size() > longest_offered)
         return "subtract " + name + " from " + from;
     if (text.front() == '-')
         return "add " + formula_text(-excess) + " to " + from;

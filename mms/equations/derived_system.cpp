@@ -17,7 +17,7 @@ using Role = DerivedFunction::Role;
 
 namespace {
 
-constexpr int largest_exponent = 100; // of a polynomial
+constexpr int largest_expanded_power = 100; // of a polynomial
 
 /// The parameters in a whole exponent of what varies; none where it is no such.
 std::set<std::string> in_whole_exponent(const ex& base, const ex& exponent,
@@ -34,7 +34,7 @@ std::set<std::string> in_whole_exponent(const ex& base, const ex& exponent,
     const ex value = exponent.subs(values);
     const bool is_whole = GiNaC::is_exactly_a<GiNaC::numeric>(value) &&
                           GiNaC::ex_to<GiNaC::numeric>(value).is_integer() &&
-                          GiNaC::abs(GiNaC::ex_to<GiNaC::numeric>(value)) <= largest_exponent;
+                          GiNaC::abs(GiNaC::ex_to<GiNaC::numeric>(value)) <= largest_expanded_power;
     return is_whole ? used : std::set<std::string>{};
 }
 

@@ -30,7 +30,7 @@ using Span =
 constexpr std::size_t most_evaluations = 4'000'000; ///< of steps, at points of the grid
 constexpr std::size_t most_parts = 2'000;
 constexpr std::size_t finest_grid = 9; ///< points along a coordinate
-constexpr std::size_t longest_text = 60;
+constexpr std::size_t longest_quoted = 60;
 
 Span widened(const Span& a) {
     constexpr double relative = 1e-14;
@@ -215,7 +215,7 @@ private:
             return;
         overflow_ = Singularity{
             Singularity::Kind::overflow,
-            readable_text(program_, static_cast<int>(beyond - values.begin()), longest_text) +
+            readable_text(program_, static_cast<int>(beyond - values.begin()), longest_quoted) +
                 " is beyond the range of doubles " + text_of(point),
             text_of(point)};
     }
@@ -284,7 +284,7 @@ private:
     }
 
     [[nodiscard]] std::string said(const Critical& critical) const {
-        const std::string operand = readable_text(program_, critical.operand, longest_text);
+        const std::string operand = readable_text(program_, critical.operand, longest_quoted);
         switch (critical.rule) {
         case Critical::Rule::not_zero:
             return "the divisor " + operand + " is 0 ";

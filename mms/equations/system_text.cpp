@@ -17,14 +17,14 @@ using Role = DerivedFunction::Role;
 
 namespace {
 
-constexpr std::size_t longest_formula = 400;
+constexpr std::size_t longest_written = 400;
 
 /// With the exact solution put in, where that is short.
 std::optional<std::string> with_solution(const DerivedSystem& derived,
                                          const DerivedFunction& function, auto written) {
     try {
         std::string text = written(shortened(derived.fields.exact(function.formula)));
-        if (text.size() <= longest_formula)
+        if (text.size() <= longest_written)
             return text;
     } catch (const AlgebraError&) { // too large: it is left in its derivatives
     }
@@ -118,7 +118,7 @@ std::string system_text(const DerivedSystem& derived) {
     for (const auto& [name, exact] : needed) {
         const std::string formula = formula_text(exact);
         text += "  " + name + " = " +
-                (formula.size() > longest_formula ? formula.substr(0, longest_formula) + "…"
+                (formula.size() > longest_written ? formula.substr(0, longest_written) + "…"
                                                   : formula) +
                 "\n";
     }

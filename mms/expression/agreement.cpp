@@ -20,7 +20,7 @@ namespace {
 
 constexpr long double roundoff = 0x1p-53L;
 constexpr long double spared = 64.0L;
-constexpr long double nothing = 1e-25L;
+constexpr long double numerically_zero = 1e-25L;
 
 /// The bound where it is one.
 long double size_of(const Number& number) {
@@ -74,7 +74,7 @@ std::optional<Index> first_disagreement(const std::vector<Number>& text,
             continue;
         const long double tolerance =
             spared * roundoff * (number.bound + std::abs(number.value) + computed.terms(k)) +
-            nothing * largest + std::numeric_limits<double>::min();
+            numerically_zero * largest + std::numeric_limits<double>::min();
         if (!(std::abs(computed.values(k) - number.value) <= tolerance))
             return k;
     }

@@ -19,7 +19,7 @@ using GiNaC::numeric;
 
 namespace {
 
-constexpr std::size_t longest_text = 4000;
+constexpr std::size_t longest_combined = 4000;
 constexpr std::size_t longest_sum = 600;
 
 /// Bases and exponents of a term, without its number.
@@ -174,7 +174,7 @@ private:
 } // namespace
 
 ex shortened(const ex& expression) {
-    if (formula_text(expression).size() > longest_text)
+    if (formula_text(expression).size() > longest_combined)
         return expression;
     try {
         return Shortening()(expression);

@@ -90,66 +90,69 @@ struct Outward {
 };
 
 template <typename Real>
-using Interval =
+using OutwardInterval =
     boost::numeric::interval<Real,
                              boost::numeric::interval_lib::policies<
                                  boost::numeric::interval_lib::save_state_nothing<Outward<Real>>,
                                  boost::numeric::interval_lib::checking_base<Real>>>;
 
 template <typename Real>
-bool is_exactly(const Interval<Real>& a, Real value) {
+bool is_exactly(const OutwardInterval<Real>& a, Real value) {
     return a.lower() == value && a.upper() == value;
 }
 
 template <typename Real>
-bool holds_zero(const Interval<Real>& a) {
+bool holds_zero(const OutwardInterval<Real>& a) {
     return !(a.lower() > 0 || a.upper() < 0);
 }
 
 /// Infinity less infinity: nothing is known.
 template <typename Real>
-Interval<Real> known(const Interval<Real>& a) {
-    return std::isnan(a.lower()) || std::isnan(a.upper()) ? Interval<Real>::whole() : a;
+OutwardInterval<Real> known(const OutwardInterval<Real>& a) {
+    return std::isnan(a.lower()) || std::isnan(a.upper()) ? OutwardInterval<Real>::whole() : a;
 }
 
 /// a/b; without bounds where b may be zero.
 template <typename Real>
-Interval<Real> quotient(const Interval<Real>& a, const Interval<Real>& b) {
-    return holds_zero(b) ? Interval<Real>::whole() : known<Real>(a / b);
+OutwardInterval<Real> quotient(const OutwardInterval<Real>& a, const OutwardInterval<Real>& b) {
+    return holds_zero(b) ? OutwardInterval<Real>::whole() : known<Real>(a / b);
 }
 
 /// a^b for a ≥ 0: b log a is bilinear, and greatest and least in a corner.
 template <typename Real>
-Interval<Real> power(const Interval<Real>& a, const Interval<Real>& b) {
+OutwardInterval<Real> power(const OutwardInterval<Real>& a, const OutwardInterval<Real>& b) {
     if (!(a.lower() >= 0) || (a.lower() == 0 && !(b.lower() > 0)))
-        return Interval<Real>::whole();
+        return OutwardInterval<Real>::whole();
     const std::array<Real, 4> corners = {
         std::pow(a.lower(), b.lower()), std::pow(a.lower(), b.upper()),
         std::pow(a.upper(), b.lower()), std::pow(a.upper(), b.upper())};
     const auto [least, greatest] = std::minmax_element(corners.begin(), corners.end());
     using Rounded = Outward<Real>;
-    return known(Interval<Real>(std::max(Rounded::lowered(*least, Rounded::of_functions), Real(0)),
-                                *greatest == 0 && a.upper() == 0
-                                    ? Real(0)
-                                    : Rounded::raised(*greatest, Rounded::of_functions)));
+    return known(OutwardInterval<Real>(
+        std::max(Rounded::lowered(*least, Rounded::of_functions), Real(0)),
+        *greatest == 0 && a.upper() == 0 ? Real(0)
+                                         : Rounded::raised(*greatest, Rounded::of_functions)));
 }
 
 template <typename Real>
-Interval<Real> logarithm(const Interval<Real>& a) {
-    return a.lower() < 0 || !(a.upper() > 0) ? Interval<Real>::whole() : log(a);
+OutwardInterval<Real> logarithm(const OutwardInterval<Real>& a) {
+    return a.lower() < 0 || !(a.upper() > 0) ? OutwardInterval<Real>::whole() : log(a);
 }
 
 /// a^b log a, whose least value for b > 0 is −1/(e b), at a = exp(−1/b).
 template <typename Real>
-Interval<Real> power_logarithm(const Interval<Real>& a, const Interval<Real>& b) {
+OutwardInterval<Real> power_logarithm(const OutwardInterval<Real>& a,
+                                      const OutwardInterval<Real>& b) {
     if (!(a.lower() == 0) || !(b.lower() > 0))
         return known<Real>(power(a, b) * logarithm(a));
-    const Interval<Real> least = -(Interval<Real>(1) / (exp(Interval<Real>(1)) * b));
-    const Interval<Real> at_end = a.upper() > 0 ? known<Real>(power(Interval<Real>(a.upper()), b) *
-                                                              logarithm(Interval<Real>(a.upper())))
-                                                : Interval<Real>(0);
+    const OutwardInterval<Real> least =
+        -(OutwardInterval<Real>(1) / (exp(OutwardInterval<Real>(1)) * b));
+    const OutwardInterval<Real> at_end =
+        a.upper() > 0 ? known<Real>(power(OutwardInterval<Real>(a.upper()), b) *
+                                    logarithm(OutwardInterval<Real>(a.upper())))
+                      : OutwardInterval<Real>(0);
     // Up to its least place it falls from 0.
-    const Interval<Real> place = exp(-(Interval<Real>(1) / b));
+    const OutwardInterval<Real> place = exp(-(OutwardInterval<Real>(1) / b));
     const bool falls = a.upper() <= place.lower();
     return {falls ? at_end.lower() : std::min(least.lower(), at_end.lower()),
             std::max(at_end.upper(), Real(0))};
@@ -158,8 +161,8 @@ Interval<Real> power_logarithm(const Interval<Real>& a, const Interval<Real>& b)
 /// Values and derivatives of one register.
 template <typename Real>
 struct Enclosed {
-    Interval<Real> value;
-    Interval<Real> slope;
+    OutwardInterval<Real> value;
+    OutwardInterval<Real> slope;
 };
 
 } // namespace
@@ -170,8 +173,8 @@ public:
     template <typename Real>
     static Enclosed<Real> apply(Tape::Operation operation, const Enclosed<Real>& a,
                                 const Enclosed<Real>& b) {
-        Interval<Real> result = value(operation, a.value, b.value);
-        Interval<Real> rate(0);
+        OutwardInterval<Real> result = value(operation, a.value, b.value);
+        OutwardInterval<Real> rate(0);
         if (!is_exactly(a.slope, Real(0)) || !is_exactly(b.slope, Real(0)))
             rate = known(slope(operation, a, b, result));
         return {known(result), rate};
@@ -181,9 +184,9 @@ private:
     using Operation = Tape::Operation;
 
     template <typename Real>
-    static Interval<Real> value(Operation operation, const Interval<Real>& a,
-                                const Interval<Real>& b) {
-        using I = Interval<Real>;
+    static OutwardInterval<Real> value(Operation operation, const OutwardInterval<Real>& a,
+                                       const OutwardInterval<Real>& b) {
+        using I = OutwardInterval<Real>;
         switch (operation) {
         case Operation::Add:
             return a + b;
@@ -234,15 +237,16 @@ private:
     }
 
     template <typename Real>
-    static bool bounded(const Interval<Real>& a) {
+    static bool bounded(const OutwardInterval<Real>& a) {
         return std::isfinite(a.lower()) && std::isfinite(a.upper());
     }
 
     /// result: the value.
     template <typename Real>
-    static Interval<Real> slope(Operation operation, const Enclosed<Real>& a,
-                                const Enclosed<Real>& b, const Interval<Real>& result) {
-        using I = Interval<Real>;
+    static OutwardInterval<Real> slope(Operation operation, const Enclosed<Real>& a,
+                                       const Enclosed<Real>& b,
+                                       const OutwardInterval<Real>& result) {
+        using I = OutwardInterval<Real>;
         const I one(1);
         switch (operation) {
         case Operation::Add:
@@ -301,7 +305,7 @@ private:
 
 template <typename Real>
 Enclosure Tape::enclose_in(Eigen::Index output, double x, double begin, double end) const {
-    using I = Interval<Real>;
+    using I = OutwardInterval<Real>;
     std::vector<Enclosed<Real>> registers(static_cast<std::size_t>(register_count_), {I(0), I(0)});
     const auto at = [&registers](int index) -> Enclosed<Real>& {
         return registers[static_cast<std::size_t>(index)];

@@ -44,8 +44,8 @@ std::string elsewhere(const std::string& name, const KeyTable& keys) {
     return {};
 }
 
-InputError unknown(const TableReader& table, const std::string& key, const KeyTable::Node& node,
-                   const KeyTable& keys, const Place& made) {
+InputError unknown_key(const TableReader& table, const std::string& key, const KeyTable::Node& node,
+                       const KeyTable& keys, const Place& made) {
     const bool is_block = table.is_table(key);
     const auto known = node.names();
     std::string hint;
@@ -69,7 +69,7 @@ void require_known(TableReader table, const KeyTable::Node& node, const KeyTable
     for (const auto& key : table.unread()) {
         const KeyTable::Node* inner = node.find(key);
         if (inner == nullptr)
-            throw unknown(table, key, node, keys, made);
+            throw unknown_key(table, key, node, keys, made);
         // Where a table should be and is none, its reader says so.
         if (inner->entry->type == KeyType::table && table.is_table(key))
             require_known(*table.table(key), *inner, keys, made);

@@ -21,7 +21,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 /// Rows of a longer table: about as many, the first and the last among them.
-constexpr std::size_t most_rows = 12;
+constexpr std::size_t rows_of_excerpt = 12;
 
 bool is_of_seconds(const Table::Column& column) {
     return column.heading == "sec";
@@ -49,7 +49,8 @@ Json table_of(const Table& table) {
         headings.push_back(heading);
     Json rows = Json::array();
     const std::size_t count = table.rows();
-    const std::size_t step = count <= most_rows ? 1 : (count - 1 + most_rows - 2) / (most_rows - 1);
+    const std::size_t step =
+        count <= rows_of_excerpt ? 1 : (count - 1 + rows_of_excerpt - 2) / (rows_of_excerpt - 1);
     for (std::size_t i = 0; i < count; i = i + 1 == count ? count : std::min(i + step, count - 1)) {
         std::string row;
         for (const auto& [heading, column] : columns)

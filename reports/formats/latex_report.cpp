@@ -20,7 +20,7 @@ namespace {
 /// In characters of text_table: what a line of small letters holds between A4's margins.
 constexpr std::size_t line_width = 92;
 /// On a page, below a caption.
-constexpr std::size_t most_rows = 45;
+constexpr std::size_t rows_of_page = 45;
 
 /// The bytes of the character that begins at `at`.
 std::size_t length_of_character(const std::string& text, std::size_t at) {
@@ -221,10 +221,10 @@ std::string tabular(const Table& table, std::size_t first_row, std::size_t end_r
 std::string latex_of(const Table& table) {
     std::string text;
     for (const auto& part : parts_of(table, line_width))
-        for (std::size_t row = 0; row < part.rows(); row += most_rows) {
+        for (std::size_t row = 0; row < part.rows(); row += rows_of_page) {
             const std::string caption = text.empty() ? latex_sentence(part.caption) : "Continued.";
             text += "\\begin{inplace}\n\\caption{" + caption + "}\n\\fitted{%\n" +
-                    tabular(part, row, std::min(row + most_rows, part.rows())) +
+                    tabular(part, row, std::min(row + rows_of_page, part.rows())) +
                     "}\n\\end{inplace}\n\n";
         }
     return text;

@@ -206,13 +206,14 @@ std::string comment_text(const std::string& text) {
 
 /// From the least to the greatest, of an axis: as it is given, or of the data that it can show;
 /// turned round where there are none.
-using Range = std::pair<double, double>;
+using AxisRange = std::pair<double, double>;
 
-Range range_of(const Drawing& drawing, bool is_x) {
+AxisRange axis_range(const Drawing& drawing, bool is_x) {
     const Axis& axis = is_x ? drawing.x : drawing.y;
     if (axis.range)
         return *axis.range;
-    Range range{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+    AxisRange range{std::numeric_limits<double>::infinity(),
+                    -std::numeric_limits<double>::infinity()};
     const auto add = [&](double number) {
         if (std::isfinite(number) && (!axis.is_logarithmic || number > 0.0))
             range = {std::min(range.first, number), std::max(range.second, number)};
@@ -229,7 +230,7 @@ Range range_of(const Drawing& drawing, bool is_x) {
 }
 
 /// On a logarithmic axis: powers of ten; where it holds fewer than two, also 2 and 5 times those.
-std::vector<Tick> ticks_within(const Range& range) {
+std::vector<Tick> ticks_within(const AxisRange& range) {
     constexpr std::size_t most = 7;
     std::vector<Tick> powers;
     std::vector<Tick> more;
@@ -255,7 +256,7 @@ std::string latex_label(const std::string& text) {
     return latex.starts_with(one) ? "$" + latex.substr(one.size()) : latex;
 }
 
-std::string axis_text(char name, const Axis& axis, const Range& range) {
+std::string axis_text(char name, const Axis& axis, const AxisRange& range) {
     std::string text =
         fmt::format("    {}mode={},\n", name, axis.is_logarithmic ? "log" : "normal");
     if (axis.range)
@@ -289,7 +290,7 @@ std::string axis_text(char name, const Axis& axis, const Range& range) {
     return text;
 }
 
-std::string curve_text(const Drawing& drawing, const Curve& curve, const Range& across) {
+std::string curve_text(const Drawing& drawing, const Curve& curve, const AxisRange& across) {
     using Kind = CurveLook::Kind;
     const auto& [block, x, y, third, fourth, height] = curve.data;
     const std::string look = look_text(curve.look);
@@ -331,7 +332,7 @@ std::string scale_text(const Drawing& drawing) {
            latex_text(drawing.scale) + "}, width=0.03\\linewidth},\n";
 }
 
-std::string options_text(const Drawing& drawing, const Range& across, const Range& along) {
+std::string options_text(const Drawing& drawing, const AxisRange& across, const AxisRange& along) {
     std::string text = fmt::format(
         "    scale only axis, width={:.3f}\\linewidth, height={:.3f}\\linewidth,\n"
         "    font=\\small, tick align=outside, tick pos=left,\n"
@@ -352,7 +353,7 @@ std::string options_text(const Drawing& drawing, const Range& across, const Rang
 
 std::string pgfplots_text(const Plot& plot) {
     const Drawing drawing = with_readable_legend(plot.drawing);
-    const Range across = range_of(drawing, true);
+    const AxisRange across = axis_range(drawing, true);
     std::string text =
         fmt::format("% {0}.tex draws a figure in LaTeX: \\input{{{0}}}, where the preamble has\n"
                     "%     \\usepackage[utf8]{{inputenc}}\n"
@@ -361,7 +362,7 @@ std::string pgfplots_text(const Plot& plot) {
                     "% {1}\n"
                     "\\begin{{tikzpicture}}\n\\begin{{axis}}[\n{2}]\n",
                     plot.name, comment_text(plot.caption),
-                    options_text(drawing, across, range_of(drawing, false)));
+                    options_text(drawing, across, axis_range(drawing, false)));
     for (const auto& curve : drawing.curves())
         text += curve_text(drawing, curve, across);
     for (const auto& label : drawing.labels)

@@ -14,7 +14,7 @@ using Json = nlohmann::ordered_json;
 namespace {
 
 /// JSON has no literal for what is not a number.
-Json numbers(const std::vector<double>& values) {
+Json numbers_json(const std::vector<double>& values) {
     Json list = Json::array();
     for (const double value : values)
         list.push_back(number_json(value));
@@ -25,9 +25,9 @@ Json json_of(const EvolutionResult& result) {
     Json probes = Json::object();
     Json exact = Json::object();
     for (const auto& probe : result.probes) {
-        probes[probe.name] = numbers(probe.values);
+        probes[probe.name] = numbers_json(probe.values);
         if (!probe.exact.empty())
-            exact[probe.name] = numbers(probe.exact);
+            exact[probe.name] = numbers_json(probe.exact);
     }
     Json events = Json::array();
     for (const auto& event : result.events)
@@ -43,7 +43,7 @@ Json json_of(const EvolutionResult& result) {
         periods.push_back({{"end", period.end}, {"changes", std::move(changes)}});
     }
     Json json = run_json(result.run);
-    json["t"] = numbers(result.t);
+    json["t"] = numbers_json(result.t);
     json["probes"] = std::move(probes);
     if (!exact.empty())
         json["exact"] = std::move(exact);

@@ -149,7 +149,7 @@ void add_checks(const AskedCommand& command, const Ended& ended, const std::stri
                            .holds = said.find(in_one_line(words)) != std::string::npos});
 }
 
-AskedCommand read_command(TableReader& table) {
+AskedCommand read_asked_command(TableReader& table) {
     AskedCommand command{.words = table.texts("run").value_or(std::vector<std::string>()),
                          .files = {},
                          .exit = table.integer("exit").value_or(0),
@@ -194,7 +194,7 @@ void expect_commands(TableReader& expect, const std::string& program,
     std::vector<AskedCommand> commands;
     commands.reserve(tables.size());
     for (auto& table : tables)
-        commands.push_back(read_command(table));
+        commands.push_back(read_asked_command(table));
     expectations.push_back([commands, program](const StudyResult& /*result*/) {
         std::vector<CheckedExpectation> checked;
         const auto none_is_run = [&](const std::string& why) {

@@ -29,12 +29,12 @@ struct Variant {
 };
 
 /// What became of it: refused, failed, or an expectation of its own violated; or none of them.
-struct Outcome {
+struct VariantOutcome {
     bool refused = false;
     std::string said;
 };
 
-Outcome outcome_of(const Variant& variant) {
+VariantOutcome outcome_of(const Variant& variant) {
     try {
         Scene scene = read_scene(variant.file, variant.overrides, variant.reading);
         scene.is_long = false; // whoever runs the scene was not asked about this one
@@ -91,7 +91,7 @@ void expect_refused(TableReader& expect, const Scene& scene, const Reading& read
         expectations.push_back([variant = std::move(variant), says = std::move(says),
                                 what = what_of(table, "says"),
                                 place = table.place("says")](const StudyResult& /*result*/) {
-            const Outcome outcome = outcome_of(variant);
+            const VariantOutcome outcome = outcome_of(variant);
             std::vector<CheckedExpectation> checked;
             for (std::size_t i = 0; i < says.size(); ++i)
                 checked.push_back(

@@ -166,10 +166,10 @@ std::optional<RoundingErrors> rounding_errors(const Beam& beam, const ProblemDat
                     may_converge ? "no error is larger than rounding may be"
                                  : "every error is rounding",
                     greatest, words,
-                    may_converge ? "three levels would tell whether the scheme is exact for the "
-                                   "solution"
-                                 : "the scheme is exact for the solution, which tests nothing of "
-                                   "its order"),
+                    may_converge ? "three levels that refine both h and dt would tell whether the "
+                                   "scheme is exact for the solution"
+                                 : "as far as they show, the scheme is exact for the solution, "
+                                   "which tests nothing of its order"),
         may_converge ? "its error may be rounding" : "its error is rounding"};
 }
 

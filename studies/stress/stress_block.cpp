@@ -27,20 +27,21 @@ Axis axis_of(std::vector<Value> values, Value StressParameters::*member) {
             }};
 }
 
-enum class Range { all, not_negative, positive };
+enum class Admitted { all, not_negative, positive };
 
 /// Numbers of a range, one at least.
-std::vector<double> numbers(TableReader& table, const char* key, double otherwise, Range range,
+std::vector<double> numbers(TableReader& table, const char* key, double otherwise, Admitted range,
                             TableReader::Infinity infinity = TableReader::Infinity::refused) {
     auto values = table.numbers(key, infinity).value_or(std::vector<double>{otherwise});
     if (values.empty())
         throw table.error(key, " is empty; it must hold a value");
     for (std::size_t i = 0; i < values.size(); ++i)
-        if (range != Range::all && !(range == Range::positive ? values[i] > 0.0 : values[i] >= 0.0))
+        if (range != Admitted::all &&
+            !(range == Admitted::positive ? values[i] > 0.0 : values[i] >= 0.0))
             throw table.error(key,
                               " holds " + message_text(values[i]) +
-                                  (range == Range::positive ? "; its values must be > 0"
-                                                            : "; its values must be >= 0"),
+                                  (range == Admitted::positive ? "; its values must be > 0"
+                                                               : "; its values must be >= 0"),
                               i);
     return values;
 }
@@ -112,16 +113,17 @@ Axis gap_axis(const std::vector<double>& gaps, const std::vector<std::size_t>& s
 StressSweep read_sweep(TableReader table, const std::string& name, std::int64_t left) {
     std::vector<Axis> axes;
     axes.push_back(
-        axis_of(numbers(table, "alpha", 0.5, Range::not_negative), &StressParameters::alpha));
+        axis_of(numbers(table, "alpha", 0.5, Admitted::not_negative), &StressParameters::alpha));
     axes.push_back(
-        axis_of(numbers(table, "zeta", 0.1, Range::not_negative), &StressParameters::zeta));
-    axes.push_back(axis_of(numbers(table, "dt", 0.01, Range::positive), &StressParameters::dt));
+        axis_of(numbers(table, "zeta", 0.1, Admitted::not_negative), &StressParameters::zeta));
+    axes.push_back(axis_of(numbers(table, "dt", 0.01, Admitted::positive), &StressParameters::dt));
     axes.push_back(axis_of(elements_or_ten(table), &StressParameters::elements));
     const double none = std::numeric_limits<double>::infinity();
-    const auto gaps = numbers(table, "gap", none, Range::positive, TableReader::Infinity::allowed);
+    const auto gaps =
+        numbers(table, "gap", none, Admitted::positive, TableReader::Infinity::allowed);
     axes.push_back(gap_axis(gaps, words(table, "sides", {"both", "lower", "upper"})));
     axes.push_back(
-        axis_of(numbers(table, "load", 1.0, Range::not_negative), &StressParameters::load));
+        axis_of(numbers(table, "load", 1.0, Admitted::not_negative), &StressParameters::load));
     axes.push_back(
         axis_of(of_words<InitialData>(table, "initial", {"zero", "smooth", "rough", "random"},
                                       {InitialData::zero, InitialData::smooth, InitialData::rough,
@@ -132,7 +134,8 @@ StressSweep read_sweep(TableReader table, const std::string& name, std::int64_t 
     axes.push_back(axis_of(of_words<Algorithm>(table, "algorithm", {"direct", "fixed-point"},
                                                {Algorithm::direct, Algorithm::fixed_point}),
                            &StressParameters::algorithm));
-    axes.push_back(axis_of(numbers(table, "theta_A", 0.0, Range::all), &StressParameters::theta_A));
+    axes.push_back(
+        axis_of(numbers(table, "theta_A", 0.0, Admitted::all), &StressParameters::theta_A));
 
     const auto sampling = table.choice("sampling", {"each", "product", "sobol"}).value_or(0);
     const std::int64_t steps = count(table, "steps", 20, most_work);

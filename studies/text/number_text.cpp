@@ -110,7 +110,8 @@ std::string significant(double value, int digits) {
 std::string fixed(std::optional<double> value, int decimals) {
     if (!value)
         return {};
-    return fmt::format("{:.{}f}", *value, decimals);
+    const std::string text = fmt::format("{:.{}f}", *value, decimals);
+    return number_in(text) == 0.0 ? fmt::format("{:.{}f}", 0.0, decimals) : text; // no "-0.00"
 }
 
 } // namespace tvbeam

@@ -27,7 +27,7 @@ std::vector<std::string> alike(const std::vector<double>& values);
 /// So many significant digits: 190, 0.031; below 1e-4 and from 1e5 on scientific.
 std::string significant(double value, int digits);
 
-/// Fixed notation; nothing for a missing value.
+/// Fixed notation, without the sign of what is rounded to zero; nothing for a missing value.
 std::string fixed(std::optional<double> value, int decimals);
 
 } // namespace tvbeam

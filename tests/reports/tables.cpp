@@ -102,6 +102,12 @@ BOOST_AUTO_TEST_CASE(a_written_number_has_its_parts) {
             BOOST_TEST(written_number(text).has_value(), text);
 }
 
+BOOST_AUTO_TEST_CASE(what_is_rounded_to_zero_has_no_sign) {
+    BOOST_TEST(fixed(-0.004, 2) == "0.00");
+    BOOST_TEST(fixed(-0.0, 1) == "0.0");
+    BOOST_TEST(fixed(-0.006, 2) == "-0.01");
+}
+
 BOOST_AUTO_TEST_CASE(the_pieces_of_a_sentence_are_the_sentence) {
     const std::string text = "dt = 6.25e-5, (1e-3) and 2098; at 1.5e-10.";
     std::string joined;
