@@ -66,10 +66,13 @@ std::map<std::string, std::string> latex_names(const DerivedSystem& derived) {
     for (const auto& function : derived.functions)
         for (const EquationField* field : derived.fields.occurring_in(function.formula)) {
             const std::string name = field->symbol.get_name();
+            if (name == field->unknown)
+                continue;
+            const std::string by = name.substr(field->unknown.size() + 1);
             const std::string unknown = formula_latex(GiNaC::realsymbol(field->unknown));
-            if (name != field->unknown)
-                names[name] =
-                    "\\partial_{" + name.substr(field->unknown.size() + 1) + "} " + unknown;
+            const bool has_subscript = unknown.ends_with('}') && unknown.find("_{") != unknown.npos;
+            names[name] = has_subscript ? unknown.substr(0, unknown.size() - 1) + "," + by + "}"
+                                        : unknown + "_{" + by + "}";
         }
     return names;
 }

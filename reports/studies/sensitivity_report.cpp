@@ -55,7 +55,8 @@ std::string finding(const CaughtDefect& defect, const SensitivityResult& result,
 Section section(const SensitivityResult& result, const SensitivityBlock& block) {
     Table table{
         "The factor at which an expectation of the scene first catches a defect: of one a "
-        "decade, and, by bisection, of those from the last that it lets pass to the first "
+        "decade, and, by bisection to 5 % above it, of those from the last that it lets pass to "
+        "the first "
         "that it catches. What it catches between two decades alone is not found. Empty: at "
         "none that was tried.",
         {"", {{"expectation", result.expectations}}},

@@ -235,6 +235,27 @@ std::vector<std::string> cautions(const StudyResult& result) {
     return all;
 }
 
+/// Those of all values: each once, and of which values it is, where not of all.
+std::vector<std::string> cautions(const Sweep& sweep, const std::vector<StudyResult>& results) {
+    std::vector<std::pair<std::string, std::vector<std::string>>> values_of;
+    for (std::size_t i = 0; i < results.size(); ++i)
+        for (const auto& caution : cautions(results[i])) {
+            auto known =
+                std::ranges::find(values_of, caution, [](const auto& of) { return of.first; });
+            if (known == values_of.end())
+                known = values_of.insert(known, {caution, {}});
+            if (known->second.empty() || known->second.back() != sweep.values[i])
+                known->second.push_back(sweep.values[i]);
+        }
+    std::vector<std::string> all;
+    for (const auto& [caution, values] : values_of)
+        all.push_back(
+            values.size() == results.size()
+                ? caution
+                : fmt::format("{} = {}: {}", sweep.key, fmt::join(values, ", "), caution));
+    return all;
+}
+
 /// Why a row is not whole: "beam.alpha = 1e3: the reason"; nothing where all are.
 std::vector<std::string> troubles(const Sweep& sweep, const std::vector<StudyResult>& results) {
     std::vector<std::string> all;
@@ -358,11 +379,8 @@ Reported reported(const Sweep& sweep, const std::vector<StudyResult>& results) {
     if (has_defect(results))
         all.document.title = std::string(defect_words) + ": " + all.document.title;
     all.document.head = {sweep.key + " = " + values_text(sweep.values)};
-    for (const auto& result : results)
-        for (const auto& caution : cautions(result))
-            if (std::find(all.document.head.begin(), all.document.head.end(), caution) ==
-                all.document.head.end())
-                all.document.head.push_back(caution);
+    for (auto& caution : cautions(sweep, results))
+        all.document.head.push_back(std::move(caution));
     if (!results.empty())
         all.document.sections.push_back({"Sweep", {table_of(sweep, results)}});
     for (const auto& trouble : troubles(sweep, results))

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <ranges>
 #include <vector>
 
 namespace tvbeam {
@@ -23,7 +24,13 @@ bool is_name(std::string_view text) {
 Place place_in(const Template& whole, std::size_t offset) {
     if (!whole.is_file)
         return whole.place;
-    const auto before = std::string_view(whole.text).substr(0, offset);
+    for (const auto& [begin, written_begin] : whole.pieces | std::views::reverse)
+        if (begin <= offset) {
+            offset += written_begin - begin;
+            break;
+        }
+    const auto before =
+        std::string_view(whole.pieces.empty() ? whole.text : whole.written).substr(0, offset);
     const auto line_start = before.rfind('\n');
     return {
         whole.place.file, 1 + static_cast<int>(std::count(before.begin(), before.end(), '\n')),

@@ -6,6 +6,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace tvbeam {
 
@@ -22,12 +23,20 @@ struct Template {
     Place place;
     bool is_file = false; ///< places count lines; in a word all is at `place`
 
+    /// Of a text in which something was filled in: as it was written, and where each piece of that
+    /// begins in `text`, and in it.
+    struct Piece {
+        std::size_t begin, written_begin;
+    };
+    std::string written = {};
+    std::vector<Piece> pieces = {};
+
     /// The text with all placeholders filled in. Throws InputError for a name that is not there, or
     /// has nothing to stand for.
     [[nodiscard]] std::string filled(const Placeholders& values) const;
 };
 
-/// Where a character of a template stands.
+/// Where a character of a template stands: in a file, in what was written there.
 Place place_in(const Template& whole, std::size_t offset);
 
 } // namespace tvbeam

@@ -85,13 +85,16 @@ public:
     bool end_array() override { return --depth_ >= 0; }
     bool parse_error(std::size_t /*at*/, const std::string& /*token*/,
                      const nlohmann::json::exception& error) override {
-        failure_ = error.what();
+        constexpr int number_overflow = 406;
+        failure_ = (error.id == number_overflow ? "it holds a number beyond the range of doubles: "
+                                                : "it is not JSON: ") +
+                   std::string(error.what());
         return false;
     }
 
     [[nodiscard]] ReadFigure figure() const {
         if (!failure_.empty())
-            return {{}, "it is not JSON: " + failure_};
+            return {{}, failure_};
         if (!is_object_)
             return {{}, "it is not an object, as {\"" + name_ + "\": 1.2e-3}"};
         if (times_ == 0)
@@ -123,7 +126,7 @@ private:
     bool deeper(const std::string& text) {
         seen(text);
         if (depth_++ > deepest_json)
-            failure_ = "it is nested too deep";
+            failure_ = "it is not JSON: it is nested too deep";
         return failure_.empty();
     }
 

@@ -78,6 +78,7 @@ std::string SolutionFormulas::text_of(const std::string& name, const Place& plac
 Template SolutionFormulas::filled(const Template& original) {
     Template result = original;
     result.text.clear();
+    result.written = original.text;
     const std::string& text = original.text;
     for (std::size_t at = 0; at < text.size();) {
         const std::size_t brace = text.find('{', at);
@@ -96,6 +97,7 @@ Template SolutionFormulas::filled(const Template& original) {
         result.text += text_of(name, place_in(original, brace));
         used_ = true;
         at = end + 1;
+        result.pieces.push_back({result.text.size(), at});
     }
     return result;
 }

@@ -117,7 +117,7 @@ StudiedSolver beam_runs(const Scene& scene, const ProblemData& data, const Probl
     };
     const auto rounding = [&scene, &data](const Series& series, const std::vector<RungResult>& runs,
                                           const std::vector<RungResult>& refined, std::size_t k) {
-        return rounding_errors(scene.beam, data, series, runs, refined, k);
+        return rounding_errors(scene, data, series, runs, refined, k);
     };
     return {.run = run,
             .reference = scene.reference,

@@ -5,7 +5,10 @@
 #include "core/round_off.hpp"
 #include "core/space/linear_elements.hpp"
 #include "core/worse.hpp"
+#include "mms/expected_orders.hpp"
+#include "mms/text/input_error.hpp"
 #include "studies/runs/beam_runs.hpp"
+#include "studies/scene/scene.hpp"
 
 #include <fmt/format.h>
 
@@ -99,6 +102,31 @@ Scale scale_of(const Beam& beam, const ProblemData& data, const Norm& norm, doub
     return {sources, fmt::format("of a solution of 0 with sources of {:.2g}", sources)};
 }
 
+/// Whether theory has no error of that norm, neither in h nor in Δt; nothing: it does not say.
+std::optional<bool> exact_in_theory(const Scene& scene, const Series& series, const Norm& norm) {
+    const auto* solution = std::get_if<Solution>(&scene.problem);
+    if (solution == nullptr)
+        return std::nullopt;
+    const std::string& scheme = scheme_of(series.method).time.name;
+    try {
+        const auto expected = expected_orders(*solution, scene.beam, series.final_time);
+        for (const ExpectedOrder& row : expected.orders) {
+            if (row.norm != norm.name)
+                continue;
+            const Forecast& in_dt = scheme == "euler"  ? row.euler
+                                    : scheme == "bdf2" ? row.bdf2
+                                                       : row.sdirk2;
+            if (row.in_h.is_known() || in_dt.is_known() || expected.law_distance > 0.0)
+                return false;
+            if (!row.in_h.has_error() && !in_dt.has_error())
+                return true;
+        }
+    } catch (const InputError&) {
+        // A final time, or a place of the formulas, that theory says nothing of.
+    }
+    return std::nullopt;
+}
+
 } // namespace
 
 std::string round_off_remark(const Beam& beam, const ProblemData& data, const Series& series,
@@ -125,7 +153,7 @@ std::string round_off_remark(const Beam& beam, const ProblemData& data, const Se
     return {};
 }
 
-std::optional<RoundingErrors> rounding_errors(const Beam& beam, const ProblemData& data,
+std::optional<RoundingErrors> rounding_errors(const Scene& scene, const ProblemData& data,
                                               const Series& series,
                                               const std::vector<RungResult>& runs,
                                               const std::vector<RungResult>& refined,
@@ -134,7 +162,7 @@ std::optional<RoundingErrors> rounding_errors(const Beam& beam, const ProblemDat
     const auto norm = Norm::named(measure.root());
     if (!data.exact || !norm)
         return std::nullopt;
-    const auto [size, words] = scale_of(beam, data, *norm, series.final_time);
+    const auto [size, words] = scale_of(scene.beam, data, *norm, series.final_time);
     double greatest = 0.0;
     double most = 0.0;
     bool is_below = true;
@@ -148,6 +176,19 @@ std::optional<RoundingErrors> rounding_errors(const Beam& beam, const ProblemDat
             greatest = worse(greatest, error);
             most = std::max(most, below);
         }
+    if (!(greatest > 0.0 && is_below))
+        return std::nullopt;
+    const auto said = [&](const std::string& what, const std::string& follows, bool is_certain) {
+        return RoundingErrors{
+            measure.squared ? most * most : most,
+            fmt::format("{}, {:.2g} at most {}{}", what, greatest, words, follows),
+            is_certain ? "its error is rounding" : "its error may be rounding"};
+    };
+    const auto is_exact = exact_in_theory(scene, series, *norm);
+    if (is_exact && *is_exact)
+        return said("every error is rounding",
+                    ": the scheme is exact for the solution, which tests nothing of its order",
+                    true);
     // What converges is no rounding, however small: of an end temperature of 1e10 the rest is.
     std::vector<double> errors;
     for (const auto& run : refined)
@@ -158,19 +199,16 @@ std::optional<RoundingErrors> rounding_errors(const Beam& beam, const ProblemDat
                                   return !(fine <= falls * coarse);
                               }) == errors.end();
     constexpr std::size_t told = 3; // two fall by chance
-    if ((may_converge && errors.size() >= told) || !(greatest > 0.0 && is_below))
+    if (may_converge && errors.size() >= told)
         return std::nullopt;
-    return RoundingErrors{
-        measure.squared ? most * most : most,
-        fmt::format("{}, {:.2g} at most {}: {}",
-                    may_converge ? "no error is larger than rounding may be"
-                                 : "every error is rounding",
-                    greatest, words,
-                    may_converge ? "three levels that refine both h and dt would tell whether the "
-                                   "scheme is exact for the solution"
-                                 : "as far as they show, the scheme is exact for the solution, "
-                                   "which tests nothing of its order"),
-        may_converge ? "its error may be rounding" : "its error is rounding"};
+    return said("no error is larger than rounding may be",
+                is_exact ? ", though the scheme is not exact for the solution: an order that they "
+                           "show may be that of rounding"
+                : may_converge ? ": three levels that refine both h and dt would tell whether the "
+                                 "scheme is exact for the solution"
+                               : ", and they do not fall: as far as they show, the scheme is exact "
+                                 "for the solution, which tests nothing of its order",
+                false);
 }
 
 } // namespace tvbeam

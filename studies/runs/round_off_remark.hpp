@@ -11,6 +11,8 @@
 
 namespace tvbeam {
 
+struct Scene;
+
 /// A sentence where ten times the Hermite form's predicted round-off (core/round_off.hpp), the
 /// factor within which the prediction holds, exceeds half of an error in the curvature; empty where
 /// it does not, where no exact solution says how large the curvature is, and for the direct
@@ -20,10 +22,11 @@ std::string round_off_remark(const Beam& beam, const ProblemData& data, const Se
 
 /// Where every error is below 16 ε of the norm of the exact solution, or of what that
 /// comes from (α u_xx beside θ, α θ beside u, u_xx beside σ; the sources where all of that is
-/// zero), not all are 0 and they do not fall from one to the next of `refined`, the runs that
-/// refine every width: the scheme is exact for it. None otherwise, and where no exact solution is
+/// zero) and not all are 0: that they are rounding, where theory has no error of that norm
+/// (mms/expected_orders.hpp); else that they may be, where they do not fall from one to the next of
+/// `refined`, the runs that refine every width. None otherwise, and where no exact solution is
 /// known.
-std::optional<RoundingErrors> rounding_errors(const Beam& beam, const ProblemData& data,
+std::optional<RoundingErrors> rounding_errors(const Scene& scene, const ProblemData& data,
                                               const Series& series,
                                               const std::vector<RungResult>& runs,
                                               const std::vector<RungResult>& refined,

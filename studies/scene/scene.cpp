@@ -350,11 +350,18 @@ Scene read_scene(const std::string& name_or_file, const std::vector<std::string>
     TomlDocument document = read_toml(path.string());
     require_scene(document);
     require_known_keys(document, scene_keys());
+    // A key of the short form is given to it before it replaces any.
+    std::vector<std::string> of_short;
+    std::vector<std::string> others;
+    for (const auto& assignment : overrides)
+        (assignment.starts_with("short.") || assignment.starts_with("short=") ? of_short : others)
+            .push_back(assignment);
+    override_keys(document, of_short);
     const auto names_runs_in_short =
         reading.short_form ? naming_runs_in_short(document) : std::set<std::string>();
     if (reading.short_form)
         merge_block(document, "short");
-    override_keys(document, overrides);
+    override_keys(document, others);
     if (reading.variant) {
         take_away_expectations(document);
         override_keys(document, *reading.variant);

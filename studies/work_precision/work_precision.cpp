@@ -22,7 +22,8 @@ constexpr double enough_seconds = 0.5;
 constexpr int least_runs = 5;
 /// Of a core, for times that can be compared.
 constexpr double least_share = 0.9;
-constexpr int first_decade = 2; // 1e-2
+constexpr int first_decade = 2; // 1e-2, or one that is above it and below errors of every scheme
+constexpr int least_decade = -12;
 constexpr int last_decade = 9;
 
 std::string study_of(const TimedScheme& scheme) {
@@ -182,8 +183,26 @@ double smallest_error(const std::vector<std::vector<TimedError>>& schemes) {
     return smallest;
 }
 
+/// The decade of the largest power of ten that every scheme has an error above.
+int first_decade_of(const std::vector<std::vector<TimedError>>& schemes) {
+    double common = std::numeric_limits<double>::infinity();
+    for (const auto& rows : schemes) {
+        double largest = 0.0;
+        for (const auto& row : rows)
+            if (std::isfinite(row.error))
+                largest = std::max(largest, row.error);
+        common = std::min(common, largest);
+    }
+    return common > 0.0 && std::isfinite(common)
+               ? std::clamp(-static_cast<int>(std::floor(std::log10(common))), least_decade,
+                            first_decade)
+               : first_decade;
+}
+
 /// The errors at which schemes are compared, from large to small.
-std::vector<ReachedError> errors_to_reach(double smallest, const std::vector<double>& targets) {
+std::vector<ReachedError> errors_to_reach(const std::vector<std::vector<TimedError>>& schemes,
+                                          const std::vector<double>& targets) {
+    const double smallest = smallest_error(schemes);
     std::vector<ReachedError> errors;
     const auto add = [&](double error, bool target) {
         const auto same = std::find_if(errors.begin(), errors.end(),
@@ -193,7 +212,7 @@ std::vector<ReachedError> errors_to_reach(double smallest, const std::vector<dou
         else
             same->target = same->target || target;
     };
-    for (int decade = first_decade;; ++decade) {
+    for (int decade = first_decade_of(schemes);; ++decade) {
         const double error = std::pow(10.0, -decade);
         if (decade > last_decade && !(error >= smallest))
             break;
@@ -298,9 +317,8 @@ std::vector<NormCosts> costs_of(const WorkPrecisionBlock& block,
                 add_standing_clocks(costs.remarks, block.schemes[scheme], schemes[scheme]);
         }
         const auto targets = block.targets.find(costs.norm.name);
-        costs.errors = errors_to_reach(smallest_error(ladders), targets == block.targets.end()
-                                                                    ? std::vector<double>{}
-                                                                    : targets->second);
+        costs.errors = errors_to_reach(
+            ladders, targets == block.targets.end() ? std::vector<double>{} : targets->second);
         for (auto& reached : costs.errors) {
             for (const auto& rows : ladders)
                 reached.times.push_back(time_to_reach(rows, reached.error));

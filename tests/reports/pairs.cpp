@@ -96,7 +96,7 @@ const std::vector<Part> parts{
     {"sdirk2", {"scheme.time=sdirk2"}},
     {"lumped", {"scheme.thermal_mass=lumped"}},
     {"nodal", {"scheme.basis=nodal"}, {}, {"fixed point"}},
-    {"short", {"short={ladder={elements=[2, 4]}, orders={dt=[0.1, 0.05]}}"}},
+    {"short", {"short={beam={zeta=0.2}}"}},
     {"expect of a ladder",
      {"expect.ladder={theta_L2L2={orders=[0.1, 9], predicted=[0.1, 9]}}"},
      {"ladder", "printed"}},

@@ -138,6 +138,22 @@ BOOST_AUTO_TEST_CASE(the_axis_of_h_says_what_becomes_of_the_step) {
     BOOST_TEST(has(script_of(convergence_plots(in_time).at(0)), "time step Δt   (h = 1/8)"));
 }
 
+BOOST_AUTO_TEST_CASE(a_sweep_says_of_which_values_a_caution_is) {
+    const Sweep sweep{"ladder.final_time", {"0.1", "0.2"}, {}};
+    std::vector<StudyResult> results;
+    for (const auto& value : sweep.values) {
+        results.push_back(
+            run_study(read_scene("table1", {"expect={}", "ladder.elements=[4]", "ladder.dt=[0.05]",
+                                            "ladder.printed={}", sweep.key + "=" + value})));
+        results.back().remarks = {"Of both."};
+    }
+    results.back().remarks.emplace_back("Of one.");
+    const auto head = reported(sweep, results).document.head;
+    BOOST_TEST(std::ranges::count(head, "Of both.") == 1);
+    BOOST_TEST(std::ranges::count(head, "ladder.final_time = 0.2: Of one.") == 1);
+    BOOST_TEST(std::ranges::count(head, "Of one.") == 0);
+}
+
 // Of errors those of the finest level, of a study without errors its figures; values that are far
 // apart stand on a logarithmic axis.
 BOOST_AUTO_TEST_CASE(a_sweep_s_figure_has_the_last_errors_over_the_values) {

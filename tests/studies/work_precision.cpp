@@ -334,6 +334,20 @@ BOOST_AUTO_TEST_CASE(errors_to_reach_are_powers_of_ten_and_the_targets_from_larg
         costs_of(block_for({made_up({1e-3}, 1.0)}), {made_up({1e-3}, 1.0)})[0].errors.size() == 8u);
 }
 
+// Powers of ten above 1e-2 where every scheme has an error above them: of errors of 3e4 and 20,
+// and of 500 and 2, at 100 the second is reached by the first scheme in 2 s and the other in 4 s.
+BOOST_AUTO_TEST_CASE(large_errors_are_compared_at_large_powers_of_ten) {
+    const std::vector<SchemeRuns> schemes{made_up({3e4, 20}, 1.0), made_up({500, 2}, 2.0)};
+    const auto errors = costs_of(block_for(schemes), schemes)[0].errors;
+    BOOST_TEST(errors.front().error == 100);
+    BOOST_REQUIRE(errors.front().comparisons.size() == 1U);
+    BOOST_TEST(errors.front().comparisons[0].faster == 0U);
+    BOOST_TEST(errors[1].error == 10);
+    BOOST_TEST(errors[1].comparisons.empty());
+    const std::vector<SchemeRuns> diverging{made_up({1e200, 1e300}, 1.0)};
+    BOOST_TEST(costs_of(block_for(diverging), diverging)[0].errors.front().error == 1e12);
+}
+
 BOOST_AUTO_TEST_CASE(every_two_schemes_that_reach_an_error_are_compared_there) {
     const std::vector<SchemeRuns> schemes{made_up({1e-1, 1e-3, 1e-5}, 4.0),
                                           made_up({1e-1, 1e-3, 1e-5}, 1.0),

@@ -53,7 +53,7 @@ int compare_command(const std::string& first, const std::string& second, double 
 Command add_compare(CLI::App& app) {
     auto* compare = app.add_subcommand(
         "compare", "Say what differs between two results, and by how much; exit 1 where something "
-                   "does. Run times are not compared.\n"
+                   "that was found does. Run times are not compared.\n"
                    "Example: tvbeam compare before/result.json after/result.json");
     struct Files {
         std::string first;
