@@ -42,6 +42,8 @@ const std::string orders =
     "norms = [\"theta_L2L2\"]\n"
     "[evolution]\nfinal_time = 0.5\nelements = 8\ndt = 0.01\nprobes = [\"u@1\"]\n";
 
+const std::string defective = orders + "[defect]\nheat_source = \"x*(1 - x)/10\"\n";
+
 const std::string solver =
     "title = \"a program\"\n[report]\nfiles = [\"json\", \"csv\"]\n"
     "[solver]\ncommand = [\"awk\", \"BEGIN { print 3/{elements}^2 + {dt} }\"]\n"
@@ -89,7 +91,8 @@ Called merge(const TemporaryDirectory& directory, const std::string& options = "
 } // namespace
 
 BOOST_DATA_TEST_CASE(a_merge_gives_what_one_run_gives_bit_for_bit,
-                     data::make({stress, orders, solver}) * data::make({1, 3, 7}), text, of) {
+                     data::make({stress, orders, defective, solver}) * data::make({1, 3, 7}), text,
+                     of) {
     const TemporaryDirectory directory;
     const std::string scene = directory.write("scene.toml", text);
     const Called whole = call(directory, "run " + scene + out(directory, "whole"));

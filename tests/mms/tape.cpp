@@ -70,6 +70,7 @@ const std::vector<std::string> formulas = {
     "tanh(5*(x-1/4-t/4)) + sin(pi*x*(1+t*(1-x)))",
     "exp(-pi^2*t)*cos(pi*x)^2*(1 - cos(pi*x))",
     "sinh(x)^2/cosh(x) + sinh(t)/cosh(t)^3",
+    "sinh(x)/cosh(t)",
 };
 
 } // namespace

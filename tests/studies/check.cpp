@@ -413,10 +413,9 @@ BOOST_AUTO_TEST_CASE(the_short_form_replaces_what_its_block_names_and_nothing_el
                    .elements == 7);
     // A key of the block itself, too; it changes nothing where the block is not read.
     const std::vector<std::string> of_short{"short.ladder.elements=[3,6]"};
-    BOOST_TEST(read_scene(file, of_short, {.short_form = true})
-                   .get<LadderBlock>()
-                   ->rungs[0]
-                   .elements == 3);
+    BOOST_TEST(
+        read_scene(file, of_short, {.short_form = true}).get<LadderBlock>()->rungs[0].elements ==
+        3);
     BOOST_TEST(read_scene(file, of_short).get<LadderBlock>()->rungs[0].elements == 10);
 }
 

@@ -12,7 +12,6 @@
 #include "studies/shards/work_group.hpp"
 #include "tests/studies/draw.hpp"
 #include "tests/temporary_directory.hpp"
-#include "tests/this_build.hpp"
 
 #include <Eigen/LU>
 
@@ -239,7 +238,7 @@ std::ostream& operator<<(std::ostream& stream, const Score& score) {
 // with TVBEAM_REFINED_GRIDS=80.
 BOOST_AUTO_TEST_CASE(of_made_up_solvers_what_is_known_holds_and_costs_little_more_than_it_must) {
     const char* wanted = std::getenv("TVBEAM_REFINED_GRIDS");
-    const int count = wanted ? std::atoi(wanted) : short_tests ? 12 : 24;
+    const int count = wanted ? std::atoi(wanted) : 24;
     const Score found = score(80, 80 + static_cast<std::uint64_t>(count));
     BOOST_TEST_MESSAGE(found);
     BOOST_TEST(found.known >= 4 * found.not_known, found);
