@@ -1,7 +1,6 @@
 #include "reports/document/text_table.hpp"
 
 #include <algorithm>
-#include <sstream>
 
 namespace tvbeam {
 
@@ -87,15 +86,22 @@ std::string text_table(const Table& table, std::size_t width) {
 }
 
 std::string wrapped(const std::string& text, std::size_t indent, std::size_t width) {
-    std::istringstream words(text);
+    constexpr const char* blanks = " \t\n";
     std::string result;
     std::string line;
-    for (std::string word; words >> word;) {
-        if (!line.empty() && shown(line) + 1 + shown(word) > width) {
+    for (std::size_t at = 0, begin = 0;
+         (begin = text.find_first_not_of(blanks, at)) != text.npos;) {
+        // What is quoted from elsewhere keeps its blanks.
+        std::string gap = text.substr(at, begin - at);
+        if (gap.find('\n') != gap.npos)
+            gap = " ";
+        at = std::min(text.find_first_of(blanks, begin), text.size());
+        const std::string word = text.substr(begin, at - begin);
+        if (!line.empty() && shown(line) + gap.size() + shown(word) > width) {
             result += line + "\n";
             line = std::string(indent, ' ') + word;
         } else {
-            line += (line.empty() ? "" : " ") + word;
+            line += (line.empty() ? "" : gap) + word;
         }
     }
     return line.empty() ? result : result + line + "\n";

@@ -15,7 +15,8 @@ std::vector<Table> parts_of(const Table& table, std::size_t width);
 /// with blanks at its end.
 std::string text_table(const Table& table, std::size_t width = 80);
 
-/// Breaks text at blanks into lines of at most `width` characters, the later ones indented.
+/// Breaks text at blanks into lines of at most `width` characters, the later ones indented; blanks
+/// within a line stay as many as they are.
 std::string wrapped(const std::string& text, std::size_t indent = 2, std::size_t width = 80);
 
 } // namespace tvbeam

@@ -102,6 +102,12 @@ BOOST_AUTO_TEST_CASE(a_written_number_has_its_parts) {
             BOOST_TEST(written_number(text).has_value(), text);
 }
 
+BOOST_AUTO_TEST_CASE(wrapped_text_keeps_the_blanks_within_a_line) {
+    BOOST_TEST(wrapped("  it wrote: L2 =  1\nx", 2, 80) == "it wrote: L2 =  1 x\n");
+    BOOST_TEST(wrapped("one  two", 2, 7) == "one\n  two\n");
+    BOOST_TEST(wrapped("one  two", 2, 8) == "one  two\n");
+}
+
 BOOST_AUTO_TEST_CASE(what_is_rounded_to_zero_has_no_sign) {
     BOOST_TEST(fixed(-0.004, 2) == "0.00");
     BOOST_TEST(fixed(-0.0, 1) == "0.0");
