@@ -1,7 +1,10 @@
 // What the orders of a ladder mean, in words: a reason is given only where the orders show it.
 
 #include "studies/ladder/order_remarks.hpp"
+#include "core/norms/norms.hpp"
 #include "studies/runs/beam_runs.hpp"
+#include "studies/runs/round_off_remark.hpp"
+#include "studies/scene/scene.hpp"
 
 #include <boost/test/data/monomorphic.hpp>
 #include <boost/test/data/test_case.hpp>
@@ -193,6 +196,43 @@ BOOST_AUTO_TEST_CASE(an_error_that_is_zero_between_others_is_said) {
     BOOST_TEST(said({16.0, 4.0, 0.0, 0.25, 0.0625}));
     BOOST_TEST(!said({16.0, 4.0, 0.0, 0.0}));
     BOOST_TEST(!said({16.0, 4.0, 1.0, 0.25}));
+}
+
+namespace {
+
+/// What is said of these errors, of one level after the other, in a norm of θ; empty: nothing.
+std::string said_of_rounding(const std::string& shipped, const std::vector<double>& errors) {
+    const Scene scene = read_scene(shipped);
+    const ProblemData problem = problem_of(scene, 1.0);
+    Series series{
+        "ladder", 1.0, method_of(scene.scheme), {measure_of(*Norm::named("theta_L2L2"))}, {}};
+    std::vector<RungResult> runs;
+    std::int64_t s = 8;
+    for (const double error : errors) {
+        const Rung rung{s, s, 1.0 / static_cast<double>(s)};
+        series.rungs.push_back(rung);
+        runs.push_back({.rung = rung, .errors = {error}});
+        s *= 2;
+    }
+    const auto found = rounding_errors(scene, problem, series, runs, runs, 0);
+    return found ? found->sentence : "";
+}
+
+} // namespace
+
+// Theory says of nothing-heated that the scheme is exact for it, of table1 that it is not: there
+// what falls by its order is an error of the scheme, however small.
+BOOST_AUTO_TEST_CASE(whether_small_errors_are_rounding_is_for_theory_to_say) {
+    const std::vector<double> falling{4e-18, 2e-18, 1e-18, 5e-19};
+    const std::vector<double> standing{4e-18, 2e-18, 3e-18, 2e-18};
+    for (const auto& errors : {falling, standing})
+        BOOST_TEST(
+            said_of_rounding("nothing-heated", errors).starts_with("every error is rounding"));
+    BOOST_TEST(said_of_rounding("table1", falling).empty());
+    BOOST_TEST(said_of_rounding("table1", standing).find("though the scheme is not exact") !=
+               std::string::npos);
+    for (const std::string scene : {"nothing-heated", "table1"})
+        BOOST_TEST(said_of_rounding(scene, {1e-3, 5e-4, 2.5e-4}).empty());
 }
 
 BOOST_AUTO_TEST_SUITE_END()
