@@ -6,6 +6,8 @@
 #include "mms/expression/shortened.hpp"
 #include "mms/text/number_text.hpp"
 
+#include <fmt/format.h>
+
 #include <map>
 #include <optional>
 #include <set>
@@ -71,8 +73,9 @@ std::map<std::string, std::string> latex_names(const DerivedSystem& derived) {
             const std::string by = name.substr(field->unknown.size() + 1);
             const std::string unknown = formula_latex(GiNaC::realsymbol(field->unknown));
             const bool has_subscript = unknown.ends_with('}') && unknown.find("_{") != unknown.npos;
-            names[name] = has_subscript ? unknown.substr(0, unknown.size() - 1) + "," + by + "}"
-                                        : unknown + "_{" + by + "}";
+            names[name] = has_subscript
+                              ? fmt::format("{},{}}}", unknown.substr(0, unknown.size() - 1), by)
+                              : fmt::format("{}_{{{}}}", unknown, by);
         }
     return names;
 }

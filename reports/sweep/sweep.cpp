@@ -248,6 +248,7 @@ std::vector<std::string> cautions(const Sweep& sweep, const std::vector<StudyRes
                 known->second.push_back(sweep.values[i]);
         }
     std::vector<std::string> all;
+    all.reserve(values_of.size());
     for (const auto& [caution, values] : values_of)
         all.push_back(
             values.size() == results.size()

@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <ranges>
 #include <vector>
 
 namespace tvbeam {
@@ -24,18 +23,17 @@ bool is_name(std::string_view text) {
 Place place_in(const Template& whole, std::size_t offset) {
     if (!whole.is_file)
         return whole.place;
-    for (const auto& [begin, written_begin] : whole.pieces | std::views::reverse)
-        if (begin <= offset) {
-            offset += written_begin - begin;
-            break;
-        }
+    std::size_t written = offset;
+    for (const auto& [begin, written_begin] : whole.pieces)
+        if (begin <= offset)
+            written = written_begin + (offset - begin);
     const auto before =
-        std::string_view(whole.pieces.empty() ? whole.text : whole.written).substr(0, offset);
+        std::string_view(whole.pieces.empty() ? whole.text : whole.written).substr(0, written);
     const auto line_start = before.rfind('\n');
-    return {
-        whole.place.file, 1 + static_cast<int>(std::count(before.begin(), before.end(), '\n')),
-        static_cast<int>(line_start == std::string_view::npos ? offset : offset - line_start - 1) +
-            1};
+    return {whole.place.file, 1 + static_cast<int>(std::count(before.begin(), before.end(), '\n')),
+            static_cast<int>(line_start == std::string_view::npos ? written
+                                                                  : written - line_start - 1) +
+                1};
 }
 
 std::string Template::filled(const Placeholders& values) const {

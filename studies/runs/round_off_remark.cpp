@@ -162,7 +162,7 @@ std::optional<RoundingErrors> rounding_errors(const Scene& scene, const ProblemD
     const auto norm = Norm::named(measure.root());
     if (!data.exact || !norm)
         return std::nullopt;
-    const auto [size, words] = scale_of(scene.beam, data, *norm, series.final_time);
+    const Scale scale = scale_of(scene.beam, data, *norm, series.final_time);
     double greatest = 0.0;
     double most = 0.0;
     bool is_below = true;
@@ -171,7 +171,7 @@ std::optional<RoundingErrors> rounding_errors(const Scene& scene, const ProblemD
         if (!run.errors.empty()) {
             const double error = measure.root_of(run.errors[k]);
             const auto elements = static_cast<double>(run.rung.elements);
-            const double below = round_off * size * std::max(1.0, elements / elements_of_it);
+            const double below = round_off * scale.size * std::max(1.0, elements / elements_of_it);
             is_below = is_below && error <= below;
             greatest = worse(greatest, error);
             most = std::max(most, below);
@@ -181,7 +181,7 @@ std::optional<RoundingErrors> rounding_errors(const Scene& scene, const ProblemD
     const auto said = [&](const std::string& what, const std::string& follows, bool is_certain) {
         return RoundingErrors{
             measure.squared ? most * most : most,
-            fmt::format("{}, {:.2g} at most {}{}", what, greatest, words, follows),
+            fmt::format("{}, {:.2g} at most {}{}", what, greatest, scale.words, follows),
             is_certain ? "its error is rounding" : "its error may be rounding"};
     };
     const auto is_exact = exact_in_theory(scene, series, *norm);

@@ -29,7 +29,7 @@ std::string without_filling(std::string text) {
 std::string scientific_shortest(double value) {
     constexpr int most = 16;
     for (int decimals = 0; decimals < most; ++decimals)
-        if (const std::string text = scientific(value, decimals); number_in(text) == value)
+        if (std::string text = scientific(value, decimals); number_in(text) == value)
             return text;
     return scientific(value, most);
 }
@@ -110,7 +110,7 @@ std::string significant(double value, int digits) {
 std::string fixed(std::optional<double> value, int decimals) {
     if (!value)
         return {};
-    const std::string text = fmt::format("{:.{}f}", *value, decimals);
+    std::string text = fmt::format("{:.{}f}", *value, decimals);
     return number_in(text) == 0.0 ? fmt::format("{:.{}f}", 0.0, decimals) : text; // no "-0.00"
 }
 
