@@ -73,9 +73,12 @@ std::map<std::string, std::string> latex_names(const DerivedSystem& derived) {
             const std::string by = name.substr(field->unknown.size() + 1);
             const std::string unknown = formula_latex(GiNaC::realsymbol(field->unknown));
             const bool has_subscript = unknown.ends_with('}') && unknown.find("_{") != unknown.npos;
-            names[name] = has_subscript
-                              ? fmt::format("{},{}}}", unknown.substr(0, unknown.size() - 1), by)
-                              : fmt::format("{}_{{{}}}", unknown, by);
+            if (has_subscript)
+                names[name] = fmt::format("{},{}}}", unknown.substr(0, unknown.size() - 1), by);
+            else if (unknown.find('_') == unknown.npos)
+                names[name] = fmt::format("{}_{{{}}}", unknown, by);
+            else // a name may have no two subscripts
+                names[name] = fmt::format("{{{}}}_{{{}}}", unknown, by);
         }
     return names;
 }

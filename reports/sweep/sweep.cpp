@@ -235,28 +235,6 @@ std::vector<std::string> cautions(const StudyResult& result) {
     return all;
 }
 
-/// Those of all values: each once, and of which values it is, where not of all.
-std::vector<std::string> cautions(const Sweep& sweep, const std::vector<StudyResult>& results) {
-    std::vector<std::pair<std::string, std::vector<std::string>>> values_of;
-    for (std::size_t i = 0; i < results.size(); ++i)
-        for (const auto& caution : cautions(results[i])) {
-            auto known =
-                std::ranges::find(values_of, caution, [](const auto& of) { return of.first; });
-            if (known == values_of.end())
-                known = values_of.insert(known, {caution, {}});
-            if (known->second.empty() || known->second.back() != sweep.values[i])
-                known->second.push_back(sweep.values[i]);
-        }
-    std::vector<std::string> all;
-    all.reserve(values_of.size());
-    for (const auto& [caution, values] : values_of)
-        all.push_back(
-            values.size() == results.size()
-                ? caution
-                : fmt::format("{} = {}: {}", sweep.key, fmt::join(values, ", "), caution));
-    return all;
-}
-
 /// Why a row is not whole: "beam.alpha = 1e3: the reason"; nothing where all are.
 std::vector<std::string> troubles(const Sweep& sweep, const std::vector<StudyResult>& results) {
     std::vector<std::string> all;
@@ -301,6 +279,27 @@ std::string values_text(const std::vector<std::string>& values) {
     return values.size() <= most ? fmt::format("{}", fmt::join(values, ", "))
                                  : fmt::format("{}, {}, … {} ({} values)", values[0], values[1],
                                                values.back(), values.size());
+}
+
+/// Those of all values: each once, and of which values it is, where not of all.
+std::vector<std::string> cautions(const Sweep& sweep, const std::vector<StudyResult>& results) {
+    std::vector<std::pair<std::string, std::vector<std::string>>> values_of;
+    for (std::size_t i = 0; i < results.size(); ++i)
+        for (const auto& caution : cautions(results[i])) {
+            auto known =
+                std::ranges::find(values_of, caution, [](const auto& of) { return of.first; });
+            if (known == values_of.end())
+                known = values_of.insert(known, {caution, {}});
+            if (known->second.empty() || known->second.back() != sweep.values[i])
+                known->second.push_back(sweep.values[i]);
+        }
+    std::vector<std::string> all;
+    all.reserve(values_of.size());
+    for (const auto& [caution, values] : values_of)
+        all.push_back(values.size() == results.size()
+                          ? caution
+                          : fmt::format("{} = {}: {}", sweep.key, values_text(values), caution));
+    return all;
 }
 
 } // namespace
