@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <exception>
 #include <filesystem>
 #include <string_view>
 
@@ -45,30 +46,45 @@ std::string build_id(const char* notes, std::size_t size, std::size_t alignment)
 
 using Ids = std::vector<std::pair<std::string, std::string>>;
 
-int visit(dl_phdr_info* object, std::size_t /*size*/, void* result) {
-    auto& ids = *static_cast<Ids*>(result);
+void add_object(const dl_phdr_info* object, Ids& ids) {
     // The program comes first, and without a name.
     const std::string name =
         ids.empty() ? "tvbeam" : std::filesystem::path(object->dlpi_name).filename().string();
     if (!ids.empty() && std::none_of(counted.begin(), counted.end(), [&](std::string_view library) {
             return name.starts_with(library);
         }))
-        return 0;
+        return;
     std::string id;
     for (int i = 0; i < object->dlpi_phnum && id.empty(); ++i)
         if (const auto& segment = object->dlpi_phdr[i]; segment.p_type == PT_NOTE)
             id = build_id(reinterpret_cast<const char*>(object->dlpi_addr + segment.p_vaddr),
                           segment.p_memsz, std::max<std::size_t>(segment.p_align, 4));
     ids.emplace_back(name, id.empty() ? "unknown" : id);
-    return 0;
+}
+
+struct Found {
+    Ids ids;
+    std::exception_ptr failure; ///< no exception passes through the C library
+};
+
+int visit(dl_phdr_info* object, std::size_t /*size*/, void* result) {
+    auto& found = *static_cast<Found*>(result);
+    try {
+        add_object(object, found.ids);
+    } catch (...) {
+        found.failure = std::current_exception();
+    }
+    return found.failure ? 1 : 0;
 }
 
 } // namespace
 
 std::vector<std::pair<std::string, std::string>> build_ids() {
-    Ids ids;
-    dl_iterate_phdr(&visit, &ids);
-    return ids;
+    Found found;
+    dl_iterate_phdr(&visit, &found);
+    if (found.failure)
+        std::rethrow_exception(found.failure);
+    return found.ids;
 }
 
 } // namespace tvbeam

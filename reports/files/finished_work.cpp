@@ -126,7 +126,7 @@ void FinishedWork::read_head(const Json& head, const Place& place) const {
 }
 
 bool FinishedWork::is_made_again(const Where& where) const {
-    return where.failed && kept_ && scene_.solver;
+    return where.failed && kept_;
 }
 
 std::any FinishedWork::result_of(std::size_t group, std::size_t index, const Json& json) const {

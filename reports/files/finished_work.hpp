@@ -40,8 +40,8 @@ public:
     /// of the scene gives. Returns what of it is not whole.
     TornLines read(const std::filesystem::path& file);
 
-    /// Results from here on are appended to the file, and runs of an external program that failed
-    /// are made again: what it lacked may be there now. Throws OutputError where nothing can be
+    /// Results from here on are appended to the file, and runs that failed are made again: what
+    /// they lacked, memory or a program, may be there now. Throws OutputError where nothing can be
     /// written, InputError where it is no regular file.
     void keep_in(const std::filesystem::path& file);
 

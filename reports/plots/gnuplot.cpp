@@ -135,13 +135,21 @@ int status_of(pid_t process) {
 /// of the error that kept it from starting, or −1 where it failed.
 int run_gnuplot(const std::filesystem::path& directory, std::string script,
                 const std::string& said) {
+    int error = 0;
+    // Each step may lack memory; without one of them the files would be written elsewhere.
+    const auto unless_failed = [&error](auto step, auto... given) {
+        if (error == 0)
+            error = step(given...);
+    };
     posix_spawn_file_actions_t actions;
-    posix_spawn_file_actions_init(&actions);
-    posix_spawn_file_actions_addchdir_np(&actions, directory.c_str());
-    posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-    posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, said.c_str(),
-                                     O_WRONLY | O_CREAT | O_TRUNC, 0600);
-    posix_spawn_file_actions_adddup2(&actions, STDOUT_FILENO, STDERR_FILENO);
+    if ((error = posix_spawn_file_actions_init(&actions)) != 0)
+        return error;
+    unless_failed(posix_spawn_file_actions_addchdir_np, &actions, directory.c_str());
+    unless_failed(posix_spawn_file_actions_addopen, &actions, STDIN_FILENO, "/dev/null", O_RDONLY,
+                  mode_t{0});
+    unless_failed(posix_spawn_file_actions_addopen, &actions, STDOUT_FILENO, said.c_str(),
+                  O_WRONLY | O_CREAT | O_TRUNC, mode_t{0600});
+    unless_failed(posix_spawn_file_actions_adddup2, &actions, STDOUT_FILENO, STDERR_FILENO);
     std::string program = "gnuplot";
     std::string defaults = "-d"; // not what a file of the user's says
     const std::array<char*, 4> arguments{program.data(), defaults.data(), script.data(), nullptr};
@@ -150,8 +158,8 @@ int run_gnuplot(const std::filesystem::path& directory, std::string script,
     posix_spawnattr_init(&attributes);
     posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
     pid_t process = 0;
-    const int error =
-        posix_spawnp(&process, "gnuplot", &actions, &attributes, arguments.data(), environ);
+    unless_failed(posix_spawnp, &process, "gnuplot", &actions, &attributes, arguments.data(),
+                  environ);
     posix_spawnattr_destroy(&attributes);
     posix_spawn_file_actions_destroy(&actions);
     if (error != 0)

@@ -183,6 +183,23 @@ BOOST_AUTO_TEST_CASE(a_run_of_a_program_that_failed_is_made_again) {
     BOOST_TEST(rungs.at(1).at("errors").at("L2").get<double>() == 3.0 / 400.0);
 }
 
+BOOST_AUTO_TEST_CASE(a_shard_whose_run_failed_is_no_finished_one_when_it_is_started_again) {
+    const TemporaryDirectory directory;
+    const std::string scene = directory.write(
+        "scene.toml", "title = \"grows beyond doubles\"\nsolution = \"copetti-fernandez-2011\"\n"
+                      "[beam]\nalpha = 1e200\nzeta = 0.1\nstops = [-0.02, 0.1]\n"
+                      "[ladder]\nfinal_time = 0.5\nelements = [4, 8]\ndt = \"0.1/s\"\n"
+                      "norms = [\"theta_L2L2\"]\n");
+    const std::string shard = "run " + scene + out(directory, "parts") + " --shard 1/1";
+    for (int time = 0; time < 2; ++time) {
+        const Called failing = call(directory, shard);
+        BOOST_TEST(failing.exit == 3);
+        BOOST_TEST(has(failing.errors, "of the runs of shard 1/1 failed"), failing.errors);
+    }
+    BOOST_TEST(
+        has(merge(directory, " --status").output, "what failed is made again by\n  tvbeam run "));
+}
+
 // 1e6 elements in 1e7 steps are a day's work, which is one shard's.
 BOOST_AUTO_TEST_CASE(the_shard_that_takes_too_long_is_refused_and_no_other) {
     const TemporaryDirectory directory;

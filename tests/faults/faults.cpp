@@ -6,8 +6,8 @@
 //     program ends
 //
 // Instead of an error: SHORT, half of what was asked for is read or written; KILL, the program is
-// killed there. malloc stands for everything that reserves memory, and its error is no memory,
-// whichever is named.
+// killed there. spawn stands for each step that is asked of a program before it starts; malloc
+// stands for everything that reserves memory, and its error is no memory, whichever is named.
 
 #include <atomic>
 #include <cerrno>
@@ -41,11 +41,12 @@ enum Call {
     calls_read,
     calls_close,
     calls_fork,
+    calls_spawn,
     calls_malloc,
     calls
 };
-constexpr const char* names[calls] = {"write", "fsync", "rename", "open",
-                                      "read",  "close", "fork",   "malloc"};
+constexpr const char* names[calls] = {"write", "fsync", "rename", "open",  "read",
+                                      "close", "fork",  "spawn",  "malloc"};
 
 struct NamedError {
     const char* name;
@@ -212,6 +213,27 @@ int posix_spawnp(pid_t* process, const char* file, const posix_spawn_file_action
         return errno;
     return next<decltype(posix_spawnp)>("posix_spawnp")(process, file, actions, attributes,
                                                         arguments, environment);
+}
+
+int posix_spawn_file_actions_addchdir_np(posix_spawn_file_actions_t* actions,
+                                         const char* directory) {
+    return fails(calls_spawn) ? errno
+                              : next<decltype(posix_spawn_file_actions_addchdir_np)>(
+                                    "posix_spawn_file_actions_addchdir_np")(actions, directory);
+}
+
+int posix_spawn_file_actions_addopen(posix_spawn_file_actions_t* actions, int descriptor,
+                                     const char* path, int flags, mode_t mode) {
+    return fails(calls_spawn)
+               ? errno
+               : next<decltype(posix_spawn_file_actions_addopen)>(
+                     "posix_spawn_file_actions_addopen")(actions, descriptor, path, flags, mode);
+}
+
+int posix_spawn_file_actions_adddup2(posix_spawn_file_actions_t* actions, int from, int to) {
+    return fails(calls_spawn) ? errno
+                              : next<decltype(posix_spawn_file_actions_adddup2)>(
+                                    "posix_spawn_file_actions_adddup2")(actions, from, to);
 }
 
 void* malloc(size_t size) {

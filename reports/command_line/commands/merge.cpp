@@ -74,7 +74,7 @@ public:
         text += complete() ? "nothing is missing: tvbeam merge " + word(directory_) +
                                  rest_of(is_too_long(scene_, predicted_merge(scene_))) + "\n"
                            : "what is missing is made by\n  " + command(unfinished()) + "\n";
-        if (const auto numbers = with_failures(); scene_.solver && !numbers.empty())
+        if (const auto numbers = with_failures(); !numbers.empty())
             text += "what failed is made again by\n  " + command(numbers) + "\n";
         return text;
     }
