@@ -18,6 +18,25 @@ std::string order_text(const OrderInterval& order) {
                             : "not determined";
 }
 
+/// "0.17(3)" for 0.168 ± 0.025, "1.7(3)e-5": the last digit is known to ± what stands in brackets,
+/// rounded up. Nothing where the interval reaches to twice the size or to none.
+std::string size_text(double size, double uncertainty) {
+    if (!(uncertainty < 1))
+        return "";
+    const double half = size * uncertainty;
+    double digit = std::floor(std::log10(half));
+    double times = std::ceil(half / std::pow(10.0, digit));
+    if (times >= 10) {
+        times = 1;
+        ++digit;
+    }
+    const double leading = std::floor(std::log10(size));
+    if (leading >= -4 && leading <= 4 && digit <= 0)
+        return fmt::format("{:.{}f}({:.0f})", size, static_cast<int>(-digit), times);
+    return fmt::format("{:.{}f}({:.0f})e{:.0f}", size / std::pow(10.0, leading),
+                       static_cast<int>(leading - digit), times, leading);
+}
+
 /// So many that the interval shows two of its own.
 int digits_of(const OrderInterval& limit) {
     constexpr double most = 17.0;
@@ -99,13 +118,14 @@ Table fit_table(const std::vector<std::pair<std::string, const TwoTermFit*>>& fi
         p.cells.push_back(order_text(fit->p));
         q.cells.push_back(order_text(fit->q));
         // A size is one of h^p: without p it has no unit, and ρ is between two terms.
-        a.cells.push_back(in_space ? scientific(model.a, 3) : "");
-        b.cells.push_back(in_time ? scientific(model.b, 3) : "");
+        a.cells.push_back(in_space ? size_text(model.a, fit->a_uncertainty) : "");
+        b.cells.push_back(in_time ? size_text(model.b, fit->b_uncertainty) : "");
         rho.cells.push_back(in_space && in_time ? fixed(model.rho, 2) : "");
         rms.cells.push_back(scientific(fit->rms, 1));
         used.cells.push_back(fmt::format("{}/{}", fit->used.size(), records));
     }
-    return {fmt::format("Orders p in h and q in dt (±: 95 %), sizes a and b of the two terms, "
+    return {fmt::format("Orders p in h and q in dt and sizes a and b of the two terms (±, and "
+                        "the last digit in brackets: 95 %), "
                         "cosine rho of the angle between them, relative scatter rms, and how many "
                         "of the {} runs were used.",
                         records),

@@ -111,7 +111,12 @@ bool has_round_off(const std::string& row) {
 }
 
 /// How far from the first the second of two numbers of a table may be.
-double slack_in_cells(const PrintedNumber& first, const PrintedNumber& second, double part) {
+/// before: what stands in front of it.
+double slack_in_cells(const PrintedNumber& first, const PrintedNumber& second, double part,
+                      std::string_view before) {
+    // 0.17(3): of the digit before it, 1 to 9.
+    if (before.ends_with('(') && before.size() > 1 && std::isdigit(before[before.size() - 2]) != 0)
+        return 8.0;
     if (first.is_whole && second.is_whole)
         return 0.0;
     // 0.00 is what is less than a half of its last digit.
@@ -149,7 +154,7 @@ bool same_words(const std::string& before, const std::string& now, bool is_row) 
             continue;
         }
         const std::string_view text = before;
-        const double slack = is_row ? slack_in_cells(*first, *second, part)
+        const double slack = is_row ? slack_in_cells(*first, *second, part, text.substr(0, i))
                                     : slack_in_words(*first, *second, text.substr(0, i),
                                                      text.substr(i + first->length));
         if (!(std::abs(second->value - first->value) <= slack))
@@ -224,6 +229,8 @@ private:
         if (key == "order" || has(what, "orders.") || has(what, "order_defect"))
             if (!beside(what, "low") && !key.ends_with("uncertainty"))
                 return of_fits;
+        if (is_one_of(key, {"a_uncertainty", "b_uncertainty"})) // e^half - 1
+            return of_half_widths * (1.0 + size) * std::log1p(size);
         if (key.ends_with("uncertainty"))
             return of_half_widths * size;
         if (const auto low = beside(what, "low"))

@@ -56,6 +56,8 @@ Json json_of(const OrdersResult& orders, const OrdersBlock& block) {
                        {"q_determined", fit.q_determined()},
                        {"a", size(fit.p, model.a)},
                        {"b", size(fit.q, model.b)},
+                       {"a_uncertainty", size(fit.p, fit.a_uncertainty)},
+                       {"b_uncertainty", size(fit.q, fit.b_uncertainty)},
                        {"rho", size(fit.p_determined() ? fit.q : fit.p, model.rho)},
                        {"rho_se", size(fit.p_determined() ? fit.q : fit.p, fit.rho_se)},
                        {"rms", fit.rms},

@@ -472,23 +472,41 @@ bool OrderEnsemble::has_logarithm() const {
            others > std::max(far * (own->second.second - own->second.first), tuning_.narrowest);
 }
 
+OrderInterval OrderEnsemble::mix_logarithms(const Functional& logarithm) const {
+    OrderInterval result{.status = failure_};
+    if (const auto mixture = mix(logarithm)) {
+        result.value = std::exp(mixture->value);
+        result.low = std::exp(mixture->value - mixture->half);
+        result.high = std::exp(mixture->value + mixture->half);
+        result.determined = true;
+    }
+    return result;
+}
+
 OrderInterval OrderEnsemble::forecast(const std::vector<double>& widths,
                                       bool against_reference) const {
     const Eigen::VectorXd log_widths =
         Eigen::Map<const Eigen::ArrayXd>(widths.data(), static_cast<Index>(widths.size())).log();
-    OrderInterval result{.status = failure_};
-    const auto mixture = mix([&](const EnsembleMember& member) -> std::optional<FittedNumber> {
+    return mix_logarithms([&](const EnsembleMember& member) -> std::optional<FittedNumber> {
         if (member.along >= 0)
             return std::nullopt;
         return member.fit.log_error(log_widths, against_reference);
     });
-    if (!mixture)
-        return result;
-    result.value = std::exp(mixture->value);
-    result.low = std::exp(mixture->value - mixture->half);
-    result.high = std::exp(mixture->value + mixture->half);
-    result.determined = true;
-    return result;
+}
+
+OrderInterval OrderEnsemble::size(Index width, const OrderInterval& order) const {
+    OrderInterval size =
+        mix_logarithms([&](const EnsembleMember& member) -> std::optional<FittedNumber> {
+            if (member.along >= 0 ||
+                member.fit.shape.next[static_cast<std::size_t>(width)] == TermShape::logarithm)
+                return std::nullopt;
+            return member.fit.log_size(width);
+        });
+    const double finest = levels_[static_cast<std::size_t>(width)].back();
+    const double open = std::exp(order.half_width() * std::abs(finest));
+    size.low /= open;
+    size.high *= open;
+    return size;
 }
 
 std::vector<OrderInterval> estimate_orders(std::span<const ErrorRow> rows,

@@ -87,6 +87,10 @@ public:
     /// The error at other widths, with what the members say of it and of each other; against the
     /// exact solution, or against the reference.
     OrderInterval forecast(const std::vector<double>& widths, bool against_reference = false) const;
+    /// The size a of a width's leading term a x^p as x → 0, from members without a logarithm there:
+    /// its interval is that of their sizes, and as much wider as the order's interval leaves open
+    /// where the term is carried on from the finest level.
+    OrderInterval size(Eigen::Index width, const OrderInterval& order) const;
     /// The leading terms in the window whose orders are steadiest, of such the largest; null where
     /// there is none.
     const EnsembleMember* steadiest() const;
@@ -109,6 +113,8 @@ private:
     Numbers numbers_of(const Functional& number) const;
     int place_of(Eigen::Index width, double log_width) const;
     std::optional<Mixture> mix(const Functional& number) const;
+    /// Of a positive number, given its logarithms.
+    OrderInterval mix_logarithms(const Functional& logarithm) const;
     bool residuals_scatter() const;
     OrderMotion motion_of(Eigen::Index width) const;
     double greatest_share(Eigen::Index width) const;

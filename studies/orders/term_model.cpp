@@ -160,6 +160,13 @@ FittedNumber TermFit::order(Eigen::Index width) const {
     return {theta[2 * width + 1], std::sqrt(covariance(2 * width + 1, 2 * width + 1))};
 }
 
+FittedNumber TermFit::log_size(Eigen::Index width) const {
+    const Eigen::Index at = 2 * width; // of ln a, in units of the centre, and then p
+    const Eigen::Vector2d gradient(1, -log_centre[width]);
+    return {log_unit + gradient.dot(theta.segment<2>(at)),
+            std::sqrt(gradient.dot(covariance.block<2, 2>(at, at) * gradient))};
+}
+
 FittedNumber TermFit::correlation(Eigen::Index first, Eigen::Index second) const {
     const auto at = Layout(shape, log_centre.size()).pair(first, second);
     return {std::sin(theta[at]), std::abs(std::cos(theta[at])) * std::sqrt(covariance(at, at))};

@@ -76,7 +76,8 @@ struct TermFit {
     /// as far as the errors come from the residuals. Infinite without residuals and scatter.
     double student() const;
 
-    FittedNumber order(Eigen::Index width) const;                            ///< p_i
+    FittedNumber order(Eigen::Index width) const;    ///< p_i
+    FittedNumber log_size(Eigen::Index width) const; ///< ln of T_i / x^p_i where x → 0
     FittedNumber correlation(Eigen::Index first, Eigen::Index second) const; ///< ρ
     FittedNumber next(Eigen::Index width) const; ///< c_i; 0 without a next term
     /// c_i g_i there: the next term over the leading one; 0 without one, and for a constant.

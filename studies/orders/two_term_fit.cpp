@@ -217,16 +217,21 @@ TwoTermFit fit_two_term(std::span<const Refinement> records,
         sizes = moving->steadiest();
     const double least = fit.ensemble->tuning().least_share;
     const auto set = [&](Eigen::Index width, const OrderInterval& order, double& size,
-                         double& power, double& error) {
+                         double& power, double& error, double& uncertainty) {
         power = std::numeric_limits<double>::quiet_NaN();
         const auto place = fit.ensemble->place_among_moving(width);
         if (sizes == nullptr || !place)
             return;
         set_term(sizes->fit, *place, order, least, size, power);
         error = sizes->fit.order(*place).error;
+        const auto* moving = fit.ensemble->without_idle_widths();
+        const auto of = (moving == nullptr ? *fit.ensemble : *moving).size(*place, order);
+        uncertainty = std::max(of.high / size, size / of.low) - 1;
+        if (!std::isfinite(uncertainty))
+            uncertainty = std::numeric_limits<double>::infinity();
     };
-    set(0, fit.p, fit.model.a, fit.model.p, fit.p_se);
-    set(1, fit.q, fit.model.b, fit.model.q, fit.q_se);
+    set(0, fit.p, fit.model.a, fit.model.p, fit.p_se, fit.a_uncertainty);
+    set(1, fit.q, fit.model.b, fit.model.q, fit.q_se, fit.b_uncertainty);
     const auto rho = steadiest->fit.correlation(0, 1);
     fit.model.rho = fit.model.a > 0 && fit.model.b > 0 ? rho.value : 0;
     fit.rho_se = rho.error;

@@ -50,6 +50,10 @@ struct TwoTermFit {
     std::optional<OrderEnsemble> ensemble;
     OrderInterval p;
     OrderInterval q;
+    /// By what part of a and of b their 95 % intervals (OrderEnsemble::size) reach from them at
+    /// most; infinite where they are not determined.
+    double a_uncertainty = std::numeric_limits<double>::infinity();
+    double b_uncertainty = std::numeric_limits<double>::infinity();
 
     /// Standard errors of the one fit that the sizes come from; infinite where the records do not
     /// determine a value.

@@ -169,6 +169,48 @@ BOOST_AUTO_TEST_CASE(all_five_parameters_are_recovered) {
 }
 
 // |A − B|: the parametrisation ends at ρ = −1, and the orders are still known there.
+BOOST_AUTO_TEST_CASE(the_sizes_are_those_of_the_terms_within_the_parts_that_are_given) {
+    std::mt19937 generator(11);
+    const auto drawn = [&](double low, double high) {
+        return std::uniform_real_distribution(low, high)(generator);
+    };
+    int known = 0;
+    int missed = 0;
+    const auto judge = [&](bool is_determined, double size, double part, double truth) {
+        if (!is_determined || !(part < 1))
+            return;
+        ++known;
+        missed += size > truth * (1 + part) || truth > size * (1 + part) ? 1 : 0;
+    };
+    for (int table = 0; table < 24; ++table) {
+        const TwoTermModel model{.a = drawn(0.1, 10),
+                                 .p = drawn(1, 3),
+                                 .b = drawn(0.1, 10),
+                                 .q = drawn(1, 2),
+                                 .rho = drawn(-0.9, 0.9)};
+        const double next_in_h = drawn(-1.5, 2);
+        const double next_in_dt = drawn(-1.5, 2);
+        const auto fit = fit_two_term(grid([&](double h, double dt) {
+            const double in_h = model.spatial(h) * (1 + next_in_h * h);
+            const double in_dt = model.temporal(dt) * (1 + next_in_dt * dt);
+            return std::sqrt(in_h * in_h + 2 * model.rho * in_h * in_dt + in_dt * in_dt);
+        }));
+        judge(fit.p_determined(), fit.model.a, fit.a_uncertainty, model.a);
+        judge(fit.q_determined(), fit.model.b, fit.b_uncertainty, model.b);
+    }
+    BOOST_TEST(missed == 0);
+    BOOST_TEST(known >= 24);
+}
+
+// An order that is open by 0.1 leaves the size open by what that makes of the finest level.
+BOOST_AUTO_TEST_CASE(a_size_is_not_known_better_than_its_order) {
+    const auto fit = fit_two_term(
+        grid([](double h, double dt) { return 3 * h * h * (1 + 0.5 * std::sqrt(h)) + 0.5 * dt; }));
+    BOOST_TEST_REQUIRE(fit.p_determined());
+    BOOST_TEST(fit.a_uncertainty >= std::pow(160, fit.p_uncertainty()) - 1);
+    BOOST_TEST(std::abs(fit.model.a - 3) <= 3 * fit.a_uncertainty);
+}
+
 BOOST_AUTO_TEST_CASE(a_difference_of_numbers_is_fitted_at_the_bound) {
     const TwoTermModel truth{.a = 3.5, .p = 2, .b = 0.613, .q = 1, .rho = -1};
     const auto fit = fit_two_term(grid([&](double h, double dt) { return truth.error(h, dt); }));

@@ -1,5 +1,6 @@
 // In files a figure stands under its own name: made-up ones, no two alike, are found there again.
 
+#include "reports/document/orders_section.hpp"
 #include "reports/studies/study_report.hpp"
 #include "studies/grid/grid.hpp"
 #include "studies/ladder/ladder.hpp"
@@ -91,6 +92,8 @@ BOOST_AUTO_TEST_CASE(of_a_fit) {
     fit.q_se = 0.03125;
     fit.rho_se = 0.015625;
     fit.rms = 0.0078125;
+    fit.a_uncertainty = 0.5;
+    fit.b_uncertainty = 0.75;
     fit.failure.clear();
     const auto json = only_report(result, "orders").json(result)["norms"]["theta_L2L2"];
     const std::map<std::string, double> wanted{{"a", 3.0},
@@ -103,7 +106,9 @@ BOOST_AUTO_TEST_CASE(of_a_fit) {
                                                {"rho_se", 0.015625},
                                                {"rms", 0.0078125},
                                                {"p_uncertainty", 0.125},
-                                               {"q_uncertainty", 0.25}};
+                                               {"q_uncertainty", 0.25},
+                                               {"a_uncertainty", 0.5},
+                                               {"b_uncertainty", 0.75}};
     for (const auto& [name, figure] : wanted)
         BOOST_TEST(json.at(name) == figure, name);
 }
@@ -124,6 +129,27 @@ BOOST_AUTO_TEST_CASE(of_a_timing) {
     }
     BOOST_TEST(row.at("runs") == 17.0);
     BOOST_TEST(seconds.at("runs") == 17);
+}
+
+// The last digit is known to what stands in brackets, which is rounded up.
+BOOST_AUTO_TEST_CASE(of_a_size_as_many_digits_are_shown_as_its_interval_tells) {
+    struct Case {
+        double size, uncertainty;
+        std::string text;
+    };
+    for (const auto& [size, uncertainty, text] :
+         {Case{3.5601, 0.098, "3.6(4)"}, Case{0.16781, 0.148, "0.17(3)"},
+          Case{1.6781e-5, 0.148, "1.7(3)e-5"}, Case{9.97, 0.01, "10.0(1)"},
+          Case{234567, 0.02, "2.35(5)e5"}, Case{350, 0.2, "3.5(7)e2"}, Case{2.0, 0.001, "2.000(2)"},
+          Case{0.5, 1.5, ""}, Case{0.5, std::numeric_limits<double>::infinity(), ""}}) {
+        TwoTermFit fit;
+        fit.model = {.a = size, .p = 2.0, .b = size, .q = 1.0, .rho = 0.0};
+        fit.p.determined = fit.q.determined = true;
+        fit.a_uncertainty = fit.b_uncertainty = uncertainty;
+        const Table table = fit_table({{"theta_L2L2", &fit}}, 16);
+        for (const std::size_t column : {2, 3})
+            BOOST_TEST(table.groups.at(0).columns.at(column).cells.at(0) == text);
+    }
 }
 
 BOOST_AUTO_TEST_SUITE_END()

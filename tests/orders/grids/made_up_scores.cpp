@@ -23,6 +23,7 @@ struct Kind {
     /// d: of a further term, of h or of dt.
     std::function<double(double h, double c, double d)> factor;
     bool has_next_in_dt = false;
+    bool has_size = true; ///< no factor that grows without bound as h → 0
 };
 
 const std::vector<Kind> kinds{
@@ -30,16 +31,16 @@ const std::vector<Kind> kinds{
     {"h^p (1 + c h)", -1.5, 2, [](double h, double c, double) { return 1 + c * h; }},
     {"h^p (1 + c h^0.5)", 0.1, 1.5,
      [](double h, double c, double) { return 1 + c * std::sqrt(h); }},
-    {"h^p (1 + c ln 1/h)", 0.1, 1.5,
-     [](double h, double c, double) { return 1 - c * std::log(h); }},
+    {"h^p (1 + c ln 1/h)", 0.1, 1.5, [](double h, double c, double) { return 1 - c * std::log(h); },
+     false, false},
     {"... and dt^q (1 + d dt)", 0.1, 1.5,
-     [](double h, double c, double) { return 1 - c * std::log(h); }, true},
+     [](double h, double c, double) { return 1 - c * std::log(h); }, true, false},
     {"h^p (1 + c h) and dt^q (1 + d dt)", -1.5, 2,
      [](double h, double c, double) { return 1 + c * h; }, true},
     {"h^p (1 + c h^0.5 + d h)", 0.1, 1.5,
      [](double h, double c, double d) { return 1 + c * std::sqrt(h) + d * h; }},
     {"h^p (1 + c ln 1/h + d h)", 0.1, 1.5,
-     [](double h, double c, double d) { return 1 - c * std::log(h) + d * h; }}};
+     [](double h, double c, double d) { return 1 - c * std::log(h) + d * h; }, false, false}};
 
 class Drawn {
 public:
@@ -74,7 +75,7 @@ struct Score {
         if (!order.determined)
             return;
         ++determined;
-        missed += std::abs(order.value - truth) > order.half_width() ? 1 : 0;
+        missed += truth < order.low || truth > order.high ? 1 : 0;
     }
     Score& operator+=(const Score& other) {
         missed += other.missed;
@@ -83,7 +84,7 @@ struct Score {
     }
 };
 
-using Scores = std::array<Score, 2>; // of h and dt
+using Scores = std::array<Score, 4>; // orders in h and dt, sizes of their terms
 
 /// steps: of dt; 0 for a sequence.
 Scores scores_of(const Kind& kind, int meshes, int steps, double scatter, bool is_stated,
@@ -116,10 +117,15 @@ Scores scores_of(const Kind& kind, int meshes, int steps, double scatter, bool i
                     scatter, is_stated));
             }
         }
-        const auto orders = estimate_orders(rows);
+        const OrderEnsemble ensemble(rows);
+        const auto orders = ensemble.orders();
         scores[0].add(orders[0], p);
+        if (orders[0].determined && kind.has_size)
+            scores[2].add(ensemble.size(0, orders[0]), 1);
         if (steps > 0)
             scores[1].add(orders[1], q);
+        if (steps > 0 && orders[1].determined)
+            scores[3].add(ensemble.size(1, orders[1]), size / std::pow(0.2, q));
     }
     return scores;
 }
@@ -135,11 +141,15 @@ int main(int arguments, char** words) {
     const int tables = std::atoi(words[2]);
     std::vector<Scores> sums(kinds.size());
     const auto print_all = [&](const std::vector<Scores>& all, bool has_dt) {
-        for (const auto& [in_h, in_dt] : all) {
-            std::printf(" | %3d %3d", in_h.missed, in_h.determined);
-            if (has_dt)
-                std::printf(" , %3d %3d", in_dt.missed, in_dt.determined);
-        }
+        for (const auto& scores : all)
+            for (const std::size_t width : {0, 1}) {
+                if (width == 1 && !has_dt)
+                    continue;
+                const Score& size = scores[width + 2];
+                std::printf("%s%3d %3d", width == 0 ? " | " : " , ", scores[width].missed,
+                            scores[width].determined);
+                std::printf(" (%d %d)", size.missed, size.determined);
+            }
         std::puts("");
         std::fflush(stdout);
     };
@@ -152,7 +162,7 @@ int main(int arguments, char** words) {
             row.push_back(
                 is_asked ? scores_of(kinds[k], meshes, steps, scatter, is_stated, tables, drawn)
                          : Scores());
-            for (const std::size_t width : {0, 1})
+            for (const std::size_t width : {0, 1, 2, 3})
                 sums[k][width] += row.back()[width];
         }
         print_all(row, steps > 0);
