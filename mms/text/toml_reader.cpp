@@ -247,6 +247,10 @@ void override_key(TomlDocument& document, const std::string& assignment) {
     try {
         parsed = toml::parse("value = " + value, place.file);
     } catch (const toml::parse_error&) {
+        if (double number = 0;
+            std::from_chars(value.data(), value.data() + value.size(), number) ==
+            std::from_chars_result{value.data() + value.size(), std::errc::result_out_of_range})
+            throw InputError(place, "is beyond what a double holds");
         // A bare word: --set scheme.algorithm=fixed-point.
         parsed = parse("value = '" + value + "'", place.file);
     }

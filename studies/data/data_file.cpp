@@ -327,6 +327,9 @@ DataFile read_data(const std::string& file, const DataChoice& choice) {
         throw InputError({data.name},
                          "is empty; its first line must name the columns, e.g. h,dt,error");
     Lines lines(data.name, text);
+    if (const char first = text[text.find_first_not_of(" \t\r\n")]; first == '{' || first == '[')
+        throw InputError({data.name}, "is JSON; a table is asked for, whose first line names the "
+                                      "columns, e.g. h,dt,error, and each other is a record");
     const Head head = head_of(lines);
     const ColumnNames names{head.names, head.place};
     std::vector<ColumnUse> uses = choose_columns(names, choice, data);

@@ -12,6 +12,8 @@
 #include <fstream>
 #include <iterator>
 #include <stdexcept>
+#include <string_view>
+#include <utility>
 
 namespace tvbeam {
 
@@ -164,11 +166,22 @@ std::vector<std::string> fields_of(const std::string& line, char separator) {
     return fields;
 }
 
+/// Lines of # or % are comments; the last before the first row is the header where numbers follow.
 ReadFigure figure_in_csv(const std::filesystem::path& file, const std::string& name) {
     std::string header;
     std::string last;
+    std::string comment;
     OutputLines lines([&](const std::string& line) {
-        if (!trimmed(line).empty())
+        const std::string text = trimmed(line);
+        if (text.empty())
+            return;
+        const bool is_comment = text.front() == '#' || text.front() == '%';
+        if (is_comment)
+            comment = header.empty() ? text.substr(1) : comment;
+        else if (header.empty() && !comment.empty() &&
+                 std::string_view("+-.0123456789").find(text.front()) != std::string_view::npos)
+            header = std::exchange(comment, {});
+        if (!is_comment)
             (header.empty() ? header : last) = line;
     });
     std::ifstream stream(file, std::ios::binary);

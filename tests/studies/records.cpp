@@ -97,6 +97,7 @@ const std::vector<Malformed> malformed{
     {"# made by a solver\n0.1,1\n", "e.csv:2:1: has 2 numbers; the comment above it names"},
     {"x,error\n1,2\n", "e.csv:1:1: no column h, elements or dt"},
     {"h\n1\n", "e.csv:1:1: no column 'error'"},
+    {"\n {\"h\": [0.1]}", "e.csv: is JSON; a table is asked for"},
     {"h,eror\n1,2\n", "e.csv:1:1: no column 'error'; did you mean 'eror'?"},
     {"width,error\n1,2\n", "e.csv:1:1: no column h, elements or dt among width, error"},
     {"h,error\n0.1,1\n0.05\n", "e.csv:3:1: has 1 field; the columns are 2"},

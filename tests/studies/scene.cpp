@@ -311,6 +311,7 @@ BOOST_AUTO_TEST_CASE(a_wrong_override_is_told_with_its_text) {
     says("beam.zeta=-1", "beam.zeta is -1; it must be >= 0");
     says("beam.zeta", "an override reads key=value");
     says("=1", "an override reads key=value");
+    says("beam.alpha=-1e400", "is beyond what a double holds");
     says("beam.=1", "ends in a dot");
     says("title.x=1", "'title' is a string, not a table");
     says("beam.zata=1", "unknown key 'beam.zata'; did you mean 'zeta'?");
