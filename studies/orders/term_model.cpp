@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 namespace tvbeam {
 
@@ -50,21 +51,21 @@ public:
                 reference_[i] = term_at(layout, theta, i, log_reference[i]);
     }
 
-    /// ln e at one row, whose widths have these next powers; NaN where the model has no error. Its
+    /// T_i at a width whose next power this is, less that of the reference.
+    Term term(Eigen::Index i, double log_x, double next) const {
+        const Term term = term_with(layout_, theta_, i, log_x, next);
+        return {term.value - reference_[i].value, term.by_order - reference_[i].by_order,
+                term.by_next - reference_[i].by_next};
+    }
+
+    /// ln e at one row, whose widths have these terms; NaN where the model has no error. Its
     /// derivative by θ_k goes to gradient[k · stride] where that is not null.
-    template <typename Row>
-    double log_error(const Row& log_widths, const Row& next_powers, double* gradient,
-                     Eigen::Index stride) const {
+    double log_error(const Term* const terms[], double* gradient, Eigen::Index stride) const {
         const Eigen::Index d = layout_.widths();
         double value[most_widths];
-        double by_order[most_widths];
-        double by_next[most_widths];
         double pull[most_widths]; // Σ_j ρ_ij T_j, half the derivative of e² by T_i
         for (Eigen::Index i = 0; i < d; ++i) {
-            const Term term = term_with(layout_, theta_, i, log_widths[i], next_powers[i]);
-            value[i] = term.value - reference_[i].value;
-            by_order[i] = term.by_order - reference_[i].by_order;
-            by_next[i] = term.by_next - reference_[i].by_next;
+            value[i] = terms[i]->value;
             if (!(value[i] > 0))
                 return std::numeric_limits<double>::quiet_NaN();
             pull[i] = value[i];
@@ -83,9 +84,9 @@ public:
             for (Eigen::Index i = 0; i < d; ++i) {
                 const double by_term = pull[i] / square;
                 gradient[2 * i * stride] = by_term * value[i];
-                gradient[(2 * i + 1) * stride] = by_term * by_order[i];
+                gradient[(2 * i + 1) * stride] = by_term * terms[i]->by_order;
                 if (layout_.next(i) >= 0)
-                    gradient[layout_.next(i) * stride] = by_term * by_next[i];
+                    gradient[layout_.next(i) * stride] = by_term * terms[i]->by_next;
                 for (Eigen::Index j = i + 1; j < d; ++j, ++pair)
                     gradient[layout_.pair(i, j) * stride] =
                         by_angle_[pair] * value[i] * value[j] / square;
@@ -96,8 +97,9 @@ public:
         return square > 0 ? std::log(square) / 2 : std::numeric_limits<double>::quiet_NaN();
     }
 
-private:
     static constexpr Eigen::Index most_widths = 8;
+
+private:
     static constexpr Eigen::Index most_pairs = most_widths * (most_widths - 1) / 2;
 
     const Layout& layout_;
@@ -119,18 +121,37 @@ double reference_of(const Eigen::VectorXd& log_reference, Eigen::Index i) {
 }
 
 ModelFunction model_of(const Layout& layout, const TermRows& rows) {
-    // A column for each row: what one evaluation reads stands together.
-    Eigen::MatrixXd next_powers(rows.widths(), rows.size());
+    // Many rows of a grid have one width in common, and with it a term.
+    struct Level {
+        Eigen::Index width;
+        double log_x, next;
+    };
+    std::vector<Level> levels;
+    std::vector<std::size_t> places; // of a row's widths, row by row
     for (Eigen::Index r = 0; r < rows.size(); ++r)
-        for (Eigen::Index i = 0; i < rows.widths(); ++i)
-            next_powers(i, r) = next_power(layout, i, rows.log_widths(r, i));
-    return [&layout, &rows, log_widths = Eigen::MatrixXd(rows.log_widths.transpose()), next_powers](
-               const Eigen::VectorXd& theta, Eigen::VectorXd& values, Eigen::MatrixXd* jacobian) {
+        for (Eigen::Index i = 0; i < rows.widths(); ++i) {
+            const double log_x = rows.log_widths(r, i);
+            const auto found = std::ranges::find_if(levels, [&](const Level& level) {
+                return level.width == i && level.log_x == log_x;
+            });
+            places.push_back(static_cast<std::size_t>(found - levels.begin()));
+            if (found == levels.end())
+                levels.push_back({i, log_x, next_power(layout, i, log_x)});
+        }
+    return [&layout, &rows, levels, places, terms = std::vector<Term>(levels.size())](
+               const Eigen::VectorXd& theta, Eigen::VectorXd& values,
+               Eigen::MatrixXd* jacobian) mutable {
         const ModelAt model(layout, theta, rows.log_reference);
-        for (Eigen::Index r = 0; r < rows.size(); ++r)
-            values[r] =
-                model.log_error(log_widths.col(r), next_powers.col(r),
-                                jacobian == nullptr ? nullptr : &(*jacobian)(r, 0), rows.size());
+        for (std::size_t l = 0; l < levels.size(); ++l)
+            terms[l] = model.term(levels[l].width, levels[l].log_x, levels[l].next);
+        auto place = places.begin();
+        for (Eigen::Index r = 0; r < rows.size(); ++r) {
+            const Term* own[ModelAt::most_widths];
+            for (Eigen::Index i = 0; i < rows.widths(); ++i)
+                own[i] = &terms[*place++];
+            values[r] = model.log_error(own, jacobian == nullptr ? nullptr : &(*jacobian)(r, 0),
+                                        rows.size());
+        }
     };
 }
 
@@ -196,12 +217,15 @@ FittedNumber TermFit::log_error(const Eigen::VectorXd& log_widths, bool against_
     const Eigen::VectorXd reference = against_reference && log_reference.size() > 0
                                           ? Eigen::VectorXd(log_reference - log_centre)
                                           : Eigen::VectorXd();
-    const Eigen::VectorXd log_x = log_widths - log_centre;
-    Eigen::VectorXd next_powers(log_x.size());
-    for (Eigen::Index i = 0; i < log_x.size(); ++i)
-        next_powers[i] = next_power(layout, i, log_x[i]);
-    const double value =
-        ModelAt(layout, theta, reference).log_error(log_x, next_powers, gradient.data(), 1);
+    const ModelAt model(layout, theta, reference);
+    Term terms[ModelAt::most_widths];
+    const Term* own[ModelAt::most_widths];
+    for (Eigen::Index i = 0; i < log_centre.size(); ++i) {
+        const double log_x = log_widths[i] - log_centre[i];
+        terms[i] = model.term(i, log_x, next_power(layout, i, log_x));
+        own[i] = &terms[i];
+    }
+    const double value = model.log_error(own, gradient.data(), 1);
     return {log_unit + value, root.size() > 0 ? (root.transpose() * gradient).norm()
                                               : std::sqrt(gradient.dot(covariance * gradient))};
 }
