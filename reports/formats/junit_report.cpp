@@ -50,8 +50,11 @@ ptree suite_of(const CheckedScene& scene) {
             const std::string message =
                 visible(fmt::format("expected {}, found {}", checked.expected, checked.found));
             entry.put("failure.<xmlattr>.message", message);
-            entry.put("failure", fmt::format("{}:{}:{}: {}", visible(checked.place.file),
-                                             checked.place.line, checked.place.column, message));
+            const std::string at =
+                checked.place.line > 0
+                    ? fmt::format(":{}:{}", checked.place.line, checked.place.column)
+                    : std::string();
+            entry.put("failure", visible(checked.place.file) + at + ": " + message);
         }
         suite.add_child("testcase", entry);
     }

@@ -382,6 +382,25 @@ RunIdentities::RunIdentities(const SolverBlock& solver) : solver_(solver) {
             digests_[file.name] = digest(file.source);
 }
 
+namespace {
+
+/// The absolute paths that a word names: itself, or those within it, as in --config=/path/a.txt.
+std::set<std::string> absolute_paths_in(const std::string& word) {
+    std::set<std::string> paths;
+    if (word.starts_with('/'))
+        paths.insert(word);
+    constexpr const char* ends = " \t\n\r\"'`=,:;()<>|&";
+    for (std::size_t at = 0; at < word.size();) {
+        const std::size_t end = std::min(word.find_first_of(ends, at), word.size());
+        if (word[at] == '/')
+            paths.insert(word.substr(at, end - at));
+        at = end + 1;
+    }
+    return paths;
+}
+
+} // namespace
+
 std::string RunIdentities::of(const Series& series, std::size_t level) const {
     const auto values = placeholders_of(series.rungs.at(level), level, series.final_time,
                                         parameters_of(series.method));
@@ -399,8 +418,9 @@ std::string RunIdentities::of(const Series& series, std::size_t level) const {
     json["time"] = fs::last_write_time(run.program, error).time_since_epoch().count();
     // Scripts and inputs that are called where they are, as by `sh /path/solve.sh`.
     for (const auto& argument : run.arguments)
-        if (fs::path(argument).is_absolute() && fs::is_regular_file(argument, error))
-            json["called"][argument] = digest(fs::path(argument));
+        for (const auto& file : absolute_paths_in(argument))
+            if (fs::is_regular_file(file, error))
+                json["called"][file] = digest(fs::path(file));
     for (const auto& file : solver_.files)
         if (file.contents)
             json["files"][file.name] = digest(file.contents->filled(values));

@@ -30,14 +30,18 @@ void OutputLines::take(std::string_view chunk) {
     tail_ += tail;
     if (tail_.size() > longest_tail)
         tail_.erase(0, tail_.size() - longest_tail);
-    while (true) {
-        const std::size_t end = chunk.find('\n');
+    while (!chunk.empty()) {
+        if (after_return_ && chunk.front() == '\n')
+            chunk.remove_prefix(1);
+        after_return_ = false;
+        const std::size_t end = chunk.find_first_of("\n\r");
         const auto part = chunk.substr(0, end);
         line_ += part.substr(0, longest_line - line_.size());
         if (end == std::string_view::npos)
             return;
         visit_(line_);
         line_.clear();
+        after_return_ = chunk[end] == '\r';
         chunk.remove_prefix(end + 1);
     }
 }

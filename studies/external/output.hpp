@@ -10,10 +10,10 @@ namespace tvbeam {
 
 class OutputLines {
 public:
-    /// What a line is longer than is passed over.
-    static constexpr std::size_t longest_line = 4096;
+    /// What a line is longer than is passed over: whoever reads one of this length knows that.
+    static constexpr std::size_t longest_line = 1 << 20;
 
-    /// visit: told of each line, without its end.
+    /// visit: told of each line, without its end: a line feed, a carriage return, or both.
     explicit OutputLines(std::function<void(const std::string& line)> visit)
         : visit_(std::move(visit)) {}
 
@@ -27,6 +27,7 @@ private:
     std::function<void(const std::string&)> visit_;
     std::string line_;
     std::string tail_;
+    bool after_return_ = false;
 };
 
 } // namespace tvbeam

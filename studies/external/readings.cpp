@@ -48,15 +48,71 @@ ReadFigure number_of(const std::string& name, const std::string& written) {
     return {value, {}, printed_digits(text)};
 }
 
-/// What every match must begin with: the characters up to the first that means something else.
-std::string literal_start(const std::string& pattern) {
-    constexpr const char* special = "^$\\.*+?()[]{}|";
+/// The end of a class [...] or of a group (...) that begins there, past its last character.
+std::size_t end_of_part(const std::string& pattern, std::size_t at) {
+    int depth = 0;
+    bool in_class = false;
+    for (; at < pattern.size(); ++at) {
+        const char letter = pattern[at];
+        if (letter == '\\')
+            ++at;
+        else if (in_class)
+            in_class = letter != ']';
+        else if (letter == '[')
+            in_class = true;
+        else if (letter == '(')
+            ++depth;
+        else if (letter == ')')
+            --depth;
+        if (depth == 0 && !in_class)
+            return at + 1;
+    }
+    return pattern.size();
+}
+
+/// What every match holds: the longest row of characters that stand for themselves, outside of
+/// groups. Most lines have not got it, and to look for it takes a thousandth of a search.
+std::string literal_within(const std::string& pattern) {
     if (pattern.find('|') != std::string::npos)
         return {};
-    const auto end = std::min(pattern.find_first_of(special), pattern.size());
-    const bool optional =
-        end < pattern.size() && std::string("*?{").find(pattern[end]) != std::string::npos;
-    return pattern.substr(0, optional && end > 0 ? end - 1 : end);
+    std::string longest;
+    std::string row;
+    const auto end_row = [&] {
+        if (row.size() > longest.size())
+            longest = row;
+        row.clear();
+    };
+    for (std::size_t at = 0; at < pattern.size();) {
+        const char letter = pattern[at];
+        if (letter == '[' || letter == '(') {
+            end_row();
+            at = end_of_part(pattern, at);
+            continue;
+        }
+        const bool has_more = at + 1 < pattern.size();
+        const bool is_escaped = letter == '\\' && has_more &&
+                                std::ispunct(static_cast<unsigned char>(pattern[at + 1])) != 0;
+        if (is_escaped)
+            row += pattern[++at];
+        else if (std::string_view("*?{").find(letter) != std::string_view::npos) {
+            if (!row.empty())
+                row.pop_back(); // it may be absent
+            end_row();
+            if (letter == '{')
+                at = std::min(pattern.find('}', at), pattern.size());
+        } else if (letter == '\\') {
+            end_row();
+            ++at;
+            if (has_more && std::string_view("xucXUC").find(pattern[at]) != std::string_view::npos)
+                return longest; // digits or a letter belong to it
+        } else if (std::string_view("^$.+)]}").find(letter) != std::string_view::npos)
+            end_row();
+        else
+            row += letter;
+        ++at;
+    }
+    end_row();
+    return longest;
 }
 
 /// Finds the number of a name in the outermost object, as it is written.
@@ -191,6 +247,8 @@ ReadFigure figure_in_csv(const std::filesystem::path& file, const std::string& n
     lines.finish();
     if (last.empty())
         return {{}, "it has no row below its header"};
+    if (std::max(header.size(), last.size()) == OutputLines::longest_line)
+        return {{}, "it has lines of more than 1 MiB"};
     const char separator = header.find(',') != std::string::npos   ? ','
                            : header.find(';') != std::string::npos ? ';'
                                                                    : ' ';
@@ -233,7 +291,7 @@ bool has_long_number(const std::string& pattern) {
 } // namespace
 
 OutputPattern::OutputPattern(std::string its_name, std::string its_text, const Place& place)
-    : name(std::move(its_name)), text(std::move(its_text)), literal(literal_start(text)) {
+    : name(std::move(its_name)), text(std::move(its_text)), literal(literal_within(text)) {
     if (has_long_number(text))
         throw InputError(place, "'" + text +
                                     "' has a number of more than 9 digits; write the "
@@ -253,8 +311,9 @@ OutputPattern::OutputPattern(std::string its_name, std::string its_text, const P
 }
 
 void OutputReading::take(const std::string& line) {
-    const std::size_t from = line.find(pattern_->literal);
-    if (from == std::string::npos)
+    const bool is_cut = line.size() == OutputLines::longest_line;
+    was_cut_ = was_cut_ || is_cut;
+    if (line.find(pattern_->literal) == std::string::npos)
         return;
     std::sregex_iterator match(line.begin(), line.end(), pattern_->regex);
     if (match == std::sregex_iterator())
@@ -268,13 +327,17 @@ void OutputReading::take(const std::string& line) {
     goes_on_ = ends_match && goes_on(pattern_->text, *found_, behind)
                    ? *found_ + behind.substr(0, behind.find_first_of(" \t\r"))
                    : std::string();
+    is_found_in_cut_ = is_cut;
     twice_ = ++match != std::sregex_iterator();
 }
 
 ReadFigure OutputReading::figure() const {
     const std::string of = "nothing on standard output matches '" + pattern_->text + "'";
+    const std::string cut = "only the first MiB is read";
     if (!found_)
-        return {{}, "no " + pattern_->name + ": " + of};
+        return {{}, "no " + pattern_->name + ": " + of + (was_cut_ ? "; " + cut : "")};
+    if (is_found_in_cut_)
+        return {{}, "of the last line with " + pattern_->name + " " + cut};
     if (twice_)
         return {{}, "the last line with " + pattern_->name + " has two of them"};
     if (!goes_on_.empty())

@@ -25,7 +25,7 @@ struct OutputPattern {
     std::string name; ///< of the number
     std::string text;
     std::regex regex;
-    std::string literal; ///< with which every match begins; may be empty
+    std::string literal; ///< that every match holds; may be empty
 
     /// Throws InputError where the text is none.
     OutputPattern(std::string name, std::string text, const Place& place);
@@ -41,7 +41,9 @@ public:
 private:
     const OutputPattern* pattern_;
     std::optional<std::string> found_;
-    bool twice_ = false;  ///< the last line that matches does so twice
+    bool twice_ = false;   ///< the last line that matches does so twice
+    bool was_cut_ = false; ///< a line was, at OutputLines::longest_line
+    bool is_found_in_cut_ = false;
     std::string goes_on_; ///< the whole number, where the pattern takes only a part; or empty
 };
 

@@ -193,8 +193,8 @@ private:
                 Verdict::diverging,
                 fmt::format("the error grows again, order {:.2f} after {:.2f}", order, run.order)};
         if (order < tuning.floor_part * run.order)
-            return {Verdict::floor,
-                    fmt::format("the error stands still near {:.1e}", levels_[i].error)};
+            return {Verdict::floor, fmt::format("the error no longer falls as before, near {:.1e}",
+                                                levels_[i].error)};
         if (agree(order, run.order))
             return {Verdict::pre_asymptotic,
                     fmt::format("order {:.2f}, but no longer with its neighbours", order)};
@@ -289,7 +289,7 @@ private:
             verdicts_.push_back(
                 orders_[i] ? alone(*orders_[i], known == 1)
                 : size() == 1
-                    ? RowVerdict{Verdict::pre_asymptotic, "one width alone shows no order"}
+                    ? RowVerdict{Verdict::pre_asymptotic, "one level alone shows no order"}
                     : RowVerdict{Verdict::pre_asymptotic,
                                  "nothing is refined against the row before"});
         // The first level is one end of the pair that is judged in the second.

@@ -324,7 +324,7 @@ BOOST_AUTO_TEST_CASE(rows_too_close_in_h_are_one_level) {
     BOOST_TEST(word(ladder) == "AAAAAAAA");
     BOOST_TEST(word({{.h = 0.1, .error = 1.0}, {.h = 0.099, .error = 3.0}}) == "pp");
     BOOST_TEST(judge({{{.h = 0.1, .error = 1.0}, {.h = 0.1, .error = 3.0}}}).rows[0].reason ==
-               "one width alone shows no order");
+               "one level alone shows no order");
 }
 
 // One error of 3 times its line, or a third: the rows on both sides agree without it.

@@ -153,8 +153,8 @@ BOOST_AUTO_TEST_CASE(the_digits_that_were_printed_are_known) {
     BOOST_TEST(*in_file("e.json", "{\"a\": {\"L2\": 1}, \"L2\": -2.5, \"b\": [3]}").value == -2.5);
 }
 
-// What a line must begin a match with is looked for first: it must be no more than that.
-BOOST_AUTO_TEST_CASE(the_literal_start_of_a_pattern_passes_over_no_match) {
+// What every match holds is looked for first: it must be no more than that.
+BOOST_AUTO_TEST_CASE(the_literal_of_a_pattern_passes_over_no_match) {
     for (const auto& [pattern, literal] :
          std::vector<std::pair<std::string, std::string>>{{"L2 = (\\S+)", "L2 = "},
                                                           {"ab?(\\d)", "a"}, // b may be absent
@@ -163,10 +163,35 @@ BOOST_AUTO_TEST_CASE(the_literal_start_of_a_pattern_passes_over_no_match) {
                                                           {"ab+(\\d)", "ab"},
                                                           {"a|b(\\d)", ""}, // either
                                                           {"(\\d)", ""},
-                                                          {"^L2 (\\d)", ""}})
+                                                          {"^L2 (\\d)", "L2 "},
+                                                          {".*long = (\\d)s", "long = "},
+                                                          {"(\\d)\\.[abc]+xy", "xy"},
+                                                          {"a\\.b(?:cdef)?(\\d)", "a.b"},
+                                                          {"[(]ab(\\d)[)]", "ab"},
+                                                          {"\\x41bc(\\d)", ""},
+                                                          {"(\\d)\\s+abc{2}", "ab"}})
         BOOST_TEST(OutputPattern("x", pattern, {}).literal == literal, pattern);
     BOOST_TEST(*read({"a4"}, "ab?(\\d)").value == 4.0);
     BOOST_TEST(*read({"b4"}, "a|b(\\d)").value == 4.0);
+}
+
+// A number at the end of what is read may have gone on.
+BOOST_AUTO_TEST_CASE(a_line_that_is_cut_has_no_number) {
+    const std::string number = "E = 1.875e-01";
+    const auto line = [&](std::size_t length) {
+        return std::string(length - number.size(), '.') + number;
+    };
+    BOOST_TEST(*read({line(5000)}, "E = (\\S+)").value == 0.1875);
+    const ReadFigure cut = read({line(OutputLines::longest_line)}, "E = (\\S+)");
+    BOOST_TEST(!cut.value);
+    BOOST_TEST(cut.failure == "of the last line with L2 only the first MiB is read");
+    std::string wide = "L2";
+    std::string row = "1.875e-01";
+    for (int i = 0; i < 2000; ++i) {
+        wide.insert(0, "probe" + std::to_string(i) + ",");
+        row.insert(0, "1.25e-01,");
+    }
+    BOOST_TEST(*in_file("e.csv", wide + "\n" + row + "\n").value == 0.1875);
 }
 
 BOOST_AUTO_TEST_CASE(a_pattern_has_one_group) {
@@ -221,7 +246,16 @@ BOOST_AUTO_TEST_CASE(lines_are_told_whole_and_their_last_are_kept) {
     for (int i = 0; i < 100; ++i)
         output.take(std::string(1000, 'x'));
     output.finish();
+    BOOST_TEST(lines.back().size() == 100'000U);
+    for (int i = 0; i < 1100; ++i)
+        output.take(std::string(1000, 'x'));
+    output.finish();
     BOOST_TEST(lines.back().size() == OutputLines::longest_line);
+    lines.clear();
+    output.take("step 1\rstep 2\r\nthree\r");
+    output.take("\nfour\r\rsix");
+    output.finish();
+    BOOST_TEST(lines == (std::vector<std::string>{"step 1", "step 2", "three", "four", "", "six"}));
 }
 
 BOOST_AUTO_TEST_SUITE_END()
@@ -475,6 +509,27 @@ BOOST_AUTO_TEST_CASE(a_run_is_known_by_what_its_figures_depend_on) {
     BOOST_TEST(elsewhere != first);
     known.directory.write("solve.sh", "echo L2 = 2\n");
     BOOST_TEST(known.identity() != first);
+}
+
+BOOST_AUTO_TEST_CASE(a_run_is_known_by_the_files_that_its_words_name_within_them) {
+    const TemporaryDirectory directory;
+    const std::string config = directory.write("config.txt", "3\n");
+    for (const std::string& word :
+         {config, "--config=" + config, "cat '" + config + "'; true", "a," + config + ":b"}) {
+        const std::string file = directory.write(
+            "scene.toml", "[solver]\ncommand = [\"sh\", \"-c\", \"" + word +
+                              "\", \"{elements}\"]\nerrors = { L2 = 'L2 = (\\S+)' }\n"
+                              "[ladder]\nelements = [2, 4]\nnorms = [\"L2\"]\n");
+        const auto identity = [&] {
+            const Scene read = read_scene(file);
+            return RunIdentities(*read.solver).of(read.series().front(), 1);
+        };
+        directory.write("config.txt", "3\n");
+        const std::string before = identity();
+        BOOST_TEST(identity() == before);
+        directory.write("config.txt", "6\n");
+        BOOST_TEST(identity() != before, word);
+    }
 }
 
 BOOST_AUTO_TEST_CASE(a_file_beside_the_scene_that_no_run_would_find_is_refused_beforehand) {
