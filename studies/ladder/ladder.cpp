@@ -155,9 +155,11 @@ LadderResult analyse_ladder(const LadderBlock& block, const Method& method,
         LadderNorm& shown = result.norms.back();
         auto remark = solver.remark ? solver.remark(series, result.rungs, k) : "";
         if (!norm.is_value)
-            shown.remarks = order_remarks(norm, roots, fit != nullptr ? &fit->model : nullptr,
-                                          solver.has_defect || !remark.empty() ||
-                                              is_coarsely_printed(result.rungs, k));
+            shown.remarks = order_remarks(
+                norm, roots, fit != nullptr ? &fit->model : nullptr,
+                solver.has_defect || !remark.empty() || is_coarsely_printed(result.rungs, k),
+                fit != nullptr ? std::pair(fit->p_uncertainty(), fit->q_uncertainty())
+                               : std::pair(0.0, 0.0));
         if (result.analysis) {
             const ColumnAnalysis& column = result.analysis->columns[k];
             if (norm.is_value)

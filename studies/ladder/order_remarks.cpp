@@ -190,7 +190,7 @@ std::string from_what_stays(const Measure& norm, std::span<const Refinement> roo
 /// Why the orders are what they are: the faster term, of the higher order along the ladder, and the
 /// slower one, which remains in the end.
 std::string from_model(const Measure& norm, std::span<const Refinement> roots,
-                       const TwoTermModel& model) {
+                       const TwoTermModel& model, std::pair<double, double> halves) {
     const LadderForecast view = forecast(model, roots);
     if (model.a == 0.0 || model.b == 0.0)
         return {};
@@ -239,13 +239,17 @@ std::string from_model(const Measure& norm, std::span<const Refinement> roots,
                         "{} times as large as the {} error, of order {}, and {} times at {}.",
                         slower, order(slow_order), of_square(norm, slow_order), first,
                         times_text(at_first), faster, order(fast_order), times_text(at_last), last);
-    if (view.cancellation)
+    // What lies past the ladder hangs on which order is the lower one.
+    const double open =
+        view.spatial_order * halves.first / model.p + view.temporal_order * halves.second / model.q;
+    const bool are_told_apart = fast_order - slow_order > open;
+    if (view.cancellation && (view.cancellation->row < roots.size() || are_told_apart))
         text += " The two have opposite signs and cancel in part about " +
                 rung_name(roots, {.h = 1 / to_two_digits(1 / view.cancellation->h),
                                   .dt = to_two_digits(view.cancellation->dt)}) +
                 ".";
     // Of orders that are nearly one nobody sees which it is.
-    const bool are_apart = fast_order - slow_order > 0.25;
+    const bool are_apart = are_told_apart && fast_order - slow_order > 0.25;
     if (view.asymptotic_from && at_first < 1.0 && are_apart)
         text +=
             " The order that remains, " + order(slow_order) + ", appears " +
@@ -270,7 +274,8 @@ std::string lone_zero(const Measure& norm, std::span<const Refinement> roots) {
 } // namespace
 
 std::vector<std::string> order_remarks(const Measure& norm, std::span<const Refinement> roots,
-                                       const TwoTermModel* model, bool is_explained) {
+                                       const TwoTermModel* model, bool is_explained,
+                                       std::pair<double, double> halves) {
     const auto orders = observed_orders(roots);
     std::vector<Observed> known;
     for (std::size_t i = 0; i < orders.size(); ++i)
@@ -279,7 +284,7 @@ std::vector<std::string> order_remarks(const Measure& norm, std::span<const Refi
     const std::string zero = lone_zero(norm, roots);
     if (known.size() < 2)
         return zero.empty() ? std::vector<std::string>{} : std::vector{zero};
-    const std::string why = model != nullptr ? from_model(norm, roots, *model) : "";
+    const std::string why = model != nullptr ? from_model(norm, roots, *model, halves) : "";
     // Orders of steps that are uneven are as uneven, and no news beside a model.
     const bool explained =
         is_explained || !why.empty() || (model != nullptr && !refines_evenly(roots));
