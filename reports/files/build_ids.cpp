@@ -34,7 +34,7 @@ std::string build_id(const char* notes, std::size_t size, std::size_t alignment)
         if (at > size)
             break;
         if (note.n_type != NT_GNU_BUILD_ID ||
-            std::string_view(notes + name, note.n_namesz) != std::string_view("GNU", 4))
+            std::string_view(notes + name, note.n_namesz) != std::string_view("GNU\0", 4))
             continue;
         std::string id;
         for (std::size_t i = 0; i < note.n_descsz; ++i)
@@ -57,6 +57,7 @@ void add_object(const dl_phdr_info* object, Ids& ids) {
     std::string id;
     for (int i = 0; i < object->dlpi_phnum && id.empty(); ++i)
         if (const auto& segment = object->dlpi_phdr[i]; segment.p_type == PT_NOTE)
+            // NOLINTNEXTLINE(performance-no-int-to-ptr): that is how the loader says where it is
             id = build_id(reinterpret_cast<const char*>(object->dlpi_addr + segment.p_vaddr),
                           segment.p_memsz, std::max<std::size_t>(segment.p_align, 4));
     ids.emplace_back(name, id.empty() ? "unknown" : id);

@@ -54,7 +54,7 @@ ptree suite_of(const CheckedScene& scene) {
                 checked.place.line > 0
                     ? fmt::format(":{}:{}", checked.place.line, checked.place.column)
                     : std::string();
-            entry.put("failure", visible(checked.place.file) + at + ": " + message);
+            entry.put("failure", fmt::format("{}{}: {}", visible(checked.place.file), at, message));
         }
         suite.add_child("testcase", entry);
     }

@@ -58,14 +58,15 @@ public:
                 term.by_next - reference_[i].by_next};
     }
 
-    /// ln e at one row, whose widths have these terms; NaN where the model has no error. Its
-    /// derivative by θ_k goes to gradient[k · stride] where that is not null.
-    double log_error(const Term* const terms[], double* gradient, Eigen::Index stride) const {
+    /// ln e at one row, whose widths' terms stand at these places; NaN where the model has no
+    /// error. Its derivative by θ_k goes to gradient[k · stride] where that is not null.
+    double log_error(const Term terms[], const std::size_t places[], double* gradient,
+                     Eigen::Index stride) const {
         const Eigen::Index d = layout_.widths();
         double value[most_widths];
         double pull[most_widths]; // Σ_j ρ_ij T_j, half the derivative of e² by T_i
         for (Eigen::Index i = 0; i < d; ++i) {
-            value[i] = terms[i]->value;
+            value[i] = terms[places[i]].value;
             if (!(value[i] > 0))
                 return std::numeric_limits<double>::quiet_NaN();
             pull[i] = value[i];
@@ -84,9 +85,9 @@ public:
             for (Eigen::Index i = 0; i < d; ++i) {
                 const double by_term = pull[i] / square;
                 gradient[2 * i * stride] = by_term * value[i];
-                gradient[(2 * i + 1) * stride] = by_term * terms[i]->by_order;
+                gradient[(2 * i + 1) * stride] = by_term * terms[places[i]].by_order;
                 if (layout_.next(i) >= 0)
-                    gradient[layout_.next(i) * stride] = by_term * terms[i]->by_next;
+                    gradient[layout_.next(i) * stride] = by_term * terms[places[i]].by_next;
                 for (Eigen::Index j = i + 1; j < d; ++j, ++pair)
                     gradient[layout_.pair(i, j) * stride] =
                         by_angle_[pair] * value[i] * value[j] / square;
@@ -144,14 +145,11 @@ ModelFunction model_of(const Layout& layout, const TermRows& rows) {
         const ModelAt model(layout, theta, rows.log_reference);
         for (std::size_t l = 0; l < levels.size(); ++l)
             terms[l] = model.term(levels[l].width, levels[l].log_x, levels[l].next);
-        auto place = places.begin();
-        for (Eigen::Index r = 0; r < rows.size(); ++r) {
-            const Term* own[ModelAt::most_widths];
-            for (Eigen::Index i = 0; i < rows.widths(); ++i)
-                own[i] = &terms[*place++];
-            values[r] = model.log_error(own, jacobian == nullptr ? nullptr : &(*jacobian)(r, 0),
-                                        rows.size());
-        }
+        const std::size_t* place = places.data();
+        for (Eigen::Index r = 0; r < rows.size(); ++r, place += rows.widths())
+            values[r] =
+                model.log_error(terms.data(), place,
+                                jacobian == nullptr ? nullptr : &(*jacobian)(r, 0), rows.size());
     };
 }
 
@@ -219,13 +217,14 @@ FittedNumber TermFit::log_error(const Eigen::VectorXd& log_widths, bool against_
                                           : Eigen::VectorXd();
     const ModelAt model(layout, theta, reference);
     Term terms[ModelAt::most_widths];
-    const Term* own[ModelAt::most_widths];
-    for (Eigen::Index i = 0; i < log_centre.size(); ++i) {
+    std::size_t places[ModelAt::most_widths];
+    for (std::size_t i = 0; i < ModelAt::most_widths; ++i)
+        places[i] = i;
+    for (Eigen::Index i = 0; i < layout.widths(); ++i) {
         const double log_x = log_widths[i] - log_centre[i];
         terms[i] = model.term(i, log_x, next_power(layout, i, log_x));
-        own[i] = &terms[i];
     }
-    const double value = model.log_error(own, gradient.data(), 1);
+    const double value = model.log_error(terms, places, gradient.data(), 1);
     return {log_unit + value, root.size() > 0 ? (root.transpose() * gradient).norm()
                                               : std::sqrt(gradient.dot(covariance * gradient))};
 }
