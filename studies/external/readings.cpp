@@ -312,7 +312,7 @@ OutputPattern::OutputPattern(std::string its_name, std::string its_text, const P
 
 void OutputReading::take(const std::string& line) {
     const bool is_cut = line.size() == OutputLines::longest_line;
-    was_cut_ = was_cut_ || is_cut;
+    was_cut_ = was_cut_ || is_cut; // and may have the number further on
     if (line.find(pattern_->literal) == std::string::npos)
         return;
     std::sregex_iterator match(line.begin(), line.end(), pattern_->regex);
@@ -327,7 +327,7 @@ void OutputReading::take(const std::string& line) {
     goes_on_ = ends_match && goes_on(pattern_->text, *found_, behind)
                    ? *found_ + behind.substr(0, behind.find_first_of(" \t\r"))
                    : std::string();
-    is_found_in_cut_ = is_cut;
+    was_cut_ = is_cut;
     twice_ = ++match != std::sregex_iterator();
 }
 
@@ -336,8 +336,8 @@ ReadFigure OutputReading::figure() const {
     const std::string cut = "only the first MiB is read";
     if (!found_)
         return {{}, "no " + pattern_->name + ": " + of + (was_cut_ ? "; " + cut : "")};
-    if (is_found_in_cut_)
-        return {{}, "of the last line with " + pattern_->name + " " + cut};
+    if (was_cut_)
+        return {{}, "of the last line with " + pattern_->name + ", or one behind it, " + cut};
     if (twice_)
         return {{}, "the last line with " + pattern_->name + " has two of them"};
     if (!goes_on_.empty())

@@ -41,9 +41,9 @@ public:
 private:
     const OutputPattern* pattern_;
     std::optional<std::string> found_;
-    bool twice_ = false;   ///< the last line that matches does so twice
-    bool was_cut_ = false; ///< a line was, at OutputLines::longest_line
-    bool is_found_in_cut_ = false;
+    bool twice_ = false; ///< the last line that matches does so twice
+    bool was_cut_ =
+        false;            ///< the last line that matches, or a later one: OutputLines::longest_line
     std::string goes_on_; ///< the whole number, where the pattern takes only a part; or empty
 };
 
