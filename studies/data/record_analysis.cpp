@@ -69,7 +69,7 @@ RecordAnalysis analyse(std::vector<Refinement> records, const std::vector<double
             sorted.push_back(sigma[i]);
     }
     analysis.along = order_along(analysis.records, sorted);
-    analysis.verdict = judge(analysis.records, {.order = &analysis.along.order});
+    analysis.verdict = judge(analysis.records, {.order = &analysis.along.order, .sigma = sorted});
     analysis.orders = analysis.verdict->orders;
     return analysis;
 }

@@ -3,8 +3,11 @@
 #include "studies/grid/grid.hpp"
 #include "studies/grid/grid_lines.hpp"
 #include "studies/orders/known_orders.hpp"
+#include "studies/orders/least_squares.hpp"
 #include "studies/study.hpp"
 #include "studies/table_row.hpp"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <functional>
@@ -63,6 +66,9 @@ std::vector<std::string> rejected(const OrdersResult& result, std::size_t k) {
     return words;
 }
 
+/// Of a size that the grid determines: the half-width of its 95 % interval, as a share of it.
+constexpr double largest_share_of_a_known_size = 0.1;
+
 /// Sizes that the grid gives to terms of the forecast orders, over the forecast ones.
 std::vector<Metric> forecast_metrics(std::size_t k, double within, const StudyResult& result) {
     const OrdersBlock& block = *result.scene.get<OrdersBlock>();
@@ -88,12 +94,19 @@ std::vector<Metric> forecast_metrics(std::size_t k, double within, const StudyRe
                          const std::optional<FittedSize>& fitted) {
         if (!term)
             return;
-        const bool known = fitted && 2.0 * fitted->se <= within * fitted->value;
-        metrics.push_back(metric(
-            size, known ? std::optional(fitted->value / term->constant) : std::nullopt,
-            sizes.failure.empty()
-                ? "the grid does not determine it: a forecast of " + metric_text(term->constant)
-                : sizes.failure));
+        const double share = fitted ? fitted->uncertainty / fitted->value : infinity;
+        // A wide band asks for no less: a term that the others hide is not found.
+        const bool known = share <= std::min(within, largest_share_of_a_known_size);
+        const std::string found =
+            fitted ? fmt::format("{:.3g} ± {:.3g} of ", fitted->value / term->constant,
+                                 fitted->uncertainty / term->constant)
+                   : "";
+        metrics.push_back(
+            metric(size, known ? std::optional(fitted->value / term->constant) : std::nullopt,
+                   sizes.failure.empty()
+                       ? fmt::format("the grid does not determine it: {}a forecast of {:.3g}",
+                                     found, term->constant)
+                       : sizes.failure));
     };
     add("a", norm->in_h, sizes.a);
     add("b", norm->in_dt, sizes.b);

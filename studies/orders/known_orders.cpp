@@ -1,5 +1,7 @@
 #include "studies/orders/known_orders.hpp"
 
+#include "studies/orders/least_squares.hpp"
+
 #include <Eigen/LU>
 #include <Eigen/QR>
 
@@ -31,12 +33,12 @@ std::vector<std::pair<double, double>> columns_of(std::optional<double> p,
     return columns;
 }
 
-/// The root of a square, if that is one.
-std::optional<FittedSize> root(double square, double variance) {
+/// The root of a square, if that is one; the square's uncertainty is a half-width.
+std::optional<FittedSize> root(double square, double uncertainty) {
     if (!(square > 0.0))
         return std::nullopt;
     const double value = std::sqrt(square);
-    return FittedSize{value, std::sqrt(variance) / (2.0 * value)};
+    return FittedSize{value, uncertainty / (2.0 * value)};
 }
 
 } // namespace
@@ -75,8 +77,9 @@ KnownOrderSizes fit_known_orders(std::span<const Refinement> records, std::optio
     const double variance =
         (scaled * solved - ones).squaredNorm() / static_cast<double>(rows - count);
     const Eigen::MatrixXd covariance = variance * (scaled.transpose() * scaled).inverse();
+    const double factor = 1.96 * student_over_normal(static_cast<int>(rows - count));
     const auto size = [&](Eigen::Index k) {
-        return root(solved(k) / sizes(k), covariance(k, k) / (sizes(k) * sizes(k)));
+        return root(solved(k) / sizes(k), factor * std::sqrt(covariance(k, k)) / sizes(k));
     };
     KnownOrderSizes result;
     if (p)

@@ -9,10 +9,10 @@
 
 namespace tvbeam {
 
-/// A size with its standard error.
+/// A size with the half-width of its 95 % interval.
 struct FittedSize {
     double value = 0.0;
-    double se = 0.0;
+    double uncertainty = 0.0;
 };
 
 struct KnownOrderSizes {

@@ -1,5 +1,7 @@
 #include "studies/orders/verdict.hpp"
 
+#include "studies/orders/ladder_levels.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,51 +13,6 @@ namespace tvbeam {
 namespace {
 
 constexpr VerdictTuning tuning;
-
-/// Rows of one level, and the means of their logarithms.
-struct Level {
-    std::vector<std::size_t> rows;
-    Refinement first;
-    Refinement mean;
-};
-
-/// Whether two records are one piece of information.
-bool are_one_level(const Refinement& from, const Refinement& to) {
-    const auto same = [](double a, double b) { return (std::isnan(a) && std::isnan(b)) || a == b; };
-    if (same(from.h, to.h) && same(from.dt, to.dt))
-        return true;
-    const auto ratio = refinement_ratio(from, to);
-    return ratio && std::abs(std::log(*ratio)) <= std::log(OrderTuning{}.one_level);
-}
-
-/// Their mean, exactly where all are the same.
-void take_mean(std::span<const Refinement> ladder, Level& level) {
-    for (double Refinement::*figure : {&Refinement::h, &Refinement::dt, &Refinement::error}) {
-        double sum = 0;
-        bool differ = false;
-        for (const auto i : level.rows) {
-            sum += std::log(ladder[i].*figure);
-            differ = differ || ladder[i].*figure != level.first.*figure;
-        }
-        if (differ)
-            level.mean.*figure = std::exp(sum / static_cast<double>(level.rows.size()));
-    }
-}
-
-/// The rows that have an error that is known: a failed row in between is passed over.
-std::vector<Level> levels_of(std::span<const Refinement> ladder) {
-    std::vector<Level> levels;
-    for (std::size_t i = 0; i < ladder.size(); ++i) {
-        if (!is_positive(ladder[i].error) || !ladder[i].is_resolved())
-            continue;
-        if (levels.empty() || !are_one_level(levels.back().first, ladder[i]))
-            levels.push_back({{}, ladder[i], ladder[i]});
-        levels.back().rows.push_back(i);
-    }
-    for (auto& level : levels)
-        take_mean(ladder, level);
-    return levels;
-}
 
 /// Levels first … last whose orders, those of first + 1 … last, agree.
 struct Run {
@@ -69,13 +26,18 @@ struct Run {
 /// The orders between levels, judged without a model.
 class Pairwise {
 public:
-    Pairwise(std::vector<Refinement> levels, const VerdictOptions& options)
-        : levels_(std::move(levels)), orders_(observed_orders(levels_)), options_(options) {
-        find_window();
-        if (!run_)
+    Pairwise(std::vector<Level> levels, const VerdictOptions& options)
+        : levels_(std::move(levels)), options_(options) {
+        auto [values, slack] = orders_of(levels_);
+        orders_ = std::move(values);
+        slack_ = std::move(slack);
+        const auto agreeing = all_runs(false);
+        const bool shows_last = knows_last() && find_window(all_runs(true), agreeing);
+        if (!shows_last && !find_window(agreeing, agreeing))
             judge_without_window();
-        else if (options_.order != nullptr && !options_.expected_order)
-            leave_out_other_orders(*run_);
+        if (options_.order != nullptr && !options_.expected_order &&
+            (run_ || options_.order->determined))
+            tell_from_last(shows_last);
     }
     const std::vector<RowVerdict>& verdicts() const { return verdicts_; }
     const std::optional<Run>& run() const { return run_; }
@@ -83,35 +45,58 @@ public:
 private:
     std::size_t size() const { return levels_.size(); }
 
-    bool agree(double left, double right) const {
+    bool agree(double left, double right, double slack) const {
         return std::abs(left - right) <=
-               options_.tolerance * std::max(std::abs(left), std::abs(right));
+               options_.tolerance * std::max(std::abs(left), std::abs(right)) + slack;
+    }
+
+    /// Whether the order into a level agrees with another, which may itself be another.
+    bool agrees(std::size_t i, double order, double slack = 0.0) const {
+        return agree(*orders_[i], order, slack_[i] + slack);
+    }
+
+    /// Whether the order into a level agrees with that of the finer ones to `last` and of the next.
+    bool joins(std::size_t i, std::size_t last) const {
+        return agrees(i, mean_order(i, last), slack_between(levels_[i], levels_[last])) &&
+               agrees(i, *orders_[i + 1], slack_[i + 1]);
+    }
+
+    /// Whether an order stands that all levels determine.
+    bool knows_last() const {
+        return options_.order != nullptr && options_.order->determined && !options_.expected_order;
     }
 
     bool is_sound(std::size_t i) const {
         return orders_[i] && *orders_[i] > tuning.standstill &&
-               (!options_.expected_order || agree(*orders_[i], *options_.expected_order));
+               (!options_.expected_order || agrees(i, *options_.expected_order));
     }
 
-    /// Whether an order may be that which all levels determine.
-    bool may_be_last(double order) const {
+    /// Whether the order into a level may be that which all levels determine.
+    bool may_be_last(std::size_t i) const {
         const auto& last = *options_.order;
-        return std::abs(order - last.value) <=
-               std::max(options_.tolerance * last.value, last.half_width() / 2);
+        return orders_[i] &&
+               std::abs(*orders_[i] - last.value) <=
+                   std::max(options_.tolerance * last.value, last.half_width() / 2) + slack_[i];
     }
 
     double mean_order(std::size_t first, std::size_t last) const {
-        const Refinement ends[] = {levels_[first], levels_[last]};
+        const Refinement ends[] = {levels_[first].mean, levels_[last].mean};
         return observed_orders(ends)[1].value_or(0.0);
     }
 
-    /// The run that ends at `last` and grows towards coarser levels as long as they agree with it.
-    std::optional<Run> run_ending_at(std::size_t last) const {
-        if (!is_sound(last))
+    /// The run that ends at `last` and grows towards coarser levels as long as they agree with it;
+    /// of_last, as long as they show the order that all levels determine: where that is known to
+    /// the tolerance it need not be seen from one row to the next.
+    std::optional<Run> run_ending_at(std::size_t last, bool of_last) const {
+        const auto may_stand = [&](std::size_t i) {
+            return is_sound(i) && (!of_last || may_be_last(i));
+        };
+        if (!may_stand(last))
             return std::nullopt;
+        const bool is_known =
+            of_last && options_.order->half_width() <= options_.tolerance * options_.order->value;
         std::size_t first = last - 1;
-        while (first > 0 && is_sound(first) && agree(*orders_[first], mean_order(first, last)) &&
-               agree(*orders_[first], *orders_[first + 1]))
+        while (first > 0 && may_stand(first) && (is_known || joins(first, last)))
             --first;
         const std::size_t fewest = options_.expected_order ? 1 : 2;
         if (last - first < fewest)
@@ -119,45 +104,49 @@ private:
         return Run{first, last, mean_order(first, last)};
     }
 
-    /// The finest run that finer levels do not refute.
-    void find_window() {
-        std::vector<Run> runs; // finest first
+    /// All of them, finest first.
+    std::vector<Run> all_runs(bool of_last) const {
+        std::vector<Run> runs;
         for (std::size_t last = size(); last-- > 1;)
-            if (const auto run = run_ending_at(last)) {
+            if (const auto run = run_ending_at(last, of_last)) {
                 runs.push_back(*run);
                 last = run->first + 1;
             }
-        for (std::size_t k = 0; k < runs.size(); ++k) {
-            const bool floor_in_disguise =
-                std::any_of(runs.begin() + static_cast<std::ptrdiff_t>(k) + 1, runs.end(),
-                            [&](const Run& coarser) {
-                                return coarser.orders() >= runs[k].orders() &&
-                                       coarser.order > tuning.much_larger * runs[k].order;
-                            });
+        return runs;
+    }
+
+    /// The finest of some runs that finer levels do not refute, and verdicts with it. A run after
+    /// one as long that agrees on a much larger order is a floor whose scatter looks regular.
+    bool find_window(const std::vector<Run>& runs, const std::vector<Run>& agreeing) {
+        for (const Run& run : runs) {
+            const bool floor_in_disguise = std::ranges::any_of(agreeing, [&](const Run& coarser) {
+                return coarser.last <= run.first && coarser.orders() >= run.orders() &&
+                       coarser.order > tuning.much_larger * run.order;
+            });
             if (floor_in_disguise)
                 continue;
-            judge_with(runs[k]);
-            if (is_refuted(runs[k])) {
-                verdicts_.clear();
-                continue;
+            judge_with(run);
+            if (!is_refuted(run)) {
+                run_ = run;
+                return true;
             }
-            run_ = runs[k];
-            return;
+            verdicts_.clear();
         }
+        return false;
     }
 
     /// A dip: steeper than the window's order into the level, flatter or back up out of it.
     bool is_dip(std::size_t i, const Run& run) const {
         return i + 1 < size() && orders_[i] && orders_[i + 1] &&
-               *orders_[i] > (1 + options_.tolerance) * run.order &&
-               *orders_[i + 1] < (1 - options_.tolerance) * run.order;
+               *orders_[i] - slack_[i] > (1 + options_.tolerance) * run.order &&
+               *orders_[i + 1] + slack_[i + 1] < (1 - options_.tolerance) * run.order;
     }
 
     void judge_with(const Run& run) {
         verdicts_.assign(size(), {});
-        double least = levels_.empty() ? 0.0 : levels_.front().error;
+        double least = levels_.empty() ? 0.0 : levels_.front().mean.error;
         for (std::size_t i = 0; i < size(); ++i) {
-            least = std::min(least, levels_[i].error);
+            least = std::min(least, levels_[i].mean.error);
             if (i >= run.first && i <= run.last)
                 verdicts_[i] = {Verdict::asymptotic, reason_within(run)};
             else if (is_dip(i, run))
@@ -188,14 +177,14 @@ private:
         if (!orders_[i])
             return {Verdict::pre_asymptotic, "nothing is refined against the row before"};
         const double order = *orders_[i];
-        if (order < 0 && levels_[i].error > tuning.floor_scatter * least)
+        if (order < 0 && levels_[i].mean.error > tuning.floor_scatter * least)
             return {
                 Verdict::diverging,
                 fmt::format("the error grows again, order {:.2f} after {:.2f}", order, run.order)};
         if (order < tuning.floor_part * run.order)
             return {Verdict::floor, fmt::format("the error no longer falls as before, near {:.1e}",
-                                                levels_[i].error)};
-        if (agree(order, run.order))
+                                                levels_[i].mean.error)};
+        if (agrees(i, run.order))
             return {Verdict::pre_asymptotic,
                     fmt::format("order {:.2f}, but no longer with its neighbours", order)};
         return {Verdict::pre_asymptotic,
@@ -221,29 +210,19 @@ private:
         return false;
     }
 
-    /// Cuts off rows of the window, coarse ones first, whose order is not that which all levels
-    /// determine.
-    void leave_out_other_orders(const Run before) {
-        Run run = before;
-        const auto is_other = [&] {
-            return !options_.order->determined || !may_be_last(*orders_[run.first + 1]) ||
-                   !may_be_last(run.order);
-        };
-        constexpr std::size_t fewest = 2;
-        while (run.orders() >= fewest && is_other())
-            run = {run.first + 1, run.last, mean_order(run.first + 1, run.last)};
-        if (run.orders() >= fewest) {
-            run_ = run;
-            judge_with(run);
-        } else {
-            run_.reset();
-        }
+    /// Says of rows that are coarser than the window, or of all where none shows the order that all
+    /// levels determine, what keeps them from it.
+    void tell_from_last(bool is_asymptotic) {
         for (std::size_t i = 0; i < size(); ++i) {
-            const bool was_cut_off = !run_ || (i >= before.first && i < run.first);
-            if (was_cut_off && (verdicts_[i].verdict == Verdict::asymptotic ||
-                                verdicts_[i].verdict == Verdict::pre_asymptotic))
+            const bool had_its_window = !is_asymptotic && run_;
+            const bool is_before = !is_asymptotic || i < run_->first;
+            if ((verdicts_[i].verdict == Verdict::asymptotic ||
+                 verdicts_[i].verdict == Verdict::pre_asymptotic) &&
+                (had_its_window || (is_before && !may_be_last(std::max<std::size_t>(i, 1)))))
                 verdicts_[i] = {Verdict::pre_asymptotic, reason_before(i)};
         }
+        if (!is_asymptotic)
+            run_.reset();
     }
 
     /// Of a row that is coarser than the window, or would be.
@@ -297,8 +276,9 @@ private:
             verdicts_[0] = verdicts_[1];
     }
 
-    std::vector<Refinement> levels_;
+    std::vector<Level> levels_;
     std::vector<std::optional<double>> orders_;
+    std::vector<double> slack_; // of the orders
     const VerdictOptions& options_;
     std::optional<Run> run_;
     std::vector<RowVerdict> verdicts_;
@@ -307,17 +287,18 @@ private:
 /// Levels that stand off a line on which the neighbours on both sides lie: the order into one and
 /// the order out of it depart from the order past it, one up and one down, and two more orders
 /// agree with that.
-std::vector<bool> outliers_of(std::span<const Refinement> levels, double tolerance) {
+std::vector<bool> outliers_of(const std::vector<Level>& levels, double tolerance) {
     std::vector<bool> out(levels.size(), false);
-    const auto orders = observed_orders(levels);
+    const auto [orders, deviations] = orders_of(levels);
     for (std::size_t i = 1; i + 1 < levels.size(); ++i) {
-        const Refinement past[] = {levels[i - 1], levels[i + 1]};
+        const Refinement past[] = {levels[i - 1].mean, levels[i + 1].mean};
         const auto across = observed_orders(past)[1];
         if (out[i - 1] || !across || !orders[i] || !orders[i + 1] || *across <= tuning.standstill)
             continue;
         const double into = *orders[i] - *across;
         const double out_of = *orders[i + 1] - *across;
-        const double slack = tolerance * *across;
+        const double slack =
+            std::max(tolerance * *across, std::max(deviations[i], deviations[i + 1]));
         if (into * out_of >= 0 || std::min(std::abs(into), std::abs(out_of)) < 2 * slack)
             continue;
         std::size_t confirmed = 0;
@@ -355,8 +336,12 @@ RowVerdict by_model(const LadderForecast& view, std::size_t i, std::size_t rows)
 }
 
 /// Rows of which the model speaks true take its verdict.
-void prefer_model(std::span<const Refinement> levels, const VerdictOptions& options,
+void prefer_model(const std::vector<Level>& in_line, const VerdictOptions& options,
                   std::vector<RowVerdict>& verdicts) {
+    std::vector<Refinement> levels;
+    levels.reserve(in_line.size());
+    for (const auto& level : in_line)
+        levels.push_back(level.mean);
     for (const auto& record : levels)
         if (!(record.h > 0 && record.dt > 0 && std::isfinite(record.h * record.dt)))
             return;
@@ -410,21 +395,17 @@ LadderVerdict judge(std::span<const Refinement> ladder, const VerdictOptions& op
     for (const auto& record : ladder)
         result.rows.push_back(unusable(record));
     result.orders.resize(ladder.size());
-    const auto levels = levels_of(ladder);
+    const auto levels = levels_of(ladder, options.sigma);
     if (levels.empty())
         return result;
-    std::vector<Refinement> means;
-    means.reserve(levels.size());
-    for (const auto& level : levels)
-        means.push_back(level.mean);
-    const auto orders = observed_orders(means);
-    const auto out = outliers_of(means, options.tolerance);
+    const auto orders = orders_of(levels).values;
+    const auto out = outliers_of(levels, options.tolerance);
     std::vector<std::size_t> kept; // positions in levels
-    std::vector<Refinement> in_line;
+    std::vector<Level> in_line;
     for (std::size_t i = 0; i < levels.size(); ++i)
         if (!out[i]) {
             kept.push_back(i);
-            in_line.push_back(means[i]);
+            in_line.push_back(levels[i]);
         }
     const Pairwise judged(in_line, options);
     if (const auto& run = judged.run())

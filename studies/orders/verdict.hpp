@@ -8,8 +8,8 @@
 /// dip or a divergence, or one last row whose other order nothing confirms and towards which the
 /// window does not drift. One order is never enough for that, so a ladder of two rows is not
 /// asymptotic, unless the expected order is given and met. Where the order that all levels
-/// determine is given, the window has only rows that show it; where it is given as not determined,
-/// there is none. With a two-term model of the same norm, rows that the model describes are judged
+/// determine is given, the window has the rows that show it, whether or not each agrees with its
+/// neighbour; where it is given as not determined, there is none. With a two-term model of the same norm, rows that the model describes are judged
 /// by it: it knows the order that the ladder will show in the end, and a cancellation from an
 /// order.
 #pragma once
@@ -77,6 +77,9 @@ struct VerdictOptions {
     /// That along the ladder (ladder_order.hpp), which rows that are asymptotic have, to the
     /// tolerance or half the half width of its interval. None: not known.
     const OrderInterval* order = nullptr;
+    /// Standard deviations of the errors, one a record: orders that agree within 95 % of what these
+    /// make of them agree, and no dip is smaller. Empty: not known.
+    std::span<const double> sigma = {};
 };
 
 struct LadderVerdict {

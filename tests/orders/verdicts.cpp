@@ -146,6 +146,47 @@ BOOST_AUTO_TEST_CASE(orders_that_agree_on_their_way_to_another_one_are_not_asymp
     BOOST_TEST(word(judge(ladder, {.expected_order = 1.15, .order = &open})) != "pppppp");
 }
 
+BOOST_AUTO_TEST_CASE(each_row_of_the_window_shows_the_order_that_all_levels_determine) {
+    const OrderInterval order{.value = 2.0, .low = 1.95, .high = 2.05, .determined = true};
+    // 1.79 agrees with the orders beside it and with their mean, and not with 2.00.
+    const auto ladder = with_orders({2.0, 1.9, 1.79, 1.9, 2.0});
+    BOOST_TEST(word(ladder) == "AAAAAA");
+    const auto judged = judge(ladder, {.order = &order});
+    BOOST_TEST(word(judged) == "pppAAA");
+    BOOST_TEST(judged.rows[2].reason == "coarser than the rows that show order 1.95");
+    // 2.15 and 1.85 do not agree with each other; both may be 2.00.
+    BOOST_TEST(word(with_orders({2.15, 1.85, 2.15, 1.85})) == "ppppp");
+    BOOST_TEST(word(with_orders({2.15, 1.85, 2.15, 1.85}), {.order = &order}) == "AAAAA");
+    // None is.
+    const auto none = judge(with_orders({1.5, 1.6, 1.5}), {.order = &order});
+    BOOST_TEST(word(none) == "pppp");
+    BOOST_TEST(none.rows[3].reason == "order 1.50; that of the end is 2.00 ± 0.05");
+}
+
+// Of errors that deviate by 5 % the order on halved widths does by 1.96 · 0.05 √2/ln 2 = 0.2.
+BOOST_AUTO_TEST_CASE(what_deviations_account_for_is_no_other_order_no_dip_and_no_outlier) {
+    const auto with_deviations = [](const std::vector<double>& orders, double part,
+                                    VerdictOptions options = {}) {
+        const auto ladder = with_orders(orders);
+        std::vector<double> sigma;
+        for (const auto& record : ladder)
+            sigma.push_back(part * record.error);
+        options.sigma = sigma;
+        return word(ladder, options);
+    };
+    const OrderInterval order{.value = 2.0, .low = 1.95, .high = 2.05, .determined = true};
+    for (const auto* all : {static_cast<const OrderInterval*>(nullptr), &order}) {
+        BOOST_TEST(with_deviations({2.1, 1.7, 2.2, 1.75, 2.0}, 0.05, {.order = all}) == "AAAAAA");
+        BOOST_TEST(with_deviations({2.1, 1.7, 2.2, 1.75, 2.0}, 0.01, {.order = all}) != "AAAAAA");
+    }
+    BOOST_TEST(with_deviations({2.0, 1.5, 2.0}, 0.05, {.order = &order}) == "pppp");
+    BOOST_TEST(with_deviations({2.0, 2.0, 2.0, 2.45, 1.55, 2.0, 2.0}, 0.001) == "AAAAoAAA");
+    BOOST_TEST(with_deviations({2.0, 2.0, 2.0, 2.45, 1.55, 2.0, 2.0}, 0.1) == "AAAAAAAA");
+    BOOST_TEST(with_deviations({2.0, 2.0, 2.0, 2.3, 1.7}, 0.001) == "AAAAcc");
+    BOOST_TEST(with_deviations({2.0, 2.0, 2.0, 2.3, 1.7}, 0.06) == "AAAAAA");
+    BOOST_TEST(with_deviations({2.0, 2.1}, 0.05, {.expected_order = 2.3}) == "AAA");
+}
+
 BOOST_AUTO_TEST_CASE(equal_errors_stand_on_a_floor) {
     BOOST_TEST(word(halving({0.1, 0.1, 0.1, 0.1})) == "ffff");
     // Nearly equal is no slow convergence either: orders of a thousandth agree with each other.
