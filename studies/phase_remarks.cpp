@@ -34,6 +34,15 @@ struct RateJump {
     bool tip = false;     ///< in the velocity of the tip, too: ∫ (1 − x) u_xxt dx
 };
 
+/// Whether a stop is touched at any time: without, the contact stress has no error.
+bool touches(const ProblemData& data, double final_time) {
+    if (!data.exact || !data.exact->stress)
+        return false;
+    constexpr Eigen::Index samples = 1001;
+    const ArrayXd times = ArrayXd::LinSpaced(samples, 0.0, final_time);
+    return (data.amplitudes(times).row(*data.exact->stress) != 0.0).any();
+}
+
 RateJump rate_jump(const ProblemData& data, double end) {
     const GaussRule rule = GaussRule::of(48);
     const ArrayXd& x = rule.points;
@@ -101,7 +110,7 @@ std::string steps_text(const Decreasing& steps) {
 
 /// The orders in dt that are left, by norm; of a square the square's. Empty where nothing is read
 /// that the jump touches.
-std::string orders_text(const Scene& scene, const RateJump& jump) {
+std::string orders_text(const Scene& scene, const RateJump& jump, bool touches_stop) {
     const bool coupled = scene.beam.alpha != 0.0;
     const bool heat = jump.heat > 0.0 || coupled;
     const bool bending = jump.bending > 0.0 || coupled;
@@ -110,7 +119,7 @@ std::string orders_text(const Scene& scene, const RateJump& jump) {
         const QuantitySet set = norm.quantities();
         const auto has = [&](Quantity q) { return set[static_cast<std::size_t>(q)]; };
         const bool of_heat = heat && (has(Quantity::theta) || has(Quantity::theta_x));
-        const bool of_stress = has(Quantity::stress) && (jump.tip || coupled);
+        const bool of_stress = touches_stop && has(Quantity::stress) && (jump.tip || coupled);
         const bool of_bending =
             bending && (has(Quantity::u) || has(Quantity::u_x) || has(Quantity::u_xx));
         if (!of_heat && !of_bending && !of_stress)
@@ -153,6 +162,9 @@ std::string remark(const Scene& scene, const RateJump& jump, const std::string& 
 
 std::vector<std::string> phase_remarks(const Scene& scene, const ProblemData& data) {
     std::vector<std::string> remarks;
+    if (data.phase_ends.empty())
+        return remarks;
+    const bool touches_stop = touches(data, longest_time(scene.series()));
     for (const double end : data.phase_ends) {
         const Costly costly = costly_steps(scene, data, end);
         if (costly.inside.empty() && costly.behind.empty())
@@ -160,7 +172,7 @@ std::vector<std::string> phase_remarks(const Scene& scene, const ProblemData& da
         const RateJump jump = rate_jump(data, end);
         if (jump.heat == 0.0 && jump.bending == 0.0)
             continue;
-        if (const std::string orders = orders_text(scene, jump); !orders.empty())
+        if (const std::string orders = orders_text(scene, jump, touches_stop); !orders.empty())
             remarks.push_back(remark(scene, jump, orders, costly, end));
     }
     return remarks;

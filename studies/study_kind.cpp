@@ -1,7 +1,10 @@
 #include "studies/study_kind.hpp"
 
 #include "core/norms/error_norms.hpp"
+#include "mms/text/toml_reader.hpp"
 #include "studies/runs/beam_runs.hpp"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <stdexcept>
@@ -51,13 +54,18 @@ StudyKind::Runs StudyKind::runs(const std::any& /*record*/) const {
 
 Ending StudyKind::ending(const std::any& record) const {
     Ending ending;
+    int failed = 0;
     for (const auto* results : runs(record))
         for (const auto& run : *results) {
-            if (run.status != RungStatus::ok && !ending.failed)
-                ending.reason = run.reason;
-            ending.failed = ending.failed || run.status != RungStatus::ok;
+            if (run.status == RungStatus::ok)
+                continue;
+            if (++failed == 1)
+                ending.reason = run.rung.name(message_text) + ": " + run.reason;
+            ending.failed = true;
             ending.interrupted = ending.interrupted || run.status == RungStatus::interrupted;
         }
+    if (failed > 1)
+        ending.reason += fmt::format("; {} runs failed in all", failed);
     return ending;
 }
 

@@ -67,6 +67,9 @@ void read_plane(BoundaryEntry& entry, const SourceText& on) {
         throw wrong(first);
     entry.variable = variable;
     entry.position = SourceText(text.substr(equals + 1), on.at(equals + 1));
+    for (const auto& coordinate : coordinate_names())
+        if (coordinate != "t" && first_use(entry.position, coordinate))
+            throw wrong(first);
 }
 
 std::vector<BoundaryEntry> read_boundary(TableReader& root) {
@@ -182,7 +185,8 @@ EquationSystem system_in(const TomlDocument& document) {
 } // namespace
 
 bool is_equation_system(const std::filesystem::path& file) {
-    return read_toml(file.string()).table.contains("equations");
+    const toml::table table = read_toml(file.string()).table;
+    return table.contains("equations") || table.contains("unknowns");
 }
 
 EquationSystem read_equation_system(const std::filesystem::path& file) {

@@ -56,9 +56,10 @@ std::string check_markdown(const std::vector<CheckedScene>& scenes) {
             violations += fmt::format("- {}: a run failed: {}\n", name, markdown_text(scene.error));
         for (const auto& one : scene.expectations)
             if (!one.holds)
-                violations += fmt::format(
-                    "- {}: {}: expected {}, found {}\n", markdown_text(place_text(one.place)),
-                    markdown_text(one.what), one.expected, markdown_text(one.found));
+                violations +=
+                    fmt::format("- {}: {}: {}: expected {}, found {}\n", name,
+                                markdown_text(place_text(one.place)), markdown_text(one.what),
+                                one.expected, markdown_text(one.found));
     }
     return table + "\n" + (violations.empty() ? "" : violations + "\n");
 }

@@ -111,13 +111,17 @@ Table ladder_table(const LadderResult& ladder, const LadderBlock& block, const M
 /// What a ladder says nothing by: a level that is given twice, errors that are all zero.
 std::vector<std::string> empty_words(const LadderResult& ladder) {
     std::vector<std::string> sentences;
-    for (std::size_t i = 1; i < ladder.rungs.size(); ++i) {
+    for (std::size_t i = 0, end = 0; i < ladder.rungs.size(); i = end) {
         const Rung& rung = ladder.rungs[i].rung;
-        const Rung& before = ladder.rungs[i - 1].rung;
-        if (rung.elements == before.elements && rung.dt == before.dt)
-            sentences.push_back(fmt::format("{} stands there twice: two runs of one level have no "
-                                            "order.",
-                                            rung.name(shortest)));
+        const auto is_same = [&](const Rung& other) {
+            return other.elements == rung.elements && other.dt == rung.dt;
+        };
+        for (end = i + 1; end < ladder.rungs.size() && is_same(ladder.rungs[end].rung);)
+            ++end;
+        if (end - i > 1)
+            sentences.push_back(fmt::format(
+                "{} stands there {}: runs of one level have no order.", rung.name(shortest),
+                end - i == 2 ? "twice" : fmt::format("{} times", end - i)));
     }
     bool measured = false;
     bool all_zero = true;

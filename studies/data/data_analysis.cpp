@@ -18,18 +18,22 @@ namespace tvbeam {
 
 namespace {
 
-std::vector<double> in_order(const std::vector<double>& numbers,
-                             const std::vector<std::size_t>& order) {
-    std::vector<double> sorted;
-    sorted.reserve(numbers.size());
+/// Of one value a record; empty stays empty.
+template <typename Value>
+std::vector<Value> in_order(const std::vector<Value>& values,
+                            const std::vector<std::size_t>& order) {
+    std::vector<Value> sorted;
+    if (values.empty())
+        return sorted;
+    sorted.reserve(values.size());
     for (const std::size_t i : order)
-        sorted.push_back(numbers[i]);
+        sorted.push_back(values[i]);
     return sorted;
 }
 
 DataColumn in_order(const DataColumn& column, const std::vector<std::size_t>& order) {
-    return {column.name, in_order(column.numbers, order),
-            column.units.empty() ? column.units : in_order(column.units, order)};
+    return {column.name, in_order(column.numbers, order), in_order(column.units, order),
+            in_order(column.missing, order)};
 }
 
 bool varies(const std::vector<double>& numbers) {
@@ -296,6 +300,7 @@ ColumnAnalysis analyse_errors(const DataAnalysis& data, const DataColumn& errors
     ColumnAnalysis column;
     column.name = errors.name;
     column.numbers = errors.numbers;
+    column.missing = errors.missing;
     column.by_width.resize(data.widths.size());
     auto used = refined(data.widths);
     for (std::size_t i = 0; i < data.widths.size(); ++i)
@@ -362,6 +367,7 @@ ColumnAnalysis analyse_values(const DataAnalysis& data, const DataColumn& values
     column.name = values.name;
     column.is_value = true;
     column.numbers = values.numbers;
+    column.missing = values.missing;
     column.by_width.resize(data.widths.size());
     const auto used = refined(data.widths);
     const std::size_t along = used.empty() ? 0 : used.front();
@@ -390,14 +396,18 @@ ColumnAnalysis analyse_values(const DataAnalysis& data, const DataColumn& values
                 !varies(data.widths[i].numbers) ? "it is the same in all rows"
                 : on_one_path                   ? "it is refined with " + data.widths[along].name
                                                 : column.limit->order.status;
+    std::string held; // its error is in the limit
+    for (const auto& width : data.widths)
+        if (on_one_path && !varies(width.numbers))
+            held += fmt::format(" at {} = {:.4g}", width.name, width.numbers.front());
     column.findings.push_back(
         column.name + ": " +
         (limit.determined
-             ? fmt::format("limit {0:.{3}g}, 95 % from {1:.{3}g} to {2:.{3}g} ({4}); the finest "
+             ? fmt::format("limit {0:.{3}g}{6}, 95 % from {1:.{3}g} to {2:.{3}g} ({4}); the finest "
                            "value ± {5}; ",
                            limit.value, limit.low, limit.high,
                            digits_of(limit.value, limit.half_width()), basis,
-                           scientific(uncertainty, 2)) +
+                           scientific(uncertainty, 2), held) +
                    order_words(data.widths[along].name, order)
              : "no limit: " + limit.status));
     if (step)
@@ -421,7 +431,7 @@ DataAnalysis analyse(const DataFile& data) {
     });
     for (const auto& width : data.widths)
         analysis.widths.push_back(in_order(width, order));
-    const auto sigma = data.sigma.empty() ? std::vector<double>() : in_order(data.sigma, order);
+    const auto sigma = in_order(data.sigma, order);
     for (const auto& errors : data.errors)
         analysis.columns.push_back(analyse_errors(analysis, in_order(errors, order), sigma));
     for (const auto& values : data.values)

@@ -17,6 +17,7 @@ struct ColumnAnalysis {
     std::string name;
     bool is_value = false;       ///< of a number without known limit; else an error
     std::vector<double> numbers; ///< one a row
+    std::vector<bool> missing;   ///< DataColumn::missing
     /// One a row; empty where several widths are refined independently, and for values.
     std::vector<std::optional<double>> orders;
     std::vector<RowVerdict> verdicts;    ///< one a row; empty with three widths, and for values

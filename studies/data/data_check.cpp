@@ -4,6 +4,7 @@
 #include "mms/text/toml_reader.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <functional>
 #include <system_error>
@@ -57,8 +58,44 @@ private:
         }
     }
 
+    bool has_failed(std::size_t row) const {
+        const double number = column_.numbers[row];
+        return !(std::isfinite(number) && (column_.is_value || number >= 0)) &&
+               (column_.missing.empty() || !column_.missing[row]);
+    }
+
+    /// Whether a run failed, so that its number is none, that no other is as fine as in all widths.
+    bool finest_failed() const {
+        const auto is_as_fine = [&](std::size_t row, std::size_t as) {
+            return std::ranges::all_of(analysis_.widths, [&](const DataColumn& width) {
+                return width.numbers[row] <= width.numbers[as];
+            });
+        };
+        for (std::size_t row = 0; row < analysis_.rows(); ++row) {
+            bool is_finest = has_failed(row);
+            for (std::size_t other = 0; other < analysis_.rows() && is_finest; ++other)
+                is_finest = !std::isfinite(column_.numbers[other]) || has_failed(other) ||
+                            !is_as_fine(other, row);
+            if (is_finest)
+                return true;
+        }
+        return false;
+    }
+
+    /// As a gate, an order or a limit must not pass because the finest run failed.
+    OrderInterval gated(OrderInterval interval) const {
+        if (finest_failed()) {
+            interval.determined = false;
+            interval.status = column_.is_value
+                                  ? "the finest row failed: its value is not finite"
+                                  : "the finest row failed: its error is not a number, infinite or "
+                                    "negative";
+        }
+        return interval;
+    }
+
     Metric order_in(std::size_t width) const {
-        const auto& order = column_.by_width[width];
+        const auto order = gated(column_.by_width[width]);
         return {"order in " + analysis_.widths[width].name, known(order.determined, order.value),
                 "not determined: " + order.status};
     }
@@ -73,7 +110,7 @@ private:
     void hold_order(TableReader& table, const std::string& key, std::size_t width) {
         const Metric metric = order_in(width);
         hold(table, key, {metric});
-        hold_interval(table, key, metric.what, column_.by_width[width]);
+        hold_interval(table, key, metric.what, gated(column_.by_width[width]));
     }
 
     void check_order() {
@@ -105,7 +142,7 @@ private:
     }
 
     void check_limit(const LimitEstimate& estimate) {
-        const auto& limit = estimate.limit;
+        const auto limit = gated(estimate.limit);
         hold(table_, "limit", {{"limit", known(limit.determined, limit.value), limit.status}});
         hold_interval(table_, "limit", "limit", limit);
         hold(table_, "uncertainty",
@@ -133,6 +170,10 @@ private:
             if (column_.is_value && table_.has(key))
                 throw table_.error(key, " is of errors, and " + column_.name +
                                             " holds values; of these there are limit and order");
+        if (table_.has("orders") && !column_.is_value && column_.orders.empty())
+            throw table_.error("orders",
+                               " are those from one row to the next, and these rows are a grid; "
+                               "order.WIDTH is that of all rows in one width");
         std::vector<Metric> metrics;
         // Rows of one width have one order between them; a row without an error has none, and is
         // not passed over.

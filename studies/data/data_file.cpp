@@ -285,6 +285,8 @@ void read_record(const Lines& lines, const std::vector<TextField>& fields, const
                                  " it is too small for a double");
         auto& target = use.plain != nullptr ? *use.plain : use.target->numbers;
         target.push_back(width);
+        if (use.plain == nullptr)
+            use.target->missing.push_back(is_missing(field.text));
         use.printed.push_back(printed_digits(field.text));
         found = found || (use.is_figure() && std::isfinite(number));
         if (use.plain != nullptr && found && !(number > 0 && std::isfinite(number)))

@@ -35,6 +35,9 @@ struct DataColumn {
     /// Of the last digits printed, one a record; empty: exact, as widths are whose ratios are
     /// (printed_units_of_widths).
     std::vector<double> units = {};
+    /// Whether nothing was there, so that no run is said to have failed, one a record; empty:
+    /// everywhere there was.
+    std::vector<bool> missing = {};
 };
 
 struct DataFile {

@@ -265,23 +265,42 @@ void expect_orders(TableReader& table, const Series& series, std::size_t k,
     });
 }
 
+/// A counter of each run; where none has it, what they count.
+std::vector<std::string> counts_of(const std::string& name, const std::vector<RungResult>& runs) {
+    std::vector<std::string> counts;
+    std::vector<std::string> names;
+    bool is_known = false;
+    for (const auto& run : runs) {
+        counts.emplace_back("none");
+        for (const auto& one : run.counters) {
+            if (std::ranges::find(names, one.name) == names.end())
+                names.push_back(one.name);
+            if (one.name == name) {
+                counts.back() = metric_text(static_cast<double>(one.value));
+                is_known = true;
+            }
+        }
+    }
+    if (!is_known)
+        counts = {"no counter of this name" + did_you_mean(name, names) + "; the runs count " +
+                  (names.empty() ? "nothing" : join(names, ", "))};
+    return counts;
+}
+
 void expect_counters(TableReader& table, const Series& series,
                      std::vector<Expectation>& expectations) {
     auto counters = table.table("counters");
     if (!counters)
         return;
     for (const auto& name : counters->unread()) {
-        if (const auto wanted = counters->numbers(name))
-            require_count(*counters, name, wanted->size(), series.rungs.size(), "rung");
-        expect_numbers(*counters, name, expectations, [series, name](const StudyResult& result) {
-            std::vector<double> counts;
-            for (const auto& run : runs_of(result, series.study)) {
-                const bool known = std::ranges::any_of(
-                    run.counters, [&](const Count& one) { return one.name == name; });
-                counts.push_back(known ? static_cast<double>(run.count(name)) : std::nan(""));
-            }
-            return counts;
-        });
+        const auto wanted = counters->numbers(name);
+        if (!wanted)
+            continue;
+        require_count(*counters, name, wanted->size(), series.rungs.size(), "rung");
+        expectations.push_back(
+            all_of(*counters, name, texts_of(*wanted), [series, name](const StudyResult& result) {
+                return counts_of(name, runs_of(result, series.study));
+            }));
     }
     counters->finish();
 }

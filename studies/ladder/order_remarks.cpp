@@ -25,11 +25,15 @@ double to_two_digits(double value) {
     return unit * std::round(value / unit);
 }
 
-/// A rung by what is refined along the ladder.
+/// A rung by what is refined along the ladder; by both widths where another rung has its h.
 std::string rung_name(std::span<const Refinement> ladder, const Refinement& rung) {
+    std::string step = fmt::format("dt = {:.3g}", rung.dt);
     if (std::isnan(ladder.front().h) || ladder.front().h == ladder.back().h)
-        return "dt = " + fmt::format("{:.3g}", rung.dt);
-    return "s = " + fmt::format("{:.0f}", 1.0 / rung.h);
+        return step;
+    const bool is_only_one = std::ranges::none_of(ladder, [&](const Refinement& other) {
+        return other.h == rung.h && !std::isnan(rung.dt) && other.dt != rung.dt;
+    });
+    return fmt::format("s = {:.0f}", 1.0 / rung.h) + (is_only_one ? "" : ", " + step);
 }
 
 /// That rung, and the finer ones: "s ≥ 40".
@@ -123,12 +127,12 @@ std::string departure(const Measure& norm, std::span<const Refinement> roots,
         return text + ": the error no longer shrinks.";
     if (explained)
         return text + ".";
+    if (changes_proportions(roots))
+        return text + ", on a ladder that refines h and dt in proportions that change.";
     if (std::abs(last.order) < steady && std::abs((orders.end - 2)->order) < steady)
         return text + ": the error hardly shrinks any more.";
     const double last_step = std::abs(last.order - (orders.end - 2)->order);
     const bool settles = orders.end - orders.leaves >= 2 && last.order > 0.0 && last_step <= steady;
-    if (changes_proportions(roots))
-        return text + ", on a ladder that refines h and dt in proportions that change.";
     if (dips(orders, settles ? last.order : before))
         return text + ", as where two terms of the error cancel.";
     const double step_before = orders.end - orders.first < 3

@@ -2,6 +2,7 @@
 
 #include "studies/orders/order_engine.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace tvbeam {
@@ -29,6 +30,18 @@ void take_mean(std::span<const Refinement> ladder, Level& level) {
         if (differ)
             level.mean.*figure = std::exp(sum / static_cast<double>(level.rows.size()));
     }
+}
+
+/// What is refined from one level to the next.
+enum class Step { in_h, in_dt, in_both, back };
+
+Step step_between(const Refinement& from, const Refinement& to) {
+    const auto stays = [](double a, double b) {
+        return (std::isnan(a) && std::isnan(b)) || a == b;
+    };
+    if (!refinement_ratio(from, to))
+        return Step::back;
+    return stays(from.dt, to.dt) ? Step::in_h : stays(from.h, to.h) ? Step::in_dt : Step::in_both;
 }
 
 } // namespace
@@ -70,6 +83,28 @@ Orders orders_of(const std::vector<Level>& levels) {
     for (std::size_t i = 1; i < levels.size(); ++i)
         orders.slack[i] = slack_between(levels[i - 1], levels[i]);
     return orders;
+}
+
+std::vector<std::pair<std::size_t, std::size_t>> sweeps_of(const std::vector<Level>& levels) {
+    if (levels.empty())
+        return {};
+    std::vector<Step> steps; // into the level, the first has none
+    for (std::size_t i = 1; i < levels.size(); ++i)
+        steps.push_back(step_between(levels[i - 1].mean, levels[i].mean));
+    const auto has = [&](Step step) { return std::ranges::find(steps, step) != steps.end(); };
+    std::vector<std::pair<std::size_t, std::size_t>> sweeps{{0, 0}};
+    const bool in_turns = has(Step::in_h) && has(Step::in_dt);
+    for (std::size_t i = 1; i < levels.size(); ++i) {
+        const Step step = steps[i - 1];
+        const bool goes_on = i < 2 || step == steps[i - 2] || sweeps.back().first == i - 1;
+        if (in_turns && step == Step::back)
+            sweeps.emplace_back(i, i);
+        else if (in_turns && !goes_on)
+            sweeps.emplace_back(i - 1, i);
+        else
+            sweeps.back().second = i;
+    }
+    return sweeps;
 }
 
 } // namespace tvbeam

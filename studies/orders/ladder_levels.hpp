@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace tvbeam {
@@ -32,5 +33,10 @@ struct Orders {
 };
 
 Orders orders_of(const std::vector<Level>& levels);
+
+/// First and last level of each sweep: all of them, or, where h is refined in some steps alone and
+/// Δt in others, those between which the same is refined. Sweeps that follow without a step that
+/// grows share a level.
+std::vector<std::pair<std::size_t, std::size_t>> sweeps_of(const std::vector<Level>& levels);
 
 } // namespace tvbeam

@@ -399,7 +399,8 @@ std::vector<OrderInterval> OrderEnsemble::orders() const {
 std::string OrderEnsemble::status_of(Index width, const OrderInterval& order) const {
     if (order.share < tuning_.least_share)
         return "hidden: its term is less than 15 % of every error";
-    if (std::abs(order.value) <= 2 * tuning_.narrowest && order.half_width() <= tuning_.widest)
+    if ((std::abs(order.value) <= 2 * tuning_.narrowest && order.half_width() <= tuning_.widest) ||
+        stands_still())
         return "the error stands still";
     if (order.high <= 0)
         return fmt::format("the error grows under refinement, order {:.2f}", order.value);
@@ -412,6 +413,14 @@ std::string OrderEnsemble::status_of(Index width, const OrderInterval& order) co
     if (!moves.empty())
         return moves;
     return is_followed() ? "models and windows do not agree" : "no model follows all rows";
+}
+
+bool OrderEnsemble::stands_still() const {
+    const auto range = [](const Eigen::VectorXd& logs) {
+        return logs.maxCoeff() - logs.minCoeff();
+    };
+    return rows_.widths() == 1 &&
+           range(rows_.log_errors) <= 2 * tuning_.narrowest * range(rows_.log_widths.col(0));
 }
 
 int OrderEnsemble::place_of(Index width, double log_width) const {

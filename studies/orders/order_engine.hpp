@@ -123,6 +123,7 @@ private:
     bool has_constant_beside(const EnsembleMember& member, Eigen::Index width, double share) const;
     bool leans_on_a_constant(const EnsembleMember& member, Eigen::Index width) const;
     bool is_seen_as_a_power(Eigen::Index width, const OrderInterval& order) const;
+    bool stands_still() const;
     std::string status_of(Eigen::Index width, const OrderInterval& order) const;
     double sequence_factor() const;
     double grid_factor() const;

@@ -364,6 +364,31 @@ RowVerdict unusable(const Refinement& record) {
     return {Verdict::failed, error < 0 ? "the error is negative" : "the error is infinite"};
 }
 
+/// Levels of which the same is refined from each to the next, and the window among them.
+std::vector<RowVerdict> judge_sweep(const std::vector<Level>& levels, const VerdictOptions& options,
+                                    std::optional<LadderVerdict::Window>& window) {
+    const auto out = outliers_of(levels, options.tolerance);
+    std::vector<std::size_t> kept; // positions in levels
+    std::vector<Level> in_line;
+    for (std::size_t i = 0; i < levels.size(); ++i)
+        if (!out[i]) {
+            kept.push_back(i);
+            in_line.push_back(levels[i]);
+        }
+    const Pairwise judged(in_line, options);
+    if (const auto& run = judged.run())
+        window = {levels[kept[run->first]].rows.front(), levels[kept[run->last]].rows.back(),
+                  run->order};
+    auto of_kept = judged.verdicts();
+    if (options.model != nullptr)
+        prefer_model(in_line, options, of_kept);
+    std::vector<RowVerdict> verdicts(levels.size(),
+                                     {Verdict::outlier, "out of line with the rows beside it"});
+    for (std::size_t k = 0; k < kept.size(); ++k)
+        verdicts[kept[k]] = std::move(of_kept[k]);
+    return verdicts;
+}
+
 } // namespace
 
 const char* name_of(Verdict verdict) {
@@ -399,30 +424,20 @@ LadderVerdict judge(std::span<const Refinement> ladder, const VerdictOptions& op
     if (levels.empty())
         return result;
     const auto orders = orders_of(levels).values;
-    const auto out = outliers_of(levels, options.tolerance);
-    std::vector<std::size_t> kept; // positions in levels
-    std::vector<Level> in_line;
-    for (std::size_t i = 0; i < levels.size(); ++i)
-        if (!out[i]) {
-            kept.push_back(i);
-            in_line.push_back(levels[i]);
+    const auto sweeps = sweeps_of(levels);
+    std::size_t next = 0; // level that has no verdict yet
+    for (const auto& [first, last] : sweeps) {
+        const auto begin = levels.begin() + static_cast<std::ptrdiff_t>(first);
+        const auto end = levels.begin() + static_cast<std::ptrdiff_t>(last) + 1;
+        const auto verdicts = judge_sweep({begin, end}, options, result.window);
+        for (; next <= last; ++next) {
+            result.orders[levels[next].rows.front()] = orders[next];
+            for (const std::size_t row : levels[next].rows)
+                result.rows[row] = verdicts[next - first];
         }
-    const Pairwise judged(in_line, options);
-    if (const auto& run = judged.run())
-        result.window = {levels[kept[run->first]].rows.front(), levels[kept[run->last]].rows.back(),
-                         run->order};
-    auto of_kept = judged.verdicts();
-    if (options.model != nullptr)
-        prefer_model(in_line, options, of_kept);
-    std::vector<RowVerdict> verdicts(levels.size(),
-                                     {Verdict::outlier, "out of line with the rows beside it"});
-    for (std::size_t k = 0; k < kept.size(); ++k)
-        verdicts[kept[k]] = std::move(of_kept[k]);
-    for (std::size_t i = 0; i < levels.size(); ++i) {
-        result.orders[levels[i].rows.front()] = orders[i];
-        for (const std::size_t row : levels[i].rows)
-            result.rows[row] = verdicts[i];
     }
+    if (sweeps.size() > 1)
+        result.window.reset();
     return result;
 }
 

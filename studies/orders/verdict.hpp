@@ -1,17 +1,18 @@
 /// What each row of a ladder of refinements shows, in a word and a short sentence.
 ///
 /// The rows run from coarse to fine. Rows whose widths differ by less than an eighth are one level,
-/// of their mean error: an order read between them is noise. Without a model the judgement rests on
-/// the orders between levels alone: a level far off the line of its neighbours is an outlier, and
-/// passed over; the asymptotic window is the finest run of rows whose orders are positive and agree
-/// with each other and are not refuted by finer rows: past the window there is nothing, a floor, a
-/// dip or a divergence, or one last row whose other order nothing confirms and towards which the
-/// window does not drift. One order is never enough for that, so a ladder of two rows is not
-/// asymptotic, unless the expected order is given and met. Where the order that all levels
-/// determine is given, the window has the rows that show it, whether or not each agrees with its
-/// neighbour; where it is given as not determined, there is none. With a two-term model of the same norm, rows that the model describes are judged
-/// by it: it knows the order that the ladder will show in the end, and a cancellation from an
-/// order.
+/// of their mean error: an order read between them is noise. Where h is refined in some steps and
+/// Δt in others, each sweep is judged by itself, and there is no window. Without a model the
+/// judgement rests on the orders between levels alone: a level far off the line of its neighbours
+/// is an outlier, and passed over; the asymptotic window is the finest run of rows whose orders are
+/// positive and agree with each other and are not refuted by finer rows: past the window there is
+/// nothing, a floor, a dip or a divergence, or one last row whose other order nothing confirms and
+/// towards which the window does not drift. One order is never enough for that, so a ladder of two
+/// rows is not asymptotic, unless the expected order is given and met. Where the order that all
+/// levels determine is given, the window has the rows that show it, whether or not each agrees with
+/// its neighbour; where it is given as not determined, there is none. With a two-term model of the
+/// same norm, rows that the model describes are judged by it: it knows the order that the ladder
+/// will show in the end, and a cancellation from an order.
 #pragma once
 
 #include "studies/orders/observed_order.hpp"

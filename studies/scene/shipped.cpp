@@ -3,6 +3,8 @@
 #include "mms/text/input_error.hpp"
 #include "mms/text/nearest_name.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstdlib>
 
@@ -38,6 +40,12 @@ std::filesystem::path directory(Shipped kind) {
     return {};
 }
 
+std::string word_of(Shipped kind) {
+    return kind == Shipped::scene      ? "scene"
+           : kind == Shipped::solution ? "solution"
+                                       : "file of equations";
+}
+
 /// Who names a directory, or a table of records, is told what takes it.
 void require_no_other_file(const std::string& name, const std::string& word, const Place& place) {
     std::error_code error;
@@ -66,9 +74,7 @@ std::vector<ShippedFile> shipped_files(Shipped kind) {
 
 std::filesystem::path find_file(Shipped kind, const std::string& name,
                                 const std::filesystem::path& beside, const Place& place) {
-    const std::string word = kind == Shipped::scene      ? "scene"
-                             : kind == Shipped::solution ? "solution"
-                                                         : "file of equations";
+    const std::string word = word_of(kind);
     if (name.find('/') != std::string::npos || name.ends_with(".toml")) {
         auto path = beside / name;
         if (std::error_code error; !std::filesystem::exists(path, error))
@@ -92,6 +98,12 @@ std::filesystem::path find_file(Shipped kind, const std::string& name,
                                     "': what tvbeam ships is not found; TVBEAM_DATA names the "
                                     "directory that it was installed to, …/share/tvbeam");
     require_no_other_file(name, word, place);
+    for (const Shipped other : {Shipped::scene, Shipped::solution, Shipped::equations})
+        for (const auto& file : shipped_files(other))
+            if (other != kind && file.name == name)
+                throw InputError(place, fmt::format("'{}' is a shipped {}, not a {}; `tvbeam list` "
+                                                    "shows those",
+                                                    name, word_of(other), word));
     throw InputError(
         place, "there is no shipped " + word + " '" + name + "'" + did_you_mean(name, names) +
                    "; `tvbeam list` shows them, and a file is named with its ending: " + name +

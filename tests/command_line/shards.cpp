@@ -392,15 +392,25 @@ BOOST_AUTO_TEST_CASE(a_script_asks_for_the_heaviest_shard) {
         BOOST_TEST(called.exit == 0, called.errors);
         return called.output;
     };
-    BOOST_TEST(has(script(solver, 2, "--slurm"), "What the program takes is not known"));
+    BOOST_TEST(has(script(solver, 2, "--slurm"), "How long the program takes is not known"));
+    BOOST_TEST(has(script(solver, 2, "--slurm"), "What memory the program takes is not known"));
+    BOOST_TEST(!has(script(solver, 2, "--slurm"), "\n#SBATCH --mem="));
     std::string timed = solver;
     timed.insert(timed.find("[solver.errors]"), "timeout = 90\n");
     // Three runs in two shards: two of 90 s, and one minute more.
     BOOST_TEST(has(script(timed, 2, "--slurm"), "#SBATCH --time=4\n"));
     BOOST_TEST(has(script(timed, 3, "--slurm"), "#SBATCH --time=3\n"));
     const std::string parallel = script(timed, 2, "--parallel");
-    BOOST_TEST(has(parallel, "seq 2 | parallel -q --memfree "), parallel);
-    BOOST_TEST(has(parallel, " and 4 minutes"), parallel);
+    BOOST_TEST(has(parallel, "# Each job takes up to 4 minutes. What memory the program takes is "
+                             "not known;"),
+               parallel);
+    BOOST_TEST(has(parallel, "seq 2 | parallel -q tvbeam "), parallel);
+    const std::string of_beam = script("solution = \"free-decay\"\n[beam]\nalpha = 0.1\nzeta = "
+                                       "0.1\n[ladder]\nfinal_time = 1.0\nelements = [4, 8]\n"
+                                       "dt = [0.1, 0.05]\nnorms = [\"theta_L2L2\"]\n",
+                                       2, "--parallel");
+    BOOST_TEST(has(of_beam, " MB and 2 minutes."), of_beam);
+    BOOST_TEST(has(of_beam, "seq 2 | parallel -q --memfree 2"), of_beam);
     // 2e5 x 5e4 steps of elements of the reference, 100 s: ten times that and one minute more.
     const std::string reference =
         "title = \"of a reference\"\n[beam]\nalpha = 0.1\nzeta = 0.1\nstops = [-1.0, 1.0]\n"

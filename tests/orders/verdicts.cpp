@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 using namespace tvbeam;
@@ -185,6 +186,33 @@ BOOST_AUTO_TEST_CASE(what_deviations_account_for_is_no_other_order_no_dip_and_no
     BOOST_TEST(with_deviations({2.0, 2.0, 2.0, 2.3, 1.7}, 0.001) == "AAAAcc");
     BOOST_TEST(with_deviations({2.0, 2.0, 2.0, 2.3, 1.7}, 0.06) == "AAAAAA");
     BOOST_TEST(with_deviations({2.0, 2.1}, 0.05, {.expected_order = 2.3}) == "AAA");
+}
+
+// h² + Δt, both positive: nothing cancels, whatever the orders of the other sweep are.
+BOOST_AUTO_TEST_CASE(each_sweep_of_widths_that_are_refined_in_turns_is_judged_by_itself) {
+    const auto ladder = [](const std::vector<std::pair<double, double>>& widths) {
+        std::vector<Refinement> rows;
+        for (const auto& [h, dt] : widths)
+            rows.push_back({.h = h, .dt = dt, .error = h * h + dt});
+        return rows;
+    };
+    const auto floor =
+        ladder({{0.1, 1e-3}, {0.05, 1e-3}, {0.025, 1e-3}, {0.0125, 1e-3}, {0.00625, 1e-3}});
+    const auto time = ladder({{1e-3, 0.1}, {1e-3, 0.05}, {1e-3, 0.025}, {1e-3, 0.0125}});
+    auto both = floor;
+    both.insert(both.end(), time.begin(), time.end());
+    const auto judged = judge(both);
+    BOOST_TEST(word(judged) == word(floor) + word(time));
+    BOOST_TEST(word(time) == "AAAA");
+    BOOST_TEST(!judged.window.has_value());
+    // The level that two sweeps share is that of the first; the order into the next is the
+    // second's.
+    const auto turned = ladder(
+        {{0.1, 0.1}, {0.05, 0.1}, {0.025, 0.1}, {0.025, 0.05}, {0.025, 0.025}, {0.025, 0.0125}});
+    const auto second = ladder({{0.025, 0.1}, {0.025, 0.05}, {0.025, 0.025}, {0.025, 0.0125}});
+    BOOST_TEST(word(turned).substr(3) == word(second).substr(1));
+    // Both at once in some steps are one ladder.
+    BOOST_TEST(word(ladder({{0.1, 0.1}, {0.05, 0.1}, {0.025, 0.05}, {0.0125, 0.025}})) == "pAAA");
 }
 
 BOOST_AUTO_TEST_CASE(equal_errors_stand_on_a_floor) {

@@ -307,6 +307,19 @@ BOOST_AUTO_TEST_CASE(an_end_is_spoken_of_where_it_costs_something) {
                                       "0.4\nelements = [4]\ndt = [0.1]\nnorms = ['" +
                                           norm + "']\n")
                 .remarks.size() == (norm == "u_L2H2" ? 1U : 0U));
+    // Where no stop is touched the stress has no error.
+    const auto of_stress = [](const std::string& norms) {
+        return studied(straight("0.29"), "[beam]\nalpha = 0.3\nzeta = 0.2\nstops = [-1.0, 1.0]\n"
+                                         "[ladder]\nfinal_time = 0.4\nelements = [4]\n"
+                                         "dt = [0.1]\nnorms = [" +
+                                             norms + "]\n")
+            .remarks;
+    };
+    BOOST_TEST(of_stress("'sigma_L2'").empty());
+    BOOST_REQUIRE(of_stress("'sigma_L2', 'u_L2H2'").size() == 1U);
+    BOOST_TEST(of_stress("'sigma_L2', 'u_L2H2'")[0].find("the order 1 in u_L2H2, and an error") !=
+                   std::string::npos,
+               of_stress("'sigma_L2', 'u_L2H2'")[0]);
     // Only σ̃ jumps there, and the sources with it.
     const StudyResult table1 = run_study(
         read_scene("table1", {"ladder.elements=[10]", "ladder.dt=[1e-3]", "ladder.printed={}"}));

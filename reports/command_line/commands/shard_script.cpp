@@ -31,10 +31,10 @@ struct ScriptOptions {
     bool parallel = false;
 };
 
-/// Of the shard that asks for most.
+/// Of the shard that asks for most; none: nobody knows what a program takes.
 struct Request {
-    std::optional<std::int64_t> minutes; ///< none: nobody knows what a program takes
-    std::int64_t megabytes = 0;
+    std::optional<std::int64_t> minutes;
+    std::optional<std::int64_t> megabytes;
     bool really_long = false; ///< a shard is refused without --yes-really-long
 };
 
@@ -56,6 +56,8 @@ Request request_of(const Scene& scene, std::uint32_t shards) {
     Request request{.minutes = rounded_up(seconds / 60.0) + 1,
                     .megabytes = rounded_up((any_process + 2.0 * predicted.bytes) / 1e6),
                     .really_long = is_too_long(scene, predicted)};
+    if (scene.solver)
+        request.megabytes.reset();
     if (scene.solver && !scene.solver->timeout)
         request.minutes.reset();
     return request;
@@ -63,8 +65,8 @@ Request request_of(const Scene& scene, std::uint32_t shards) {
 
 std::string time_line(const Request& request) {
     return request.minutes ? fmt::format("#SBATCH --time={}", *request.minutes)
-                           : "# What the program takes is not known: [solver] has no timeout; a "
-                             "line #SBATCH --time=MINUTES says it here.";
+                           : "# How long the program takes is not known: [solver] has no "
+                             "timeout; a line #SBATCH --time=MINUTES says it here.";
 }
 
 /// What stands in a comment has one line.
@@ -88,16 +90,37 @@ std::optional<std::int64_t> memory_of_nodes() {
 }
 
 /// The line that asks for memory, or why it is none.
-std::string memory_line(std::int64_t megabytes) {
+std::string memory_line(const Request& request) {
+    if (!request.megabytes)
+        return "# What memory the program takes is not known; a line #SBATCH --mem=NUMBERM says it "
+               "here, in MB.";
     const auto largest = memory_of_nodes();
-    if (!largest || *largest >= megabytes)
-        return fmt::format("#SBATCH --mem={}M", megabytes);
+    if (!largest || *largest >= *request.megabytes)
+        return fmt::format("#SBATCH --mem={}M", *request.megabytes);
     if (*largest == 1)
-        return fmt::format("# It is to take {} MB; this cluster counts no memory.", megabytes);
+        return fmt::format("# It is to take {} MB; this cluster counts no memory.",
+                           *request.megabytes);
     throw InputError({},
                      fmt::format("a shard is to take {} MB, and no node of this cluster has more "
                                  "than {} MB",
-                                 megabytes, *largest));
+                                 *request.megabytes, *largest));
+}
+
+/// "Each job takes up to 201 MB and 5 minutes."
+std::string words_of(const Request& request) {
+    std::vector<std::string> known;
+    if (request.megabytes)
+        known.push_back(fmt::format("{} MB", *request.megabytes));
+    if (request.minutes)
+        known.push_back(fmt::format("{} minutes", *request.minutes));
+    std::string words;
+    if (!known.empty())
+        words = fmt::format("Each job takes up to {}.", fmt::join(known, " and "));
+    if (!request.megabytes)
+        words += fmt::format("{}What memory the program takes is not known; --memfree NUMBERM "
+                             "waits for so much.",
+                             words.empty() ? "" : " ");
+    return words;
 }
 
 int script_command(const ScriptOptions& options) {
@@ -115,18 +138,17 @@ int script_command(const ScriptOptions& options) {
         "tvbeam merge " + word(out) +
         (is_too_long(scene, predicted_merge(scene)) ? " --yes-really-long" : "");
     if (options.slurm)
-        write_standard_output(fmt::format(
-            "#!/bin/sh\n#SBATCH --job-name={}\n#SBATCH --array=1-{}\n#SBATCH "
-            "--cpus-per-task=1\n{}\n{}\n# Afterwards: {}\nexec {}auto/{}{}\n",
-            word("tvbeam-" + scene.name), options.shards, memory_line(request.megabytes),
-            time_line(request), merge, run, options.shards, rest));
+        write_standard_output(
+            fmt::format("#!/bin/sh\n#SBATCH --job-name={}\n#SBATCH --array=1-{}\n#SBATCH "
+                        "--cpus-per-task=1\n{}\n{}\n# Afterwards: {}\nexec {}auto/{}{}\n",
+                        word("tvbeam-" + scene.name), options.shards, memory_line(request),
+                        time_line(request), merge, run, options.shards, rest));
     else
-        write_standard_output(fmt::format(
-            "#!/bin/sh\n# Each job takes up to {} MB{}.\nseq {} | parallel -q --memfree {}M "
-            "{}{{}}/{}{}\n{}\n",
-            request.megabytes,
-            request.minutes ? fmt::format(" and {} minutes", *request.minutes) : "", options.shards,
-            request.megabytes, run, options.shards, rest, merge));
+        write_standard_output(
+            fmt::format("#!/bin/sh\n# {}\nseq {} | parallel -q {}{}{{}}/{}{}\n{}\n",
+                        words_of(request), options.shards,
+                        request.megabytes ? fmt::format("--memfree {}M ", *request.megabytes) : "",
+                        run, options.shards, rest, merge));
     return done;
 }
 
