@@ -91,6 +91,26 @@ std::vector<Group> series_by(const UnreadColumn& column, const DataFile& data) {
     return series;
 }
 
+/// Says which texts of a column, of which one has several rows, are read as one series.
+void name_merged(const UnreadColumn& column, DataFile& data) {
+    std::vector<std::string> texts;
+    std::size_t rows = 0;
+    for (std::size_t i = 0; i < column.texts.size(); ++i)
+        if (has_figure(data, i) && !column.texts[i].empty()) {
+            ++rows;
+            if (std::ranges::find(texts, column.texts[i]) == texts.end())
+                texts.emplace_back(column.texts[i]);
+        }
+    if (texts.size() < 2 || texts.size() == rows)
+        return;
+    const bool all_named = texts.size() <= most_texts_named;
+    texts.resize(std::min(texts.size(), most_texts_named));
+    data.remarks.push_back(fmt::format("rows of several {} are read as one series: {}{}; one alone "
+                                       "with --where '{}=…'",
+                                       column.name, boost::algorithm::join(texts, ", "),
+                                       all_named ? "" : ", …", column.name));
+}
+
 /// Whether each width of both takes values in a range of some length in common.
 bool overlap(const Group& a, const Group& b) {
     for (std::size_t w = 0; w < a.widths.begin()->size(); ++w) {
@@ -203,7 +223,7 @@ std::vector<UnreadColumn> unread_columns(const ColumnNames& names,
     return columns;
 }
 
-void require_one_series(const DataFile& data, const Place& names,
+void require_one_series(DataFile& data, const Place& names,
                         const std::vector<UnreadColumn>& columns) {
     // Of very many values the first show as much as all, and all pairs of them would take minutes.
     constexpr std::size_t most_compared = 200;
@@ -224,6 +244,8 @@ void require_one_series(const DataFile& data, const Place& names,
                                 "with --where '{0}=*'; in a scene where = [\"{0}={1}\"]",
                                 column.name, series[k].text, series[i].text));
             }
+        if (!is_number)
+            name_merged(column, data);
     }
 }
 

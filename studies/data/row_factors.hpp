@@ -52,8 +52,9 @@ std::vector<UnreadColumn> unread_columns(const ColumnNames& names,
 /// Throws InputError where the rows are of two series: where a column has one value at two widths
 /// or more and another at two of the same; one number at three and another, and the ranges of both
 /// overlap; or one text and another, and the ranges overlap, or both refine all that the table
-/// does. Only records with a figure count.
-void require_one_series(const DataFile& data, const Place& names,
+/// does. Only records with a figure count. Adds to the data's remarks which texts, each of some
+/// rows and not enough to be a series, are read together.
+void require_one_series(DataFile& data, const Place& names,
                         const std::vector<UnreadColumn>& columns);
 
 } // namespace tvbeam

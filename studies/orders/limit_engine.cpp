@@ -193,12 +193,14 @@ bool is_erratic(const Rows& levels) {
 }
 
 /// Is the finest step more than what the known deviations make of no step at all?
-bool is_significant(const Rows& levels) {
+bool is_significant(const ValueRow& coarse, const ValueRow& fine) {
     constexpr double deviations = 3;
-    const auto& fine = levels.back();
-    const auto& coarse = levels[levels.size() - 2];
     const double sigma = std::hypot(fine.sigma, coarse.sigma);
     return !(std::abs(fine.value - coarse.value) <= deviations * sigma);
+}
+
+bool is_significant(const Rows& levels) {
+    return is_significant(levels[levels.size() - 2], levels.back());
 }
 
 /// Whether all steps together are more than rounding to the digits printed makes, if none of them
@@ -210,14 +212,35 @@ bool goes_further_than_digits(const Rows& levels) {
            std::abs(levels.back().value - levels.front().value) >= units * unit;
 }
 
-/// Do the values go one way, or to and fro throughout, and the steps between levels, each over the
-/// logarithm of its ratio, grow towards the finest, which is the greatest of all? Those of h^p
-/// shrink for every p > 0, so that there is no limit.
-bool runs_apart(const Rows& levels) {
+/// The steps between levels, each over the logarithm of its ratio.
+std::vector<double> steps_of(const Rows& levels) {
     std::vector<double> steps;
     for (std::size_t i = 1; i < levels.size(); ++i)
         steps.push_back((levels[i].value - levels[i - 1].value) /
                         std::log(levels[i - 1].h / levels[i].h));
+    return steps;
+}
+
+/// Do the values turn, and then go one way in steps that grow up to the finest, while h falls to a
+/// quarter? Behind a turn of C h^p + D h^q the steps grow while h falls by (q/p)^(1/(q − p)): 2 of
+/// h + h², 4 of √h + h.
+bool runs_apart_behind_a_turn(const Rows& levels) {
+    const auto steps = steps_of(levels);
+    constexpr double range = 3.9; // 4, but for rounding
+    const auto middle = [&](std::size_t i) { return std::sqrt(levels[i].h * levels[i + 1].h); };
+    std::size_t first = steps.size() - 1;
+    while (first > 0 && steps[first - 1] * steps[first] > 0 &&
+           std::abs(steps[first - 1]) < std::abs(steps[first]) &&
+           is_significant(levels[first - 1], levels[first]))
+        --first;
+    return middle(first) >= range * middle(steps.size() - 1);
+}
+
+/// Do the values go one way, or to and fro throughout, and the steps between levels, each over the
+/// logarithm of its ratio, grow towards the finest, which is the greatest of all? Those of h^p
+/// shrink for every p > 0, so that there is no limit.
+bool runs_apart(const Rows& levels) {
+    std::vector<double> steps = steps_of(levels);
     const bool to_and_fro = steps[0] * steps[1] < 0;
     for (std::size_t i = 1; i < steps.size(); ++i)
         if ((steps[i] * steps[i - 1] < 0) != to_and_fro)
@@ -334,6 +357,12 @@ LimitEstimate estimate_limit(std::span<const ValueRow> rows, const LimitTuning& 
             "a limit needs values at three different widths";
         return result;
     }
+    if (given.front().h < OrderTuning{}.one_level * given.back().h) {
+        result.limit.status = result.order.status =
+            "all rows have the same width, or nearly; a limit needs some that differ by an eighth "
+            "or more";
+        return result;
+    }
     // Rounding counts for more between levels that are closer than halved widths; closer ones than
     // an eighth show no order.
     const double halvings =
@@ -342,7 +371,8 @@ LimitEstimate estimate_limit(std::span<const ValueRow> rows, const LimitTuning& 
         coarsely_printed_step(given, tuning.units_of_exact_steps / std::clamp(halvings, 0.15, 1.0));
     if (result.finest_step)
         add_rounding(given);
-    if ((is_significant(given) || goes_further_than_digits(given)) && runs_apart(given)) {
+    if ((is_significant(given) || goes_further_than_digits(given)) &&
+        (runs_apart(given) || runs_apart_behind_a_turn(given))) {
         result.limit.status = result.order.status = "the values run apart";
         result.finest_step.reset(); // no digits make them do that
         return result;

@@ -240,6 +240,21 @@ BOOST_AUTO_TEST_CASE(columns_are_found_by_name_in_any_order) {
     BOOST_TEST(data.errors[0].numbers == (std::vector{1e-2, 2.5e-3}));
 }
 
+// One row of P2 is no series of its own, and none of P1 either.
+BOOST_AUTO_TEST_CASE(texts_that_tell_too_few_rows_apart_are_named) {
+    const auto remarks = [](const std::string& rows) {
+        return analyse(data_of("scheme,h,error\n" + rows)).remarks;
+    };
+    const auto merged = remarks("P1,0.4,0.16\nP1,0.2,0.04\nP2,0.1,0.001\n");
+    BOOST_REQUIRE(merged.size() == 1U);
+    BOOST_TEST(merged[0] == "rows of several scheme are read as one series: P1, P2; one alone with "
+                            "--where 'scheme=…'");
+    BOOST_TEST(remarks("P1,0.4,0.16\nP1,0.2,0.04\nP1,0.1,0.01\n").empty());
+    // Each row's own name, and what is empty, tells no series apart.
+    BOOST_TEST(remarks("a,0.4,0.16\nb,0.2,0.04\nc,0.1,0.01\n").empty());
+    BOOST_TEST(remarks("a,0.4,0.16\n,0.2,0.04\n,0.1,0.01\n").empty());
+}
+
 // As a gate, orders must not pass because the finest runs failed.
 BOOST_AUTO_TEST_CASE(an_order_of_a_row_without_an_error_is_none_and_holds_nothing) {
     const auto holds = [](const std::string& finest) {
