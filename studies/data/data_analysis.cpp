@@ -190,13 +190,16 @@ void analyse_records(const DataAnalysis& data, const std::vector<std::size_t>& u
     column.orders = std::move(found.orders);
     column.verdicts = std::move(found.verdict->rows);
     column.by_width[used.front()] = found.along.order;
-    if (found.along.in_turns)
+    if (found.along.in_turns) {
+        const DataColumn& first = data.widths[used.front()];
+        const DataColumn& last = data.widths[used.back()];
         for (const auto i : used)
-            column.by_width[i].status = data.widths[used.front()].name + " and " +
-                                        data.widths[used.back()].name +
-                                        " are refined in turns; three of each in all pairs would "
-                                        "show both orders";
-    else if (used.size() > 1)
+            column.by_width[i].status =
+                (std::ranges::is_sorted(last.numbers)
+                     ? last.name + " grows with a finer " + first.name
+                     : first.name + " and " + last.name + " are refined in turns") +
+                "; three of each in all pairs would show both orders";
+    } else if (used.size() > 1)
         column.by_width[used.back()].status =
             "it is refined with " + data.widths[used.front()].name;
     if (found.along.has_logarithm)

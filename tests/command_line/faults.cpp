@@ -69,6 +69,21 @@ BOOST_AUTO_TEST_CASE(half_a_picture_is_left_out_with_a_sentence) {
     BOOST_TEST(!std::filesystem::exists(directory.path() / "r/plots/convergence.png"));
 }
 
+BOOST_AUTO_TEST_CASE(what_gnuplot_complains_of_is_said) {
+    const TemporaryDirectory directory;
+    std::filesystem::create_directory(directory.path() / "bin");
+    std::filesystem::permissions(
+        directory.write("bin/gnuplot", "#!/bin/sh\necho 'no terminal of this kind' >&2\nexit 1\n"),
+        std::filesystem::perms::owner_all);
+    const Called called = call(directory,
+                               "run " + directory.write("scene.toml", scene("")) +
+                                   " --quiet --out " + (directory.path() / "r").string(),
+                               "PATH=" + (directory.path() / "bin").string() + ":$PATH ");
+    BOOST_TEST(called.exit == 0);
+    BOOST_TEST(has(called.errors, "gnuplot failed on convergence.gp: no terminal of this kind"),
+               called.errors);
+}
+
 BOOST_DATA_TEST_CASE(reading_ends_at_the_first_signal, data::make({"INT", "TERM", "HUP"}), signal) {
     const TemporaryDirectory directory;
     const std::string fifo = (directory.path() / "fifo.toml").string();

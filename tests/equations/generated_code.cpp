@@ -447,6 +447,31 @@ BOOST_AUTO_TEST_CASE(the_readme_shows_what_is_derived) {
                std::string::npos);
 }
 
+// Wherever the longest line ends: behind * or a blank, within no ** and no //.
+BOOST_AUTO_TEST_CASE(long_lines_of_code_part_no_operator) {
+    for (const std::string power : {"**1.5*", "//3*", "*2.0*", "/y*"})
+        for (std::size_t first = 1; first <= 12; ++first) {
+            std::string text = "    r = " + std::string(first, 'a');
+            while (text.size() < 240)
+                text += power + "bcd";
+            std::istringstream lines(wrapped_code(text, 8, " \\"));
+            std::string whole, line;
+            while (std::getline(lines, line)) {
+                BOOST_TEST(line.size() <= 100U);
+                const bool goes_on = line.ends_with(" \\");
+                line.resize(line.size() - (goes_on ? 2 : 0));
+                const char last = line.back();
+                const std::string indent(8, ' ');
+                if (!whole.empty())
+                    line.erase(0, line.find_first_not_of(' '));
+                BOOST_TEST(!(!whole.empty() && (line.front() == '*' || line.front() == '/')), line);
+                BOOST_TEST((!goes_on || last == '*' || last == '/' || last == ' '), line);
+                whole += line;
+            }
+            BOOST_TEST(whole == text);
+        }
+}
+
 BOOST_AUTO_TEST_CASE(brackets_stand_where_the_order_asks_for_them) {
     const auto derived = derive_system(parse_equation_system(
         "[unknowns]\nu = \"t/((1 + x)*(2 + x))\"\n[equations]\nf = \"u\"\n", "my.toml"));

@@ -140,6 +140,7 @@ BOOST_AUTO_TEST_CASE(outcomes_have_their_reasons) {
     tiny.dt = 1e-4;
     BOOST_TEST(name_of(judge(tiny).outcome) == "stopped");
     BOOST_TEST(judge(tiny).reason.find("underflow") != std::string::npos);
+    BOOST_TEST(!judge(tiny).checks.has_value()); // which would count among the greatest
 }
 
 BOOST_AUTO_TEST_CASE(contraction_is_measured_as_it_is_predicted_for_the_running_scheme) {

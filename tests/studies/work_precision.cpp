@@ -392,6 +392,14 @@ BOOST_AUTO_TEST_CASE(a_busy_machine_is_remarked) {
     BOOST_TEST(busy_remark(1.3, 10.0).find("had 13 % of a core") != std::string::npos);
 }
 
+BOOST_AUTO_TEST_CASE(a_program_that_waits_makes_no_machine_busy) {
+    const Scene scene =
+        scene_of("[solver]\ncommand = ['sh', '-c', 'sleep 0.1; echo e = 1']\n"
+                 "errors = { e = 'e = (.*)' }\n[work_precision]\nnorms = ['e']\nruns = 1\n"
+                 "[[work_precision.scheme]]\nelements = [4]\n");
+    BOOST_TEST(timed(scene).busy_remark.empty());
+}
+
 BOOST_AUTO_TEST_CASE(errors_and_orders_of_a_scheme_are_expected_by_its_name) {
     const Scene scene = scene_of(good);
     const double error = timed(scene).schemes[1].runs[1].errors[0];
