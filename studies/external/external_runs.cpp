@@ -250,9 +250,10 @@ private:
         if (failure.empty())
             return;
         result.status = RungStatus::failed;
-        result.reason =
-            failure + (process.last_lines.empty() ? "; it wrote nothing"
-                                                  : "; it wrote: " + process.last_lines);
+        result.reason = failure + (process.last_lines.empty() ? "; it wrote nothing"
+                                   : process.are_of_errors
+                                       ? "; on standard error it wrote: " + process.last_lines
+                                       : "; it wrote: " + process.last_lines);
     }
 
     /// Reads what is measured; why not, where it is not all there.

@@ -277,7 +277,8 @@ private:
         drain(standard_error_.read.number(), errors_);
         output_.finish();
         result_.last_lines = errors_.last_lines(shown_lines);
-        if (result_.last_lines.empty())
+        result_.are_of_errors = !result_.last_lines.empty();
+        if (!result_.are_of_errors)
             result_.last_lines = output_.last_lines(shown_lines);
         if (timed_out_)
             result_.failure = "timed out";

@@ -28,8 +28,9 @@ struct ProcessResult {
     bool interrupted = false; ///< go_on said so
     /// Why it is no success, as "exit 3", "killed by signal 9 (Killed)"; empty: exit 0.
     std::string failure;
-    std::string last_lines; ///< on standard error, or where there are none on standard output
-    double seconds = 0.0;   ///< wall clock, from its beginning to the end
+    std::string last_lines;     ///< on standard error, or where there are none on standard output
+    bool are_of_errors = false; ///< on standard error
+    double seconds = 0.0;       ///< wall clock, from its beginning to the end
 };
 
 /// Runs a program in a process group of its own, without standard input, and reads what it writes
