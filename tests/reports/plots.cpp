@@ -8,6 +8,7 @@
 #include "reports/plots/plot_style.hpp"
 #include "reports/sweep/sweep.hpp"
 #include "studies/data/data_analysis.hpp"
+#include "studies/evolution/evolution.hpp"
 #include "studies/grid/grid.hpp"
 #include "studies/ladder/ladder.hpp"
 #include "studies/stress/stress.hpp"
@@ -25,6 +26,7 @@
 #include <set>
 #include <sstream>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 using namespace tvbeam;
@@ -436,6 +438,23 @@ BOOST_AUTO_TEST_CASE(the_colours_of_a_scale_go_from_0_to_1) {
     BOOST_REQUIRE_MESSAGE(begin != std::string::npos, script);
     const std::string palette = script.substr(begin, script.find(")\n", begin) - begin);
     BOOST_TEST(palette.substr(palette.rfind(", ")).starts_with(", 1 '"), palette);
+}
+
+// From its first sample to its last, whether that is the end of the run or of the last period.
+BOOST_AUTO_TEST_CASE(curves_over_time_end_where_their_window_does) {
+    const StudyResult result =
+        run_study(read_scene("figure1", {"evolution.dt=0.01", "evolution.final_time=4",
+                                         "evolution.period=1", "evolution.probes=['u@1']"}));
+    const auto plots = evolution_plots(result);
+    BOOST_REQUIRE(plots.size() == 2u);
+    BOOST_REQUIRE(!result.get<EvolutionResult>()->periods.empty());
+    for (const auto& [k, begin] : {std::pair{0u, 0.0}, {1u, 2.0}}) {
+        const auto blocks = blocks_of(plots[k]);
+        BOOST_REQUIRE(!blocks.empty());
+        const Rows& rows = blocks.begin()->second;
+        BOOST_TEST(rows.front().front() == begin, boost::test_tools::tolerance(1e-9));
+        BOOST_TEST(rows.back().front() == 4.0, boost::test_tools::tolerance(1e-9));
+    }
 }
 
 BOOST_AUTO_TEST_CASE(series_differ_in_more_than_colour) {
