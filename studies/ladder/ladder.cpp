@@ -55,6 +55,11 @@ LadderNorm analysed(const Measure& norm, const std::vector<RungResult>& rungs, s
         if (const auto along = order_along(roots); along.order.determined)
             verdict = judge(roots, {.order = &along.order});
     result.verdicts = std::move(verdict.rows);
+    for (std::size_t i = 0; i < rungs.size(); ++i)
+        if (rungs[i].status != RungStatus::ok)
+            result.verdicts[i].reason = rungs[i].status == RungStatus::failed
+                                            ? "the run failed"
+                                            : "the run was not made, or not to its end";
     const auto figure = [&norm](double root) { return norm.squared ? root * root : root; };
     if (fit != nullptr)
         for (const auto& record : roots) {

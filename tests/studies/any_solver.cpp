@@ -124,6 +124,26 @@ BOOST_AUTO_TEST_CASE(constants_of_a_theorem_are_those_of_the_runs_that_have_an_e
     BOOST_TEST(grid.corollary->finest == 25.0 / (16 * 16 + 1), near);
 }
 
+BOOST_AUTO_TEST_CASE(a_row_without_an_error_says_whether_its_run_failed) {
+    const auto ends = [](const RunTask& task) {
+        RungResult result = made_up(task);
+        if (task.level == 1)
+            result.status = RungStatus::failed;
+        if (task.level == 3)
+            result.status = RungStatus::interrupted;
+        if (result.status != RungStatus::ok)
+            result.errors.clear();
+        return result;
+    };
+    const LadderBlock block{
+        .final_time = 1.0, .rungs = levels({4, 8, 16, 32}), .norms = {norms[0]}};
+    const LadderResult ladder = run_ladder(block, method("first"), {.run = ends});
+    const auto& verdicts = ladder.norms.at(0).verdicts;
+    BOOST_TEST(verdicts.at(1).reason == "the run failed");
+    BOOST_TEST(verdicts.at(3).reason == "the run was not made, or not to its end");
+    BOOST_TEST(verdicts.at(2).reason != "the run failed");
+}
+
 // e = 3 h², whatever Δt: the fit holds, and knows no order in Δt.
 BOOST_AUTO_TEST_CASE(a_grid_that_shows_one_order_alone_predicts_nothing) {
     const auto in_space = [](const RunTask& task) {

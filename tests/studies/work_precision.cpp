@@ -397,7 +397,7 @@ BOOST_AUTO_TEST_CASE(a_program_that_waits_makes_no_machine_busy) {
         scene_of("[solver]\ncommand = ['sh', '-c', 'sleep 0.1; echo e = 1']\n"
                  "errors = { e = 'e = (.*)' }\n[work_precision]\nnorms = ['e']\nruns = 1\n"
                  "[[work_precision.scheme]]\nelements = [4]\n");
-    BOOST_TEST(timed(scene).busy_remark.empty());
+    BOOST_TEST(run_study(scene).get<WorkPrecisionResult>()->busy_remark.empty());
 }
 
 BOOST_AUTO_TEST_CASE(errors_and_orders_of_a_scheme_are_expected_by_its_name) {
