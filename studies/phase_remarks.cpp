@@ -34,12 +34,12 @@ struct RateJump {
     bool tip = false;     ///< in the velocity of the tip, too: ∫ (1 − x) u_xxt dx
 };
 
-/// Whether a stop is touched at any time: without, the contact stress has no error.
-bool touches(const ProblemData& data, double final_time) {
+/// Whether a stop is touched between two times: without, the contact stress has no error.
+bool touches(const ProblemData& data, double begin, double end) {
     if (!data.exact || !data.exact->stress)
         return false;
     constexpr Eigen::Index samples = 1001;
-    const ArrayXd times = ArrayXd::LinSpaced(samples, 0.0, final_time);
+    const ArrayXd times = ArrayXd::LinSpaced(samples, begin, end);
     return (data.amplitudes(times).row(*data.exact->stress) != 0.0).any();
 }
 
@@ -162,9 +162,6 @@ std::string remark(const Scene& scene, const RateJump& jump, const std::string& 
 
 std::vector<std::string> phase_remarks(const Scene& scene, const ProblemData& data) {
     std::vector<std::string> remarks;
-    if (data.phase_ends.empty())
-        return remarks;
-    const bool touches_stop = touches(data, longest_time(scene.series()));
     for (const double end : data.phase_ends) {
         const Costly costly = costly_steps(scene, data, end);
         if (costly.inside.empty() && costly.behind.empty())
@@ -172,6 +169,10 @@ std::vector<std::string> phase_remarks(const Scene& scene, const ProblemData& da
         const RateJump jump = rate_jump(data, end);
         if (jump.heat == 0.0 && jump.bending == 0.0)
             continue;
+        // What the step that holds the end does to the stress shows in it, or behind it.
+        const double step = costly.inside.empty() ? 0.0 : *costly.inside.begin();
+        const bool touches_stop =
+            touches(data, std::max(end - step, 0.0), longest_time(scene.series()));
         if (const std::string orders = orders_text(scene, jump, touches_stop); !orders.empty())
             remarks.push_back(remark(scene, jump, orders, costly, end));
     }

@@ -25,9 +25,12 @@ Ending StudyResult::ending() const {
         const Ending one = kind->ending(record);
         if (one.failed && !all.failed)
             all.reason = one.reason;
+        all.failures += one.failures;
         all.interrupted = all.interrupted || one.interrupted;
         all.failed = all.failed || one.failed || one.interrupted;
     }
+    if (all.failures > 1)
+        all.reason = fmt::format("{} runs failed; the first, {}", all.failures, all.reason);
     return all;
 }
 

@@ -4,8 +4,6 @@
 #include "mms/text/toml_reader.hpp"
 #include "studies/runs/beam_runs.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <stdexcept>
 
@@ -54,18 +52,16 @@ StudyKind::Runs StudyKind::runs(const std::any& /*record*/) const {
 
 Ending StudyKind::ending(const std::any& record) const {
     Ending ending;
-    int failed = 0;
     for (const auto* results : runs(record))
         for (const auto& run : *results) {
             if (run.status == RungStatus::ok)
                 continue;
-            if (++failed == 1)
+            if (!ending.failed)
                 ending.reason = run.rung.name(message_text) + ": " + run.reason;
             ending.failed = true;
             ending.interrupted = ending.interrupted || run.status == RungStatus::interrupted;
+            ending.failures += run.status == RungStatus::failed ? 1 : 0;
         }
-    if (failed > 1)
-        ending.reason += fmt::format("; {} runs failed in all", failed);
     return ending;
 }
 

@@ -38,7 +38,8 @@ struct StudyContext {
 struct Ending {
     bool failed = false;
     bool interrupted = false;
-    std::string reason; ///< of the first run that failed, and how many did
+    int failures = 0;   ///< runs
+    std::string reason; ///< of the first run that failed
 };
 
 /// A kind of study: what is to be known of its block before anything runs, its run, and what can be

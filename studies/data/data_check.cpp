@@ -155,8 +155,10 @@ private:
                 const auto number = [&](const std::string& key, double MethodLimit::*figure) {
                     hold(*inner, key,
                          {{named.first + (", " + key),
-                           method ? std::optional(*method.*figure) : std::nullopt,
-                           "the method says nothing of these values"}});
+                           method && !finest_failed() ? std::optional(*method.*figure)
+                                                      : std::nullopt,
+                           finest_failed() ? "none: the finest row failed"
+                                           : "the method says nothing of these values"}});
                 };
                 number("limit", &MethodLimit::limit);
                 number("uncertainty", &MethodLimit::uncertainty);

@@ -93,22 +93,21 @@ std::vector<Group> series_by(const UnreadColumn& column, const DataFile& data) {
 
 /// Says which texts of a column, of which one has several rows, are read as one series.
 void name_merged(const UnreadColumn& column, DataFile& data) {
-    std::vector<std::string> texts;
+    std::set<std::string_view> texts;
+    std::vector<std::string> named;
     std::size_t rows = 0;
     for (std::size_t i = 0; i < column.texts.size(); ++i)
         if (has_figure(data, i) && !column.texts[i].empty()) {
             ++rows;
-            if (std::ranges::find(texts, column.texts[i]) == texts.end())
-                texts.emplace_back(column.texts[i]);
+            if (texts.insert(column.texts[i]).second && named.size() < most_texts_named)
+                named.emplace_back(column.texts[i]);
         }
     if (texts.size() < 2 || texts.size() == rows)
         return;
-    const bool all_named = texts.size() <= most_texts_named;
-    texts.resize(std::min(texts.size(), most_texts_named));
     data.remarks.push_back(fmt::format("rows of several {} are read as one series: {}{}; one alone "
                                        "with --where '{}=…'",
-                                       column.name, boost::algorithm::join(texts, ", "),
-                                       all_named ? "" : ", …", column.name));
+                                       column.name, boost::algorithm::join(named, ", "),
+                                       texts.size() == named.size() ? "" : ", …", column.name));
 }
 
 /// Whether each width of both takes values in a range of some length in common.

@@ -297,8 +297,11 @@ void expect_counters(TableReader& table, const Series& series,
         if (!wanted)
             continue;
         require_count(*counters, name, wanted->size(), series.rungs.size(), "rung");
+        std::vector<std::string> counts; // whole numbers, to the last digit
+        for (const double count : *wanted)
+            counts.push_back(fmt::format("{}", count));
         expectations.push_back(
-            all_of(*counters, name, texts_of(*wanted), [series, name](const StudyResult& result) {
+            all_of(*counters, name, counts, [series, name](const StudyResult& result) {
                 return counts_of(name, runs_of(result, series.study));
             }));
     }

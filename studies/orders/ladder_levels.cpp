@@ -4,6 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <map>
+#include <numeric>
+#include <utility>
 
 namespace tvbeam {
 
@@ -32,16 +36,21 @@ void take_mean(std::span<const Refinement> ladder, Level& level) {
     }
 }
 
-/// What is refined from one level to the next.
-enum class Step { in_h, in_dt, in_both, back };
-
-Step step_between(const Refinement& from, const Refinement& to) {
-    const auto stays = [](double a, double b) {
-        return (std::isnan(a) && std::isnan(b)) || a == b;
-    };
-    if (!refinement_ratio(from, to))
-        return Step::back;
-    return stays(from.dt, to.dt) ? Step::in_h : stays(from.h, to.h) ? Step::in_dt : Step::in_both;
+/// Levels alike in one width, at two or more of the other, from coarse to fine.
+std::vector<std::vector<std::size_t>>
+sharing(const std::vector<Level>& levels, double Refinement::*same, double Refinement::*refined) {
+    std::map<double, std::vector<std::size_t>, std::greater<>> groups;
+    for (std::size_t i = 0; i < levels.size(); ++i)
+        if (!std::isnan(levels[i].mean.*same) && !std::isnan(levels[i].mean.*refined))
+            groups[levels[i].mean.*same].push_back(i);
+    std::vector<std::vector<std::size_t>> sweeps;
+    for (auto& [width, group] : groups) {
+        std::ranges::stable_sort(group, std::greater<>(),
+                                 [&](std::size_t i) { return levels[i].mean.*refined; });
+        if (levels[group.front()].mean.*refined != levels[group.back()].mean.*refined)
+            sweeps.push_back(std::move(group));
+    }
+    return sweeps;
 }
 
 } // namespace
@@ -85,25 +94,19 @@ Orders orders_of(const std::vector<Level>& levels) {
     return orders;
 }
 
-std::vector<std::pair<std::size_t, std::size_t>> sweeps_of(const std::vector<Level>& levels) {
-    if (levels.empty())
-        return {};
-    std::vector<Step> steps; // into the level, the first has none
-    for (std::size_t i = 1; i < levels.size(); ++i)
-        steps.push_back(step_between(levels[i - 1].mean, levels[i].mean));
-    const auto has = [&](Step step) { return std::ranges::find(steps, step) != steps.end(); };
-    std::vector<std::pair<std::size_t, std::size_t>> sweeps{{0, 0}};
-    const bool in_turns = has(Step::in_h) && has(Step::in_dt);
-    for (std::size_t i = 1; i < levels.size(); ++i) {
-        const Step step = steps[i - 1];
-        const bool goes_on = i < 2 || step == steps[i - 2] || sweeps.back().first == i - 1;
-        if (in_turns && step == Step::back)
-            sweeps.emplace_back(i, i);
-        else if (in_turns && !goes_on)
-            sweeps.emplace_back(i - 1, i);
-        else
-            sweeps.back().second = i;
-    }
+std::vector<std::vector<std::size_t>> sweeps_of(const std::vector<Level>& levels) {
+    std::vector<std::size_t> all(levels.size());
+    std::iota(all.begin(), all.end(), std::size_t{0});
+    auto sweeps = sharing(levels, &Refinement::h, &Refinement::dt);
+    const auto in_h = sharing(levels, &Refinement::dt, &Refinement::h);
+    if (sweeps.empty() || in_h.empty())
+        return {all};
+    sweeps.insert(sweeps.end(), in_h.begin(), in_h.end());
+    for (const std::size_t i : all)
+        if (std::ranges::none_of(sweeps, [&](const auto& sweep) {
+                return std::ranges::find(sweep, i) != sweep.end();
+            }))
+            sweeps.push_back({i});
     return sweeps;
 }
 

@@ -6,7 +6,6 @@
 #include <cstddef>
 #include <optional>
 #include <span>
-#include <utility>
 #include <vector>
 
 namespace tvbeam {
@@ -34,9 +33,8 @@ struct Orders {
 
 Orders orders_of(const std::vector<Level>& levels);
 
-/// First and last level of each sweep: all of them, or, where h is refined in some steps alone and
-/// Δt in others, those between which the same is refined. Sweeps that follow without a step that
-/// grows share a level.
-std::vector<std::pair<std::size_t, std::size_t>> sweeps_of(const std::vector<Level>& levels);
+/// The levels of each sweep, coarse to fine: all of them, or, where some levels share h and some
+/// Δt, those of each h, then those of each Δt, and last what is in none. A level may be in two.
+std::vector<std::vector<std::size_t>> sweeps_of(const std::vector<Level>& levels);
 
 } // namespace tvbeam

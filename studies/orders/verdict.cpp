@@ -35,7 +35,7 @@ public:
         const bool shows_last = knows_last() && find_window(all_runs(true), agreeing);
         if (!shows_last && !find_window(agreeing, agreeing))
             judge_without_window();
-        if (options_.order != nullptr && !options_.expected_order &&
+        if (options_.order != nullptr && !options_.expected_order && size() > 1 &&
             (run_ || options_.order->determined))
             tell_from_last(shows_last);
     }
@@ -423,17 +423,24 @@ LadderVerdict judge(std::span<const Refinement> ladder, const VerdictOptions& op
     const auto levels = levels_of(ladder, options.sigma);
     if (levels.empty())
         return result;
-    const auto orders = orders_of(levels).values;
     const auto sweeps = sweeps_of(levels);
-    std::size_t next = 0; // level that has no verdict yet
-    for (const auto& [first, last] : sweeps) {
-        const auto begin = levels.begin() + static_cast<std::ptrdiff_t>(first);
-        const auto end = levels.begin() + static_cast<std::ptrdiff_t>(last) + 1;
-        const auto verdicts = judge_sweep({begin, end}, options, result.window);
-        for (; next <= last; ++next) {
-            result.orders[levels[next].rows.front()] = orders[next];
-            for (const std::size_t row : levels[next].rows)
-                result.rows[row] = verdicts[next - first];
+    std::vector<bool> is_judged(levels.size(), false);
+    for (const auto& sweep : sweeps) {
+        std::vector<Level> of_sweep;
+        of_sweep.reserve(sweep.size());
+        for (const std::size_t i : sweep)
+            of_sweep.push_back(levels[i]);
+        const auto orders = orders_of(of_sweep).values;
+        const auto verdicts = judge_sweep(of_sweep, options, result.window);
+        // A level of two sweeps has the order and the verdict of the first.
+        for (std::size_t k = 0; k < sweep.size(); ++k) {
+            const std::size_t i = sweep[k];
+            if (is_judged[i])
+                continue;
+            is_judged[i] = true;
+            result.orders[levels[i].rows.front()] = orders[k];
+            for (const std::size_t row : levels[i].rows)
+                result.rows[row] = verdicts[k];
         }
     }
     if (sweeps.size() > 1)

@@ -1,8 +1,8 @@
 /// What each row of a ladder of refinements shows, in a word and a short sentence.
 ///
 /// The rows run from coarse to fine. Rows whose widths differ by less than an eighth are one level,
-/// of their mean error: an order read between them is noise. Where h is refined in some steps and
-/// Δt in others, each sweep is judged by itself, and there is no window. Without a model the
+/// of their mean error: an order read between them is noise. Where some levels share h and some Δt,
+/// each sweep is judged by itself, and there is no window. Without a model the
 /// judgement rests on the orders between levels alone: a level far off the line of its neighbours
 /// is an outlier, and passed over; the asymptotic window is the finest run of rows whose orders are
 /// positive and agree with each other and are not refuted by finer rows: past the window there is
@@ -85,7 +85,8 @@ struct VerdictOptions {
 
 struct LadderVerdict {
     std::vector<RowVerdict> rows; ///< one for each record
-    /// Between levels: in the first record of each, against the level before that has an error.
+    /// Between levels: in the first record of each, against the level before of its sweep that has
+    /// an error.
     std::vector<std::optional<double>> orders;
     /// The first and last record of the asymptotic window, and the order of the errors between
     /// them; none where no window is found. These come from the pairwise orders, also where there

@@ -189,39 +189,48 @@ BOOST_AUTO_TEST_CASE(values_that_go_on_by_units_run_apart) {
     BOOST_TEST(limit_of(3).status != "the values run apart");
 }
 
-// f = h + D h² turns at h = 1/(2 |D|), and its steps grow over one halving behind that.
-BOOST_AUTO_TEST_CASE(values_that_turn_and_then_take_growing_steps_run_apart) {
+// Steps of h^p − D h^q grow from their zero while h falls by 2 (p = 1, q = 2) or 4 (1/2, 1), and by
+// one ratio more at most.
+BOOST_AUTO_TEST_CASE(values_whose_steps_grow_further_than_two_powers_can_run_apart) {
     const auto limit_of = [](const std::vector<double>& values, double ratio) {
         std::vector<ValueRow> rows;
         for (std::size_t k = 0; k < values.size(); ++k)
             rows.push_back({std::pow(ratio, -static_cast<double>(k)), values[k]});
         return estimate_limit(rows).limit;
     };
-    for (const auto& values : {std::vector{1.0, 0.9, 0.95, 1.1, 1.5},
-                               std::vector{3.0, 2.9, 2.95, 3.02, 3.12, 3.26, 3.47}})
-        BOOST_TEST(limit_of(values, 2.0).status == "the values run apart");
-    for (const double ratio : {1.5, 2.0, 3.0})
-        for (const double turn : {0.9, 0.7, 0.5, 0.3}) {
-            std::vector<double> values;
-            for (int k = 0; k < 8; ++k) {
-                const double h = std::pow(ratio, -k);
-                values.push_back(h - h * h / (2 * turn));
-                if (k < 4)
-                    continue;
-                BOOST_TEST(limit_of(values, ratio).status != "the values run apart",
-                           ratio << ' ' << turn << ' ' << k);
+    const std::vector<double> apart{3.0, 2.9, 2.95, 3.02, 3.12, 3.26, 3.47};
+    BOOST_TEST(limit_of(apart, 2.0).status == "the values run apart");
+    for (const auto& [p, q] : {std::pair{1.0, 2.0}, {0.5, 1.0}, {1.0, 3.0}})
+        for (const double ratio : {1.5, 2.0, 3.0, 4.0, 10.0})
+            for (double turn = 0.95; turn > 0.05; turn *= 0.93) {
+                std::vector<double> values;
+                for (int k = 0; k < 8; ++k) {
+                    const double h = std::pow(ratio, -k);
+                    values.push_back(1.0 + std::pow(h, p) -
+                                     p / q * std::pow(turn, p - q) * std::pow(h, q));
+                    // Those that go one way from the first on may.
+                    if (k < 3 || (values[1] - values[0]) * (values[3] - values[2]) > 0)
+                        continue;
+                    BOOST_TEST(limit_of(values, ratio).status != "the values run apart",
+                               p << ' ' << q << ' ' << ratio << ' ' << turn << ' ' << k);
+                }
             }
-        }
 }
 
 BOOST_AUTO_TEST_CASE(widths_that_hardly_differ_have_no_limit) {
+    // 0.1 and 0.0999 are one width.
+    BOOST_TEST(
+        !estimate_limit(std::vector<ValueRow>{{0.1, 1.01}, {0.0999, 1.00998}, {0.05, 1.0025}})
+             .limit.determined);
     for (const auto& [ratio, levels] : {std::pair{1.01, 8}, {1.03, 4}, {1.05, 3}}) {
         std::vector<ValueRow> rows;
         for (int k = 0; k < levels; ++k) {
             const double h = std::pow(ratio, -k);
             rows.push_back({h, 1.0 + h * h * (1.0 - 0.4 * h)});
         }
-        BOOST_TEST(estimate_limit(rows).limit.status.starts_with("all rows have the same width"));
+        BOOST_TEST(estimate_limit(rows).limit.status ==
+                   "a limit needs values at three widths, each 5 % or more from the next, and 12 % "
+                   "in all");
     }
 }
 

@@ -205,12 +205,28 @@ BOOST_AUTO_TEST_CASE(each_sweep_of_widths_that_are_refined_in_turns_is_judged_by
     BOOST_TEST(word(judged) == word(floor) + word(time));
     BOOST_TEST(word(time) == "AAAA");
     BOOST_TEST(!judged.window.has_value());
-    // The level that two sweeps share is that of the first; the order into the next is the
-    // second's.
+    // A level of two sweeps is judged in that of its h.
     const auto turned = ladder(
         {{0.1, 0.1}, {0.05, 0.1}, {0.025, 0.1}, {0.025, 0.05}, {0.025, 0.025}, {0.025, 0.0125}});
     const auto second = ladder({{0.025, 0.1}, {0.025, 0.05}, {0.025, 0.025}, {0.025, 0.0125}});
-    BOOST_TEST(word(turned).substr(3) == word(second).substr(1));
+    BOOST_TEST(word(turned).substr(2) == word(second));
+    // However the rows are sorted: two sweeps that share a level, and one at an h in between.
+    const auto star = judge(ladder({{0.1, 1e-5},
+                                    {0.05, 1e-5},
+                                    {0.025, 0.1},
+                                    {0.025, 0.05},
+                                    {0.025, 0.025},
+                                    {0.025, 0.0125},
+                                    {0.025, 1e-5}}));
+    BOOST_TEST(word(star).substr(0, 6) == "AAAAAA");
+    BOOST_TEST(star.orders[1].value() == std::log2((0.01 + 1e-5) / (0.0025 + 1e-5)),
+               boost::test_tools::tolerance(1e-9));
+    const auto between = judge(ladder(
+        {{0.1, 1e-3}, {0.05, 1e-3}, {0.02, 0.1}, {0.02, 0.05}, {0.02, 0.025}, {0.0125, 1e-3}}));
+    BOOST_TEST(between.orders[5].value() ==
+                   std::log((0.05 * 0.05 + 1e-3) / (0.0125 * 0.0125 + 1e-3)) / std::log(4.0),
+               boost::test_tools::tolerance(1e-9));
+    BOOST_TEST(!between.orders[2].has_value());
     // Both at once in some steps are one ladder.
     BOOST_TEST(word(ladder({{0.1, 0.1}, {0.05, 0.1}, {0.025, 0.05}, {0.0125, 0.025}})) == "pAAA");
 }
@@ -247,6 +263,8 @@ BOOST_AUTO_TEST_CASE(a_failed_run_is_named_and_the_rest_is_judged_without_it) {
 }
 
 BOOST_AUTO_TEST_CASE(one_row_shows_nothing) {
+    const OrderInterval order{.value = 2.0, .low = 1.9, .high = 2.1, .determined = true};
+    BOOST_TEST(word(halving({0.1}), {.order = &order}) == "p");
     BOOST_TEST(word(halving({1.0})) == "p");
     BOOST_TEST(word(halving({})).empty());
 }
