@@ -23,7 +23,7 @@ Ending StudyResult::ending() const {
     Ending all;
     for (const auto& [kind, record] : records.entries()) {
         const Ending one = kind->ending(record);
-        if (one.failed && !all.failed)
+        if ((one.failed && !all.failed) || (one.failures > 0 && all.failures == 0))
             all.reason = one.reason;
         all.failures += one.failures;
         all.interrupted = all.interrupted || one.interrupted;

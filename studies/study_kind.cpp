@@ -56,11 +56,12 @@ Ending StudyKind::ending(const std::any& record) const {
         for (const auto& run : *results) {
             if (run.status == RungStatus::ok)
                 continue;
-            if (!ending.failed)
+            const bool has_failed = run.status == RungStatus::failed;
+            if (!ending.failed || (has_failed && ending.failures == 0))
                 ending.reason = run.rung.name(message_text) + ": " + run.reason;
             ending.failed = true;
-            ending.interrupted = ending.interrupted || run.status == RungStatus::interrupted;
-            ending.failures += run.status == RungStatus::failed ? 1 : 0;
+            ending.interrupted = ending.interrupted || !has_failed;
+            ending.failures += has_failed ? 1 : 0;
         }
     return ending;
 }

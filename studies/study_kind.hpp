@@ -39,7 +39,7 @@ struct Ending {
     bool failed = false;
     bool interrupted = false;
     int failures = 0;   ///< runs
-    std::string reason; ///< of the first run that failed
+    std::string reason; ///< of the first run that failed, or else was interrupted
 };
 
 /// A kind of study: what is to be known of its block before anything runs, its run, and what can be

@@ -26,7 +26,8 @@ class ColumnCheck {
 public:
     ColumnCheck(const DataAnalysis& analysis, const ColumnAnalysis& column, TableReader& table,
                 std::vector<CheckedExpectation>& checked)
-        : analysis_(analysis), column_(column), table_(table), checked_(checked) {}
+        : analysis_(analysis), column_(column), table_(table), checked_(checked),
+          finest_failed_(finest_failed()) {}
 
     void run() {
         const std::size_t before = checked_.size();
@@ -73,7 +74,7 @@ private:
         };
         for (std::size_t row = 0; row < analysis_.rows(); ++row) {
             bool is_finest = has_failed(row);
-            for (std::size_t other = 0; other < analysis_.rows() && is_finest; ++other)
+            for (std::size_t other = analysis_.rows(); other-- > 0 && is_finest;) // finest first
                 is_finest = !std::isfinite(column_.numbers[other]) || has_failed(other) ||
                             !is_as_fine(other, row);
             if (is_finest)
@@ -84,7 +85,7 @@ private:
 
     /// As a gate, an order or a limit must not pass because the finest run failed.
     OrderInterval gated(OrderInterval interval) const {
-        if (finest_failed()) {
+        if (finest_failed_) {
             interval.determined = false;
             interval.status = column_.is_value
                                   ? "the finest row failed: its value is not finite"
@@ -153,12 +154,12 @@ private:
             if (auto inner = table_.table(named.first)) {
                 const auto& method = named.second;
                 const auto number = [&](const std::string& key, double MethodLimit::*figure) {
-                    hold(*inner, key,
-                         {{named.first + (", " + key),
-                           method && !finest_failed() ? std::optional(*method.*figure)
-                                                      : std::nullopt,
-                           finest_failed() ? "none: the finest row failed"
-                                           : "the method says nothing of these values"}});
+                    hold(
+                        *inner, key,
+                        {{named.first + (", " + key),
+                          method && !finest_failed_ ? std::optional(*method.*figure) : std::nullopt,
+                          finest_failed_ ? "none: the finest row failed"
+                                         : "the method says nothing of these values"}});
                 };
                 number("limit", &MethodLimit::limit);
                 number("uncertainty", &MethodLimit::uncertainty);
@@ -202,6 +203,7 @@ private:
     const ColumnAnalysis& column_;
     TableReader& table_;
     std::vector<CheckedExpectation>& checked_;
+    bool finest_failed_;
 };
 
 } // namespace

@@ -28,6 +28,7 @@ struct EvolutionStudy final : KindOf<EvolutionBlock, EvolutionResult> {
     Ending ending(const std::any& record) const override {
         return {.failed = record_in(record).run.status != RungStatus::ok,
                 .interrupted = record_in(record).run.status == RungStatus::interrupted,
+                .failures = record_in(record).run.status == RungStatus::failed ? 1 : 0,
                 .reason = record_in(record).run.reason};
     }
     std::map<std::string, double> figures(const std::any& record) const override {

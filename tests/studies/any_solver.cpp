@@ -3,7 +3,9 @@
 
 #include "studies/grid/grid.hpp"
 #include "studies/ladder/ladder.hpp"
+#include "studies/study.hpp"
 #include "studies/work_precision/work_precision.hpp"
+#include "tests/temporary_directory.hpp"
 
 #include <boost/test/unit_test.hpp>
 
@@ -142,6 +144,23 @@ BOOST_AUTO_TEST_CASE(a_row_without_an_error_says_whether_its_run_failed) {
     BOOST_TEST(verdicts.at(1).reason == "the run failed");
     BOOST_TEST(verdicts.at(3).reason == "the run was not made, or not to its end");
     BOOST_TEST(verdicts.at(2).reason != "the run failed");
+}
+
+BOOST_AUTO_TEST_CASE(the_first_run_that_failed_is_named_and_those_after_it_are_counted) {
+    const auto ending = [](const std::string& command) {
+        const TemporaryDirectory directory;
+        return run_study(read_scene(directory.write("s.toml", "[solver]\ncommand = ['sh', '-c', '" +
+                                                                  command +
+                                                                  "']\nerrors = { e = 'e = (.*)' "
+                                                                  "}\n[ladder]\nelements = "
+                                                                  "[4, 8, 16]\nnorms = ['e']\n")))
+            .ending();
+    };
+    const Ending two = ending("test {elements} = 4 && echo e = 1 || exit $(({elements} / 4))");
+    BOOST_TEST(two.failures == 2);
+    BOOST_TEST(two.reason.starts_with("2 runs failed; the first, s = 8: exit 2"), two.reason);
+    const Ending one = ending("test {elements} = 16 && exit 3 || echo e = 1");
+    BOOST_TEST(one.reason.starts_with("s = 16: exit 3"), one.reason);
 }
 
 // e = 3 h², whatever Δt: the fit holds, and knows no order in Δt.
