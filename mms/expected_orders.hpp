@@ -80,6 +80,9 @@ struct ExpectedOrders {
         return (theta_is_quadratic || !theta_has_time_error) &&
                (u_is_quadratic || !u_has_time_error) && (theta_is_quadratic || u_is_quadratic);
     }
+    /// Without viscosity a stage's defect α Δt² u_xxtt enters the heat equation at an end, where Θ
+    /// cannot follow it.
+    bool stages_miss_ends = false;
     std::vector<Switch> switches; ///< those before final_time
     std::vector<Cusp> cusps;      ///< up to final_time
     std::optional<Kink> kink;
@@ -106,7 +109,10 @@ struct ExpectedOrders {
 ///   is along 1 − x a stop may take away. So the order is 1 to 2. Where one goes to its value like
 ///   s^β, β < 1, the defect of the steps beside it is of order β, over a time Δt: 1 + β to 2. Where
 ///   what is differenced is quadratic in time BDF2 is exact but for its first step, of SDIRK2,
-///   whose error O(Δt³) stays: 3.
+///   whose error O(Δt³) stays: 3. Without viscosity u_xx answers to the load at once, and the
+///   stages of SDIRK2, which are of order 1, leave Δt² u_xxtt in the heat equation: where that is
+///   not zero at an end, modes up to Δt^(-1/2) see it, SDIRK2 has 1.5 to 2, and its single step
+///   in BDF2 leaves 2 to 3.
 /// - of the stress at rigid stops: as long as the tip is pressed and has been from t = 0 on, the
 ///   order p of u. When a contact begins, the computed tip has an error e = O(Δt^p) and comes to
 ///   the stop too early or too late by τ. Too early: the gap ~ τ^m is e, and the stop takes away a

@@ -42,7 +42,7 @@ SolveRecorder::SolveRecorder(const Beam& beam, const ProblemData& data, const Me
     }
     RecordedState state = in_units(std::move(initial));
     state.temperature_size = state.theta.cwiseAbs().maxCoeff();
-    state.terms_size = largest(state.w) * options_.amplification + options_.iteration_size;
+    state.terms_size = std::max(largest(state.w), options_.least_size);
     state.curvature_size = state.terms_size;
     levels_.push_back(std::move(state));
 }
@@ -130,11 +130,10 @@ const SolveRecord& SolveRecorder::record(SolverState state) {
                            std::abs(record_.stress) * beam_.alpha * kappa * record_.leading /
                                (record_.leading + std::numbers::pi * std::numbers::pi);
     const double forces =
-        (beam_.alpha * (now.temperature_size + std::abs(beam_.theta_A / options_.unit)) +
-         largest(record_.moment) + std::abs(record_.stress)) *
-        options_.amplification;
-    now.terms_size = std::max((1.0 - kappa) * star.terms_size + kappa * forces,
-                              largest(now.w) * options_.amplification + options_.iteration_size);
+        beam_.alpha * (now.temperature_size + std::abs(beam_.theta_A / options_.unit)) +
+        largest(record_.moment) + std::abs(record_.stress);
+    now.terms_size = std::max(
+        {(1.0 - kappa) * star.terms_size + kappa * forces, largest(now.w), options_.least_size});
     now.curvature_size =
         (1.0 - kappa) * star.curvature_size + star.terms_size + kappa * forces + now.terms_size;
     return record_;

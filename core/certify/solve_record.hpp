@@ -58,11 +58,9 @@ struct SolveRecord {
 /// How a solver's results are read.
 struct RecordOptions {
     double unit = 1.0; ///< everything linear in the data is divided by it: a power of two
-    /// By how much the round-off of the curvature is larger than ε times its terms: 1, or that of
-    /// the Hermite form.
-    double amplification = 1.0;
-    /// What an iteration leaves in the curvature, in units of ε.
-    double iteration_size = 0.0;
+    /// The least size of the curvature, where an iteration leaves a part of the unit in it that
+    /// does not decay with it.
+    double least_size = 0.0;
 };
 
 /// Records the solves of a run by the results alone: record() each of them.

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace tvbeam {
@@ -14,9 +15,28 @@ namespace tvbeam {
 using Eigen::ArrayXd;
 using Eigen::Index;
 
+namespace {
+
+/// What counts as zero of the tip: of its own size and that of the stops, beside what rounding
+/// leaves of a beam that is larger.
+double tip_tolerance(const Stops& stops, const std::vector<ContactPhase>& phases, double u_scale) {
+    constexpr double roundings = 16 * std::numeric_limits<double>::epsilon();
+    double size = 0.0;
+    for (const double stop : {stops.lower, stops.upper})
+        if (std::isfinite(stop))
+            size = std::max(size, std::abs(stop));
+    for (const ContactPhase& phase : phases)
+        size = std::max(size, phase.ends(phase.times).row(0).abs().maxCoeff());
+    return std::min(relative_tolerance * u_scale,
+                    std::max(relative_tolerance * size, roundings * u_scale));
+}
+
+} // namespace
+
 ContactRules::ContactRules(const Beam& beam, std::vector<ContactPhase> phases, double u_scale,
                            double sigma_scale)
-    : stops_(beam.stops), phases_(std::move(phases)), tip_tolerance_(relative_tolerance * u_scale),
+    : stops_(beam.stops), phases_(std::move(phases)),
+      tip_tolerance_(tip_tolerance(stops_, phases_, u_scale)),
       stress_tolerance_(relative_tolerance * sigma_scale),
       law_tolerance_(relative_tolerance * (u_scale + stops_.epsilon * sigma_scale)) {
     if (stops_.epsilon == 0.0)

@@ -42,7 +42,8 @@ struct ContactPhase {
 /// or the rules above at all times: a solution of rigid stops, which penalised ones approach.
 class ContactRules {
 public:
-    /// The scales are the largest |u| and |σ̃|; what is relative_tolerance of them counts as zero.
+    /// The scales are the largest |u| and |σ̃|; what is relative_tolerance of σ̃, or of the tip and
+    /// the stops, counts as zero.
     ContactRules(const Beam& beam, std::vector<ContactPhase> phases, double u_scale,
                  double sigma_scale);
 

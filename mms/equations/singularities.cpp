@@ -53,12 +53,19 @@ std::vector<Critical> criticals_of(const Program& program) {
     const auto is_constant = [&](int step) {
         return program.steps()[static_cast<std::size_t>(step)].operation == Operation::number;
     };
+    const auto is_whole = [&](int step) {
+        const auto& number = program.steps()[static_cast<std::size_t>(step)];
+        return is_constant(step) && number.denominator == 1.0 &&
+               number.numerator == std::floor(number.numerator);
+    };
     for (const auto& step : program.steps()) {
         const std::string& name = step.text;
         if (step.operation == Operation::divide && !is_constant(step.right))
             result.push_back({Rule::not_zero, step.right, true});
         else if (step.operation == Operation::square_root)
             result.push_back({Rule::positive, step.left, false});
+        else if (step.operation == Operation::power && is_whole(step.right))
+            continue; // one too large to be written out is smooth, too
         else if (step.operation == Operation::power)
             result.push_back({Rule::positive, step.left, false, !is_constant(step.right)});
         else if (step.operation == Operation::function && name == "log")

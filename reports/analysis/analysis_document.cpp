@@ -82,10 +82,11 @@ void add_limit(const ColumnAnalysis& column, std::vector<Block>& blocks) {
                                        {"Celik et al.", &column.limit->celik},
                                        {"Eca and Hoekstra", &column.limit->eca_hoekstra}})
         if (*method)
-            blocks.emplace_back(Paragraph{
-                fmt::format("beside it, {}: limit {:.8g}, finest value ± {}, order {}, model {}",
-                            name, (*method)->limit, scientific((*method)->uncertainty, 2),
-                            fixed((*method)->order, 3), (*method)->model)});
+            blocks.emplace_back(Paragraph{fmt::format(
+                "beside it, {}: limit {:.{}g}, finest value ± {}, order {}, model {}", name,
+                (*method)->limit, digits_within((*method)->limit, (*method)->uncertainty),
+                scientific((*method)->uncertainty, 2), fixed((*method)->order, 3),
+                (*method)->model)});
 }
 
 /// Whose names h and dt of the model are.

@@ -109,7 +109,10 @@ Rows norms_in_words(const StudyResult& result) {
     return rows;
 }
 
-Rows provenance_rows(const Scene& scene) {
+} // namespace
+
+std::vector<std::pair<std::string, std::string>>
+provenance_rows(const Scene& scene, const std::vector<std::string>& overrides) {
     const Provenance p = provenance_of(scene);
     Rows rows{{"version", "tvbeam " + p.version},
               {"commit", p.commit},
@@ -119,12 +122,10 @@ Rows provenance_rows(const Scene& scene) {
               {"processor", p.processor},
               {"date", p.date},
               {"scene", p.scene_file}};
-    for (const auto& assignment : p.overrides)
+    for (const auto& assignment : overrides)
         rows.emplace_back("override", "--set " + assignment);
     return rows;
 }
-
-} // namespace
 
 Document result_document(const StudyResult& result) {
     const Scene& scene = result.scene;
@@ -133,7 +134,7 @@ Document result_document(const StudyResult& result) {
                       {},
                       result.left_out,
                       norms_in_words(result),
-                      provenance_rows(scene)};
+                      provenance_rows(scene, scene.overrides)};
     if (result.interrupted())
         document.head.emplace_back("INTERRUPTED: what stands here is what had finished");
     if (scene.defect)

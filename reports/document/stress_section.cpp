@@ -145,7 +145,11 @@ Section case_section(const StressCases& cases) {
          Paragraph{"energy: energy law, of its terms (limit 1e-12); resid.: of both equations, "
                    "in units of round-off (64); contact: penetration, wrong sign or "
                    "min-residual, of the tip's scale (1e-13); path: sine basis against nodal "
-                   "values, of their limit (1); blank: no case has it"},
+                   "values, of their limit (1); blank: no case has it" +
+                   std::string(cases.tallies().all().greatest("fixed_point")
+                                   ? "; of fixed points, whose limits allow for the round-off of "
+                                     "the Hermite form, see the worst cases"
+                                   : "")},
          Finding{fmt::format("Of {} {} certified, {} refused, {} stopped, {} failed.",
                              cases_text(cases.size()), cases.count(Outcome::certified),
                              cases.count(Outcome::refused), cases.count(Outcome::stopped),

@@ -118,6 +118,8 @@ BaselineEntry baseline_entry(const DataAnalysis& analysis) {
     std::map<std::string, double> figures;
     for (const auto& column : analysis.columns)
         for (std::size_t row = 0; row < analysis.rows(); ++row) {
+            if (!column.missing.empty() && column.missing[row])
+                continue; // a run that was not made
             std::string what = column.name + ":";
             for (const auto& width : analysis.widths)
                 what += fmt::format(" {} = {}", width.name, width.numbers[row]);

@@ -131,6 +131,12 @@ ComparedResults compare_results(const std::string& first, const std::string& sec
         if (json.contains("scene"))
             scenes.at(i) = json_values(json["scene"], is_not_compared);
         json.erase("scene");
+        if (const Json swept = json.value("key", Json()); swept.is_string()) {
+            Json values = Json::array(); // the scene has the first alone
+            for (const auto& row : json.value("rows", Json::array()))
+                values.push_back(row.value("value", Json()));
+            scenes.at(i)[swept] = values;
+        }
         json.erase("file"); // of a table that was analysed
         if (auto remarks = json.find("remarks"); remarks != json.end() && remarks->is_array())
             remarks->erase(std::remove_if(remarks->begin(), remarks->end(),

@@ -72,7 +72,7 @@ std::int64_t count(const Json& json, const std::string& what) {
 constexpr double StressChecks::*checks[] = {
     &StressChecks::energy,      &StressChecks::heat_residual, &StressChecks::beam_residual,
     &StressChecks::penetration, &StressChecks::wrong_sign,    &StressChecks::complementarity,
-    &StressChecks::path_limit};
+    &StressChecks::initial,     &StressChecks::allowance,     &StressChecks::path_limit};
 
 } // namespace
 

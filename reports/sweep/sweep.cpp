@@ -245,6 +245,11 @@ std::vector<std::string> troubles(const Sweep& sweep, const std::vector<StudyRes
     return all;
 }
 
+/// As they were given, the swept one with all of its values.
+std::vector<std::string> overrides_of(const Sweep& sweep) {
+    return sweep.overrides(fmt::format("{}", fmt::join(sweep.values, ",")));
+}
+
 std::string sweep_json(const Sweep& sweep, const std::vector<StudyResult>& results) {
     using Json = nlohmann::ordered_json;
     Json json{{"schema", "tvbeam-sweep/1"}, {"key", sweep.key}};
@@ -253,6 +258,7 @@ std::string sweep_json(const Sweep& sweep, const std::vector<StudyResult>& resul
     if (!results.empty()) {
         json["scene"] = Json::parse(results.front().scene.json()); // of the first value
         json["provenance"] = provenance_json(results.front().scene);
+        json["provenance"]["overrides"] = overrides_of(sweep);
     }
     json["interrupted"] = results.size() < sweep.values.size() ||
                           std::any_of(results.begin(), results.end(),
@@ -381,6 +387,8 @@ Reported reported(const Sweep& sweep, const std::vector<StudyResult>& results) {
     all.document.head = {sweep.key + " = " + values_text(sweep.values)};
     for (auto& caution : cautions(sweep, results))
         all.document.head.push_back(std::move(caution));
+    if (!results.empty())
+        all.document.provenance = provenance_rows(results.front().scene, overrides_of(sweep));
     if (!results.empty())
         all.document.sections.push_back({"Sweep", {table_of(sweep, results)}});
     for (const auto& trouble : troubles(sweep, results))

@@ -80,15 +80,6 @@ std::string order_words(const std::string& width, const OrderInterval& order) {
                             : fmt::format("order in {} not determined: {}", width, order.status);
 }
 
-/// So many digits of a number that an interval of this half width shows two of its own.
-int digits_of(double value, double half) {
-    constexpr int fewest = 4, most = 17;
-    if (!(half > 0) || value == 0)
-        return 8;
-    const double more = std::log10(std::abs(value) / half) + 3;
-    return static_cast<int>(std::clamp(more, double{fewest}, double{most}));
-}
-
 /// The rows of a grid by what the fit says of them.
 std::vector<RowVerdict> verdicts_of(const TwoTermFit& fit, std::size_t rows) {
     const bool both = fit.predicts();
@@ -324,6 +315,9 @@ ColumnAnalysis analyse_errors(const DataAnalysis& data, const DataColumn& errors
             }
     if (used.size() <= 2) {
         analyse_records(data, used, sigma, column);
+        for (std::size_t r = 0; r < column.verdicts.size(); ++r)
+            if (!column.missing.empty() && column.missing[r])
+                column.verdicts[r].reason = "no error is given";
         leave_open(data, errors, stated, column);
     } else if (used.size() > most_widths) {
         for (const auto i : used)
@@ -409,7 +403,7 @@ ColumnAnalysis analyse_values(const DataAnalysis& data, const DataColumn& values
              ? fmt::format("limit {0:.{3}g}{6}, 95 % from {1:.{3}g} to {2:.{3}g} ({4}); the finest "
                            "value ± {5}; ",
                            limit.value, limit.low, limit.high,
-                           digits_of(limit.value, limit.half_width()), basis,
+                           digits_within(limit.value, limit.half_width()), basis,
                            scientific(uncertainty, 2), held) +
                    order_words(data.widths[along].name, order)
              : "no limit: " + limit.status));
@@ -440,6 +434,18 @@ DataAnalysis analyse(const DataFile& data) {
     for (const auto& values : data.values)
         analysis.columns.push_back(analyse_values(analysis, in_order(values, order), sigma));
     return analysis;
+}
+
+bool vanishes_at_the_finest(const DataAnalysis& analysis, const ColumnAnalysis& column) {
+    if (column.is_value)
+        return false;
+    std::vector<ErrorRow> rows(column.numbers.size());
+    for (std::size_t r = 0; r < rows.size(); ++r) {
+        for (const auto& width : analysis.widths)
+            rows[r].widths.push_back(width.numbers[r]);
+        rows[r].error = column.numbers[r];
+    }
+    return vanishes_at_the_finest(rows);
 }
 
 } // namespace tvbeam

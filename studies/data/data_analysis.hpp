@@ -39,4 +39,7 @@ struct DataAnalysis {
 
 DataAnalysis analyse(const DataFile& data);
 
+/// vanishes_at_the_finest() of a column of errors.
+bool vanishes_at_the_finest(const DataAnalysis& analysis, const ColumnAnalysis& column);
+
 } // namespace tvbeam

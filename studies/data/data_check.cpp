@@ -27,7 +27,7 @@ public:
     ColumnCheck(const DataAnalysis& analysis, const ColumnAnalysis& column, TableReader& table,
                 std::vector<CheckedExpectation>& checked)
         : analysis_(analysis), column_(column), table_(table), checked_(checked),
-          finest_failed_(finest_failed()) {}
+          finest_failed_(finest_failed()), vanishes_(vanishes_at_the_finest(analysis, column)) {}
 
     void run() {
         const std::size_t before = checked_.size();
@@ -85,6 +85,10 @@ private:
 
     /// As a gate, an order or a limit must not pass because the finest run failed.
     OrderInterval gated(OrderInterval interval) const {
+        if (vanishes_) {
+            interval.determined = false;
+            interval.status = finest_is_zero;
+        }
         if (finest_failed_) {
             interval.determined = false;
             interval.status = column_.is_value
@@ -204,6 +208,7 @@ private:
     TableReader& table_;
     std::vector<CheckedExpectation>& checked_;
     bool finest_failed_;
+    bool vanishes_; ///< the error, at the finest row
 };
 
 } // namespace

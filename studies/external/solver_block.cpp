@@ -26,6 +26,10 @@ constexpr std::uintmax_t largest_template = std::uintmax_t{16} << 20U;
 constexpr std::array<const char*, 6> own_placeholders{"elements", "h",          "dt",
                                                       "steps",    "final_time", "level"};
 
+/// Columns that tables of runs have besides the numbers of the solver.
+constexpr std::array<const char*, 8> own_columns{"scheme", "elements", "h",       "dt",
+                                                 "steps",  "status",   "seconds", "reason"};
+
 bool is_name(const std::string& text) {
     return !text.empty() && !is_digit(text.front()) &&
            std::all_of(text.begin(), text.end(),
@@ -125,8 +129,20 @@ FigureSource read_source(TableReader& table, const std::string& key) {
                              "'" + name +
                                  "' is no name for a number; it must be of letters, "
                                  "digits and _, no digit first");
+        if (std::ranges::find(own_columns, name) != own_columns.end())
+            throw InputError(patterns->place_of_key(name), "tables have a column " + name +
+                                                               " of their own; give the number "
+                                                               "another name");
         source.patterns.emplace_back(name, *patterns->text(name), patterns->place(name));
     }
+    for (const auto& one : source.patterns)
+        for (const auto& other : source.patterns)
+            if (one.name == other.name + "_order")
+                throw InputError(patterns->place_of_key(one.name),
+                                 "tables have a column " + one.name +
+                                     " of their own, with the "
+                                     "orders of " +
+                                     other.name + "; give the number another name");
     if (source.patterns.empty())
         throw table.error(key, " is empty; name a number: { L2 = 'L2 error = (\\S+)' }");
     return source;

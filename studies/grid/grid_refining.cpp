@@ -134,7 +134,7 @@ public:
         while (true) {
             if (std::any_of(runs_.begin(), runs_.end(),
                             [](const RungResult& one) { return one.status != RungStatus::ok; }))
-                return {RefiningEnd::run_ended};
+                return {RefiningEnd::run_ended, names_of(wanted_of(block_))};
             const Open open = open_of(block_, runs_);
             if (open.wanted.empty())
                 return {RefiningEnd::known};

@@ -34,10 +34,24 @@ constexpr FitMetric fit_metrics[] = {
     {"b", "b, the constant of dt^q", &TwoTermModel::b, false, true, true},
     {"rho", "rho", &TwoTermModel::rho, true, true, true}};
 
+/// Why no gate on an order or a size holds, whatever the fit says; mostly empty.
+std::string refusal(const OrdersResult& result, std::size_t k) {
+    if (finest_failed(result.runs))
+        return finest_run_failed;
+    std::vector<ErrorRow> rows;
+    for (const auto& run : result.runs)
+        rows.push_back({{1.0 / static_cast<double>(run.rung.elements), run.rung.dt},
+                        k < run.errors.size() ? run.errors[k] : infinity});
+    return vanishes_at_the_finest(rows) ? finest_is_zero : "";
+}
+
 /// A parameter of an order that the grid does not determine meets no band.
-Metric metric_of(const FitMetric& metric, const NormOrders& orders) {
+Metric metric_of(const FitMetric& metric, const OrdersResult& result, std::size_t k) {
+    const NormOrders& orders = result.norms[k];
     const TwoTermFit& fit = orders.fit;
-    std::string absence = fit.failure;
+    std::string absence = refusal(result, k);
+    if (absence.empty())
+        absence = fit.failure;
     if (fit.holds())
         for (const auto& [wanted, order] :
              {std::pair(metric.in_h, &fit.p), std::pair(metric.in_dt, &fit.q)})
@@ -55,6 +69,8 @@ CheckedExpectation judged(const JudgeInterval& judge, bool in_h, const OrdersRes
     OrderInterval order = in_h ? orders.fit.p : orders.fit.q;
     if (!orders.fit.holds())
         order = {.status = orders.fit.failure};
+    if (const std::string why = refusal(result, k); !why.empty())
+        order = {.status = why};
     return judge("orders." + orders.norm + (in_h ? ": p" : ": q"), order);
 }
 
@@ -216,7 +232,7 @@ struct OrdersStudy final : KindOf<OrdersBlock, OrdersResult> {
             for (const auto& metric : fit_metrics) {
                 expect_band(
                     norm, metric.key, expectations, [&metric, k](const StudyResult& result) {
-                        return std::vector{metric_of(metric, result.get<OrdersResult>()->norms[k])};
+                        return std::vector{metric_of(metric, *result.get<OrdersResult>(), k)};
                     });
             }
             for (const bool in_h : {true, false})

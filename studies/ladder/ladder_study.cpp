@@ -91,14 +91,25 @@ std::vector<Metric> predicted_metrics(const Series& series, std::size_t k, bool 
 
 using FindInterval = std::function<const OrderInterval&(const ColumnAnalysis&)>;
 
+bool finest_failed(const StudyResult& result) {
+    return finest_failed(result.get<LadderResult>()->rungs);
+}
+
 /// KEY = [lo, hi], and what expect_interval reads, of an interval in the analysis of measure k.
 void expect_found(TableReader& table, const std::string& key, const std::string& what,
                   std::size_t k, const FindInterval& find, std::vector<Expectation>& expectations) {
-    const auto found = [k, find](const StudyResult& result) -> const OrderInterval& {
-        return find(result.get<LadderResult>()->analysis->columns[k]);
+    const auto found = [k, find](const StudyResult& result) {
+        const DataAnalysis& analysis = *result.get<LadderResult>()->analysis;
+        OrderInterval interval = find(analysis.columns[k]);
+        const bool failed = finest_failed(result);
+        if (failed || vanishes_at_the_finest(analysis, analysis.columns[k])) {
+            interval.determined = false;
+            interval.status = failed ? finest_run_failed : finest_is_zero;
+        }
+        return interval;
     };
     expect_band(table, key, expectations, [what, found](const StudyResult& result) {
-        const OrderInterval& interval = found(result);
+        const OrderInterval interval = found(result);
         return std::vector{
             Metric{what, interval.determined ? std::optional(interval.value) : std::nullopt,
                    "not determined: " + interval.status}};
@@ -125,7 +136,8 @@ void expect_method(TableReader& table, const std::string& key, const std::string
                     [what = name + key + ", " + word, k, method,
                      figure = figure](const StudyResult& result) {
                         const auto& column = result.get<LadderResult>()->analysis->columns[k];
-                        const auto& found = (*column.limit).*method;
+                        const auto found =
+                            finest_failed(result) ? std::nullopt : (*column.limit).*method;
                         return std::vector{
                             Metric{what, found ? std::optional((*found).*figure) : std::nullopt,
                                    "the method says nothing of these values"}};
@@ -157,8 +169,10 @@ void expect_analysis(TableReader& table, const Measure& measure, std::size_t k,
         const LimitEstimate& estimate = *result.get<LadderResult>()->analysis->columns[k].limit;
         return std::vector{
             Metric{name + "uncertainty of the finest value",
-                   estimate.limit.determined ? std::optional(estimate.uncertainty) : std::nullopt,
-                   estimate.limit.status}};
+                   estimate.limit.determined && !finest_failed(result)
+                       ? std::optional(estimate.uncertainty)
+                       : std::nullopt,
+                   estimate.limit.determined ? finest_run_failed : estimate.limit.status}};
     });
 }
 

@@ -64,6 +64,22 @@ std::vector<Rung> added_levels(const LadderBlock& ladder) {
     return rungs;
 }
 
+namespace {
+
+bool is_wanted(const Until& until, const Measure& measure) {
+    return (measure.is_value ? until.limit : until.order).has_value();
+}
+
+std::vector<std::string> wanted_of(const Until& until, const Series& series) {
+    std::vector<std::string> wanted;
+    for (const auto& measure : series.measures)
+        if (is_wanted(until, measure))
+            wanted.push_back(measure.root());
+    return wanted;
+}
+
+} // namespace
+
 std::vector<std::string> not_known(const Until& until, const Series& series,
                                    const std::vector<RungResult>& rungs) {
     std::optional<DataAnalysis> now;
@@ -90,7 +106,7 @@ Refined refine(const LadderBlock& block, Series& series, std::vector<RungResult>
     while (true) {
         if (std::any_of(rungs.begin(), rungs.end(),
                         [](const RungResult& one) { return one.status != RungStatus::ok; }))
-            return {RefiningEnd::run_ended};
+            return {RefiningEnd::run_ended, wanted_of(until, series)};
         const auto open = not_known(until, series, rungs);
         if (open.empty())
             return {RefiningEnd::known};

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <map>
+#include <ranges>
 #include <utility>
 
 namespace tvbeam {
@@ -23,14 +25,50 @@ rows_by(const TermRows& rows, const std::vector<Eigen::Index>& widths) {
     return groups;
 }
 
+constexpr double cancelled = 64 * std::numeric_limits<double>::epsilon();
+
+bool is_as_fine(const ErrorRow& row, const ErrorRow& as) {
+    return std::ranges::equal(row.widths, as.widths, std::less_equal());
+}
+
 } // namespace
+
+bool vanishes_at_the_finest(std::span<const ErrorRow> rows) {
+    constexpr double near_rounding = 1e-10;
+    double least = infinity;
+    double greatest = 0;
+    for (const ErrorRow& row : rows)
+        if (is_positive(row.error)) {
+            least = std::min(least, row.error);
+            greatest = std::max(greatest, row.error);
+        }
+    return least > near_rounding * greatest && std::isfinite(least) &&
+           std::ranges::any_of(rows, [&](const ErrorRow& zero) {
+               return zero.error == 0 &&
+                      std::ranges::none_of(std::views::reverse(rows), [&](const ErrorRow& other) {
+                          return is_positive(other.error) && is_as_fine(other, zero);
+                      });
+           });
+}
+
+bool is_cancelled(const ErrorRow& row, std::span<const ErrorRow> rows) {
+    return row.widths.size() > 1 && std::ranges::any_of(rows, [&](const ErrorRow& other) {
+               return std::isfinite(other.error) && row.error < cancelled * other.error &&
+                      is_as_fine(other, row);
+           });
+}
 
 TermRows usable_rows(std::span<const ErrorRow> given, std::size_t most_rows) {
     const auto d =
         given.empty() ? Eigen::Index{0} : static_cast<Eigen::Index>(given.front().widths.size());
-    const auto usable = [](const ErrorRow& row) {
+    double most_error = 0;
+    for (const auto& row : given)
+        if (std::isfinite(row.error))
+            most_error = std::max(most_error, row.error);
+    const auto usable = [&](const ErrorRow& row) {
         return is_positive(row.error) &&
-               std::all_of(row.widths.begin(), row.widths.end(), is_positive);
+               std::all_of(row.widths.begin(), row.widths.end(), is_positive) &&
+               !(row.error < cancelled * most_error && is_cancelled(row, given));
     };
     const bool stated = std::all_of(given.begin(), given.end(), [&](const ErrorRow& row) {
         return !usable(row) || is_positive(row.sigma);

@@ -24,9 +24,20 @@ struct ErrorRow {
 /// An order needs as many.
 constexpr std::size_t fewest_levels = 3;
 
-/// Rows with a logarithm; those of one cell are one row of their mean, and of the sum of their
-/// weights 1/σ². A cell is one point of the widths, or, where there are too many rows, of a
-/// lattice. Without σ it is taken from rows of one point, with Student's factor for their number.
+/// Whether an error is zero that no row with another is as fine as in all widths, though no other
+/// has come near to rounding: that is no power of the widths, and what a run shows that is compared
+/// with itself. No gate on an order holds beside it.
+bool vanishes_at_the_finest(std::span<const ErrorRow> rows);
+inline constexpr const char* finest_is_zero = "the error of the finest run is zero";
+
+/// Whether terms cancel in the row of a grid until rounding is left of them: a finer one has an
+/// error so many times as large.
+bool is_cancelled(const ErrorRow& row, std::span<const ErrorRow> rows);
+
+/// Rows with a logarithm, but those of a grid that are cancelled; those of one cell are one row of
+/// their mean, and of the sum of their weights 1/σ². A cell is one point of the widths, or, where
+/// there are too many rows, of a lattice. Without σ it is taken from rows of one point, with
+/// Student's factor for their number.
 TermRows usable_rows(std::span<const ErrorRow> given, std::size_t most_rows);
 
 /// The widths that errors change with. Along another no two errors of rows that are equal in all

@@ -221,6 +221,8 @@ std::vector<double> steps_of(const Rows& levels) {
     return steps;
 }
 
+constexpr double equal_steps = 1 - 1e-6; // those of ln h are, but for rounding
+
 /// Do the values go one way in steps that grow up to the finest, while h falls further than steps
 /// of a sum of two powers can grow? Those of C h^p + D h^q with opposite signs do from their zero
 /// to their greatest, while h falls by (q/p)^(1/(q − p)): 2 of h − h², 4 of √h − h; and by one
@@ -228,22 +230,22 @@ std::vector<double> steps_of(const Rows& levels) {
 bool runs_apart_in_the_end(const Rows& levels) {
     const auto steps = steps_of(levels);
     constexpr double growing = 4;
+    constexpr double rounding = 1 + 1e-9;
     std::size_t first = steps.size() - 1;
     double ratio = levels[first].h / levels[first + 1].h; // the greatest
     while (first > 0 && steps[first - 1] * steps[first] > 0 &&
-           std::abs(steps[first - 1]) < std::abs(steps[first]) &&
+           equal_steps * std::abs(steps[first - 1]) <= std::abs(steps[first]) &&
            is_significant(levels[first - 1], levels[first])) {
         --first;
         ratio = std::max(ratio, levels[first].h / levels[first + 1].h);
     }
-    constexpr double rounding = 1 + 1e-9;
     return levels[first].h > growing * ratio * rounding * levels[steps.size() - 1].h;
 }
 
 /// Do the values go one way, or to and fro throughout, and the steps between levels, each over the
 /// logarithm of its ratio, grow towards the finest, which is the greatest of all? Those of h^p
-/// shrink for every p > 0, so that there is no limit.
-bool runs_apart(const Rows& levels) {
+/// shrink for every p > 0, so that no limit is in sight.
+bool steps_grow(const Rows& levels) {
     std::vector<double> steps = steps_of(levels);
     const bool to_and_fro = steps[0] * steps[1] < 0;
     for (std::size_t i = 1; i < steps.size(); ++i)
@@ -251,13 +253,22 @@ bool runs_apart(const Rows& levels) {
             return false;
     for (auto& step : steps)
         step = std::abs(step);
-    constexpr double equal = 1 - 1e-6; // steps of ln h are equal, but for rounding
     const std::size_t last = steps.size() - 1;
     for (std::size_t i = 0; i < last; ++i)
-        if (steps[last] < equal * steps[i] || (i + 2 >= last && steps[i + 1] < equal * steps[i]))
+        if (steps[last] < equal_steps * steps[i] ||
+            (i + 2 >= last && steps[i + 1] < equal_steps * steps[i]))
             return false;
     return steps[last] >
            roundings * std::numeric_limits<double>::epsilon() * std::abs(levels.back().value);
+}
+
+/// Those of a sum of two powers turn once at most.
+bool turns_twice(const Rows& levels) {
+    const auto steps = steps_of(levels);
+    int turns = 0;
+    for (std::size_t i = 1; i < steps.size(); ++i)
+        turns += steps[i] * steps[i - 1] < 0 ? 1 : 0;
+    return turns >= 2;
 }
 
 /// The levels less the finest value and over the greatest distance from it, so that no square of
@@ -387,9 +398,12 @@ LimitEstimate estimate_limit(std::span<const ValueRow> rows, const LimitTuning& 
         coarsely_printed_step(given, tuning.units_of_exact_steps / std::clamp(halvings, 0.15, 1.0));
     if (result.finest_step)
         add_rounding(given);
-    if ((is_significant(given) || goes_further_than_digits(given)) &&
-        (runs_apart(given) || runs_apart_in_the_end(given))) {
-        result.limit.status = result.order.status = "the values run apart";
+    const bool growing = steps_grow(given);
+    const bool apart = runs_apart_in_the_end(given) || (growing && turns_twice(given));
+    if ((is_significant(given) || goes_further_than_digits(given)) && (apart || growing)) {
+        // Those of h − 4 h² grow, too, while h falls from 1/8 to 1/16.
+        result.limit.status = result.order.status =
+            apart ? "the values run apart" : "the steps between the values do not shrink";
         result.finest_step.reset(); // no digits make them do that
         return result;
     }

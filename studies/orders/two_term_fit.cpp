@@ -138,7 +138,7 @@ const char* words_for(Rejection why) {
     case Rejection::unresolved:
         return "quadrature does not resolve what is integrated";
     case Rejection::exact:
-        return "the error is zero";
+        return "the error is zero, or rounding where terms cancel";
     case Rejection::pre_asymptotic:
         return "too coarse for the model";
     case Rejection::outlier:
@@ -169,6 +169,9 @@ TwoTermFit fit_two_term(std::span<const Refinement> records,
     TwoTermFit fit;
     std::vector<std::size_t> usable;
     std::vector<ErrorRow> rows;
+    std::vector<ErrorRow> given;
+    for (const auto& record : records)
+        given.push_back({{record.h, record.dt}, record.error});
     for (std::size_t i = 0; i < records.size(); ++i) {
         if (reference && (reference->h > records[i].h || reference->dt > records[i].dt ||
                           reference->h <= 0 || reference->dt <= 0))
@@ -177,8 +180,13 @@ TwoTermFit fit_two_term(std::span<const Refinement> records,
             fit.rejected.push_back(std::move(*why));
             continue;
         }
+        if (is_cancelled(given[i], given)) {
+            fit.rejected.push_back(
+                {i, Rejection::exact, "the terms cancel there, and rounding is left of the error"});
+            continue;
+        }
         usable.push_back(i);
-        rows.push_back({{records[i].h, records[i].dt}, records[i].error});
+        rows.push_back(given[i]);
         if (!sigma.empty())
             rows.back().sigma = sigma[i] / records[i].error;
     }
@@ -193,8 +201,8 @@ TwoTermFit fit_two_term(std::span<const Refinement> records,
     }
     double known = 0; // the mean square of the stated deviations
     for (const auto& row : rows)
-        if (!sigma.empty())
-            known += row.sigma * row.sigma / static_cast<double>(rows.size());
+        if (std::isfinite(row.sigma))
+            known += row.sigma * row.sigma / static_cast<double>(usable.size());
     if (const Misfit misfit = misfit_of(records, usable, *steadiest, *fit.ensemble);
         misfit.alike > most_alike && misfit.rms > std::max(least_misfit, 2 * std::sqrt(known))) {
         fit.misfit =

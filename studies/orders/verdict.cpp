@@ -241,9 +241,13 @@ private:
         if (last == nullptr || !last->determined ||
             (run.order >= last->low && run.order <= last->high))
             return fmt::format("order {:.2f} over the rows that agree", run.order);
-        return fmt::format("order {:.2f} over the rows that agree, near the {:.2f} ± {:.2f} that "
-                           "all levels determine",
-                           run.order, last->value, last->half_width());
+        const double near = std::max(options_.tolerance * last->value, last->half_width() / 2);
+        return fmt::format("order {:.2f} over {} the {:.2f} ± {:.2f} that all levels determine",
+                           run.order,
+                           std::abs(run.order - last->value) <= near
+                               ? "the rows that agree, near"
+                               : "these rows, which their deviations leave open to be",
+                           last->value, last->half_width());
     }
 
     RowVerdict alone(double order, bool only_order) const {

@@ -55,6 +55,18 @@ std::string RungResult::trouble(const std::function<std::string(double)>& text) 
                                                                 : " was interrupted");
 }
 
+bool finest_failed(const std::vector<RungResult>& runs) {
+    const auto is_as_fine = [](const Rung& rung, const Rung& as) {
+        return rung.elements >= as.elements && rung.dt <= as.dt;
+    };
+    return std::ranges::any_of(runs, [&](const RungResult& failed) {
+        return failed.status == RungStatus::failed &&
+               std::ranges::none_of(runs, [&](const RungResult& other) {
+                   return other.status == RungStatus::ok && is_as_fine(other.rung, failed.rung);
+               });
+    });
+}
+
 double longest_time(const std::vector<Series>& all) {
     double longest = 0.0;
     for (const auto& series : all)

@@ -92,6 +92,11 @@ struct RungResult {
     [[nodiscard]] std::string trouble(const std::function<std::string(double)>& text) const;
 };
 
+/// Whether a run failed that none is as fine as in h and dt: of an order or a limit beside it no
+/// gate holds.
+bool finest_failed(const std::vector<RungResult>& runs);
+inline constexpr const char* finest_run_failed = "the finest run failed";
+
 /// One run that a study wants.
 struct RunTask {
     std::size_t level; ///< of the rung in its series, from 0

@@ -26,6 +26,11 @@ struct StressChecks {
     double penetration = 0.0;     ///< ContactDefects, over the scale of the tip
     double wrong_sign = 0.0;      ///< the same
     double complementarity = 0.0; ///< the same
+    double initial = 0.0;         ///< initial_defect()
+    /// What the form that was run leaves in the curvature, over its size: 0, or, of the Hermite
+    /// form, the round-off that is predicted for it, and its iteration. The limits of the energy
+    /// law, the residuals and the initial state are so much wider.
+    double allowance = 0.0;
     /// Between the two bases of the direct algorithm, the norms of temperature, curvature and
     /// contact stress: their differences in ulp of their scales. None where not both apply.
     std::optional<double> path;
@@ -41,15 +46,20 @@ struct StressChecks {
 
     /// path over its limit.
     [[nodiscard]] std::optional<double> path_part() const;
+    [[nodiscard]] double energy_limit() const;
+    [[nodiscard]] double residual_limit() const;
+    [[nodiscard]] double initial_limit() const;
     /// How near the checks come to their limits: the greatest of each over its own; > 1: one fails.
     [[nodiscard]] double closeness(bool has_stops) const;
 };
 
-/// What the checks must keep to, in their own units.
+/// What the checks must keep to, in their own units, where nothing is allowed for.
 struct StressLimits {
     static constexpr double energy = 1e-12;
     static constexpr double residual = 64.0;
     static constexpr double contact = 1e-13;
+    /// Gauss's rules of solver and certificate differ by 3e-10 of sin πx on a single element.
+    static constexpr double initial = 1e-8;
     static constexpr double order = 0.2;
 };
 

@@ -34,7 +34,7 @@ struct CaseRecord {
     std::int64_t elements = 0;
     std::int64_t steps = 0;
     Stops stops;
-    std::array<double, 7> checks{};
+    std::array<double, 9> checks{};
     std::array<double, 3> optional_checks{}; ///< path, error, order_defect
     TextPlace time;
     TextPlace reason;
@@ -46,7 +46,7 @@ static_assert(std::is_trivially_copyable_v<CaseRecord>);
 constexpr double StressChecks::*plain_checks[] = {
     &StressChecks::energy,      &StressChecks::heat_residual, &StressChecks::beam_residual,
     &StressChecks::penetration, &StressChecks::wrong_sign,    &StressChecks::complementarity,
-    &StressChecks::path_limit};
+    &StressChecks::initial,     &StressChecks::allowance,     &StressChecks::path_limit};
 
 } // namespace
 

@@ -99,6 +99,14 @@ std::vector<std::string> alike(const std::vector<double>& values) {
     return fits ? plain : powers;
 }
 
+int digits_within(double value, double half) {
+    constexpr int fewest = 4, most = 17;
+    if (!(half > 0) || value == 0)
+        return 8;
+    const double more = std::log10(std::abs(value) / half) + 3;
+    return static_cast<int>(std::clamp(more, double{fewest}, double{most}));
+}
+
 std::string significant(double value, int digits) {
     const std::string rounded = fmt::format("{:.{}e}", value, digits - 1);
     const int power = static_cast<int>(std::floor(std::log10(std::abs(number_in(rounded)))));

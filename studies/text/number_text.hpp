@@ -24,6 +24,9 @@ std::string shortest(double value);
 /// scientific.
 std::vector<std::string> alike(const std::vector<double>& values);
 
+/// So many digits of a number that an interval of this half-width shows two of its own: 4 to 17.
+int digits_within(double value, double half);
+
 /// So many significant digits: 190, 0.031; below 1e-4 and from 1e5 on scientific.
 std::string significant(double value, int digits);
 

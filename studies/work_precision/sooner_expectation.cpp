@@ -49,6 +49,7 @@ std::optional<Comparison> compared(const Pairing& pair, const WorkPrecisionBlock
         if (one.faster == pair.slower && one.slower == pair.faster) {
             Comparison turned = one.times;
             turned.ratio = 1.0 / one.times.ratio;
+            turned.distinguishable = false; // as sooner: it is not
             return turned;
         }
     }
@@ -98,12 +99,14 @@ void expect_sooner(TableReader& table, const WorkPrecisionBlock& block,
                     const auto words = [](bool yes) {
                         return yes ? "distinguishable" : "not distinguishable";
                     };
-                    return std::vector{
-                        CheckedExpectation{.what = what,
-                                           .expected = words(*wanted),
-                                           .found = times ? words(times->distinguishable) : absence,
-                                           .place = place,
-                                           .holds = times && times->distinguishable == *wanted}};
+                    return std::vector{CheckedExpectation{
+                        .what = what,
+                        .expected = words(*wanted),
+                        .found = !times               ? absence
+                                 : times->ratio < 1.0 ? "not sooner: the other one is"
+                                                      : words(times->distinguishable),
+                        .place = place,
+                        .holds = times && times->distinguishable == *wanted}};
                 });
         finish_expecting(one, before, expectations);
     }

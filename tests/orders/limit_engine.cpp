@@ -99,14 +99,14 @@ BOOST_AUTO_TEST_CASE(values_of_a_width_with_stated_deviations_are_their_mean) {
     BOOST_TEST(of_rows.high == of_means.high, boost::test_tools::tolerance(1e-9));
 }
 
-// The steps 0.001 and 0.002 grow, so that the values run apart; where each value is only known to
+// The steps 0.001 and 0.002 grow, so that no limit is in sight; where each value is only known to
 // 0.01, a difference of two has the deviation 0.014, of which neither step is three times.
-BOOST_AUTO_TEST_CASE(values_that_differ_by_less_than_their_scatter_do_not_run_apart) {
+BOOST_AUTO_TEST_CASE(values_that_differ_by_less_than_their_scatter_take_no_steps) {
     std::vector<ValueRow> rows{{4, 1.000}, {2, 1.001}, {1, 1.003}};
-    BOOST_TEST(estimate_limit(rows).limit.status == "the values run apart");
+    BOOST_TEST(estimate_limit(rows).limit.status == "the steps between the values do not shrink");
     for (auto& row : rows)
         row.sigma = 0.01;
-    BOOST_TEST(estimate_limit(rows).limit.status != "the values run apart");
+    BOOST_TEST(estimate_limit(rows).limit.status != "the steps between the values do not shrink");
 }
 
 // Celik et al. (2008), Table 1: orders 1.53, 0.75 and, oscillating, 1.51; cells of a plane, so that
@@ -178,15 +178,15 @@ BOOST_AUTO_TEST_CASE(of_equal_steps_celik_has_no_limit) {
 }
 
 // Steps of one unit each, five of them: together no rounding. Two may be those of 1.26, 1.18, 1.14.
-BOOST_AUTO_TEST_CASE(values_that_go_on_by_units_run_apart) {
+BOOST_AUTO_TEST_CASE(values_that_go_on_by_units_have_no_limit) {
     const auto limit_of = [](int levels) {
         std::vector<ValueRow> rows;
         for (int k = 0; k < levels; ++k)
             rows.push_back({std::exp2(-k), 1.0 + k, std::numeric_limits<double>::quiet_NaN(), 1.0});
         return estimate_limit(rows).limit;
     };
-    BOOST_TEST(limit_of(6).status == "the values run apart");
-    BOOST_TEST(limit_of(3).status != "the values run apart");
+    BOOST_TEST(limit_of(6).status == "the steps between the values do not shrink");
+    BOOST_TEST(limit_of(3).status != "the steps between the values do not shrink");
 }
 
 // Steps of h^p − D h^q grow from their zero while h falls by 2 (p = 1, q = 2) or 4 (1/2, 1), and by
@@ -374,15 +374,40 @@ BOOST_AUTO_TEST_CASE(replicates_are_one_level) {
                1e-6);
 }
 
-// Steps that grow up to the finest, and equal steps (ln h): there is no limit.
+// Steps that grow up to the finest, and equal steps (ln h): there is no limit. Five levels, along
+// which the halved h falls by 8 up to the last step, are where two powers still may grow.
 BOOST_AUTO_TEST_CASE(values_that_run_apart_have_no_limit_and_the_status_says_so) {
     for (const auto& value : std::vector<std::function<double(double)>>{
              [](double h) { return 1 / h; }, [](double h) { return std::log(h); },
              [](double h) { return 3 - std::pow(h, -0.3); }}) {
-        const auto limit = estimate_limit(sequence(5, value));
-        BOOST_TEST(!limit.limit.determined);
-        BOOST_TEST(limit.limit.status == "the values run apart");
-        BOOST_TEST(!limit.gci.has_value());
+        for (const int levels : {5, 6}) {
+            const auto limit = estimate_limit(sequence(levels, value));
+            BOOST_TEST(!limit.limit.determined);
+            BOOST_TEST(limit.limit.status == (levels == 6
+                                                  ? "the values run apart"
+                                                  : "the steps between the values do not shrink"));
+            BOOST_TEST(!limit.gci.has_value());
+        }
+    }
+    // To and fro by ever more: two powers turn once.
+    const auto turning = [](int levels) {
+        std::vector<ValueRow> rows;
+        for (int k = 0; k < levels; ++k)
+            rows.push_back({std::exp2(-k), std::pow(-2.0, k)});
+        return estimate_limit(rows).limit.status;
+    };
+    BOOST_TEST(turning(4) == "the values run apart");
+    BOOST_TEST(turning(3) == "the steps between the values do not shrink");
+}
+
+// 3 + h − 4 h² has the limit 3; its steps grow while h falls from 1/8 to 1/16.
+BOOST_AUTO_TEST_CASE(values_that_still_may_have_a_limit_are_not_said_to_run_apart) {
+    for (const double ratio : {1.1, 1.2, 1.3, 1.4}) {
+        std::vector<ValueRow> rows;
+        for (double h = 0.125; h > 1.0 / 16.1; h /= ratio)
+            rows.push_back({h, 3 + h - 4 * h * h});
+        BOOST_TEST(estimate_limit(rows).limit.status ==
+                   "the steps between the values do not shrink");
     }
 }
 

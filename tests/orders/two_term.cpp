@@ -3,6 +3,7 @@
 
 #include <boost/test/unit_test.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -608,6 +609,58 @@ BOOST_AUTO_TEST_CASE(a_ladder_without_refinement_has_its_rows_only) {
     BOOST_TEST(still.asymptotic_order == 0.0);
     const std::vector<Refinement> no_step{{.h = 0.1}, {.h = 0.05}};
     BOOST_CHECK_THROW(forecast(model, no_step), std::invalid_argument);
+}
+
+BOOST_AUTO_TEST_SUITE_END()
+
+BOOST_AUTO_TEST_SUITE(cancelled_rows)
+
+// |h − 100 Δt²| with h and Δt such that the terms cancel to rounding in two runs of sixteen: they
+// say nothing, and the fourteen others are the model.
+BOOST_AUTO_TEST_CASE(runs_whose_terms_cancel_to_rounding_have_no_part_in_the_fit) {
+    std::vector<Refinement> records;
+    for (const double elements : {4, 8, 16, 32})
+        for (const double dt : {0.1, 0.05, 0.025, 0.0125})
+            records.push_back(
+                {.h = 1 / elements, .dt = dt, .error = std::abs(1 / elements - 100 * dt * dt)});
+    const auto cancelled = [](const Refinement& record) { return record.error < 1e-15; };
+    BOOST_REQUIRE(std::ranges::count_if(records, cancelled) == 2);
+    const auto fit = fit_two_term(records);
+    BOOST_TEST(fit.used.size() == 14U);
+    BOOST_TEST(std::ranges::all_of(
+        fit.rejected, [](const RejectedRecord& one) { return one.why == Rejection::exact; }));
+    BOOST_TEST(fit.model.a == 1.0, boost::test_tools::tolerance(0.05));
+    BOOST_TEST(fit.model.b == 100.0, boost::test_tools::tolerance(0.05));
+}
+
+// Of a sequence, where nothing cancels to rounding in between unless something is wrong, nothing is
+// left out; nor is what is small because its widths are.
+BOOST_AUTO_TEST_CASE(only_a_row_of_a_grid_with_a_finer_one_of_a_greater_error_is_cancelled) {
+    const std::vector<ErrorRow> rows{{{0.2, 0.1}, 1e-17}, {{0.1, 0.1}, 1e-3}, {{0.1, 0.05}, 1e-18}};
+    BOOST_TEST(is_cancelled(rows[0], rows));
+    BOOST_TEST(!is_cancelled(rows[1], rows));
+    BOOST_TEST(!is_cancelled(rows[2], rows));
+    const std::vector<ErrorRow> line{{{0.2}, 1e-17}, {{0.1}, 1e-3}};
+    BOOST_TEST(!is_cancelled(line[0], line));
+}
+
+BOOST_AUTO_TEST_CASE(an_error_vanishes_at_the_finest_where_none_is_as_fine_and_none_near_rounding) {
+    using Rows = std::vector<ErrorRow>;
+    BOOST_TEST(vanishes_at_the_finest(Rows{{{0.2}, 1e-2}, {{0.1}, 1e-3}, {{0.05}, 0.0}}));
+    BOOST_TEST(!vanishes_at_the_finest(Rows{{{0.2}, 1e-2}, {{0.1}, 0.0}, {{0.05}, 1e-4}}));
+    BOOST_TEST(!vanishes_at_the_finest(Rows{{{0.2}, 1e-2}, {{0.1}, 1e-16}, {{0.05}, 0.0}}));
+    BOOST_TEST(!vanishes_at_the_finest(Rows{{{0.2}, 0.0}, {{0.1}, 0.0}}));
+    BOOST_TEST(!vanishes_at_the_finest(Rows{{{0.2}, 1e-2}, {{0.1}, 1e-3}}));
+    // On a grid, in a corner.
+    Rows grid;
+    for (const double h : {0.4, 0.2, 0.1})
+        for (const double dt : {0.4, 0.2, 0.1})
+            grid.push_back({{h, dt}, h * h + dt});
+    BOOST_TEST(!vanishes_at_the_finest(grid));
+    grid[4].error = 0.0;
+    BOOST_TEST(!vanishes_at_the_finest(grid));
+    grid[8].error = 0.0;
+    BOOST_TEST(vanishes_at_the_finest(grid));
 }
 
 BOOST_AUTO_TEST_SUITE_END()

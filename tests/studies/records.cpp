@@ -678,7 +678,7 @@ BOOST_AUTO_TEST_CASE(values_have_a_limit_along_one_way_of_refinement) {
     BOOST_TEST(limit("h,dt,value\n0.4,0.2,1.5\n0.2,0.2,1.3\n0.2,0.1,1.2\n0.1,0.1,1.1\n")
                    .limit.status.find("one way of refinement") != std::string::npos);
     BOOST_TEST(limit("h,value\n0.4,1\n0.2,2\n0.1,4\n0.05,8\n").limit.status ==
-               "the values run apart");
+               "the steps between the values do not shrink");
     BOOST_TEST(limit("h,value\n0.4,1\n0.2,2\n").limit.status.find("three") != std::string::npos);
     // A file with an error column is one of errors.
     BOOST_TEST(analysis_of("h,value,error\n0.1,1,2\n").columns[0].name == "error");

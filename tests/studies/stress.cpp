@@ -1,8 +1,11 @@
 // Stress studies: how cases are sampled and judged.
 
 #include "studies/stress/stress.hpp"
+#include "core/certify/contact_law.hpp"
+#include "core/certify/initial_state.hpp"
 #include "core/contraction.hpp"
 #include "core/run.hpp"
+#include "core/time/time_levels.hpp"
 #include "studies/ladder/ladder.hpp"
 #include "studies/scene/scene.hpp"
 #include "studies/stress/scratch.hpp"
@@ -277,6 +280,9 @@ BOOST_AUTO_TEST_CASE(every_check_beyond_its_limit_is_named) {
         "without contact", [](StressChecks& c, double v) { c.complementarity = v; },
         {over * StressLimits::contact, nan}, StressLimits::contact);
     named(
+        "initial state", [](StressChecks& c, double v) { c.initial = v; },
+        {over * StressLimits::initial, nan}, StressLimits::initial);
+    named(
         "sine basis", [](StressChecks& c, double v) { c.path = v; }, {30.3, nan}, 30.0);
     named(
         "order in dt", [](StressChecks& c, double v) { c.order_defect = v; },
@@ -284,6 +290,111 @@ BOOST_AUTO_TEST_CASE(every_check_beyond_its_limit_is_named) {
     named(
         "of the predicted one", [](StressChecks& c, double v) { c.error = v; },
         {1.11, 0.9, 0.0, nan}, 0.92);
+}
+
+// Of the curvature; the tip has no part of it.
+BOOST_AUTO_TEST_CASE(limits_are_wider_by_what_the_form_leaves_but_those_of_contact) {
+    const auto says = [](double StressChecks::*check, double value) {
+        StressChecks checks;
+        checks.allowance = 1e-4;
+        checks.*check = value;
+        return violation(checks) != "" && checks.closeness(true) > 1.0;
+    };
+    const double epsilon = std::numeric_limits<double>::epsilon();
+    for (const auto& [check, limit] : {std::pair(&StressChecks::energy, 1e-4),
+                                       {&StressChecks::heat_residual, 1e-4 / epsilon},
+                                       {&StressChecks::beam_residual, 1e-4 / epsilon},
+                                       {&StressChecks::initial, 1e-4}}) {
+        BOOST_TEST(!says(check, 0.99 * limit));
+        BOOST_TEST(says(check, 1.02 * limit));
+    }
+    for (const auto check :
+         {&StressChecks::penetration, &StressChecks::wrong_sign, &StressChecks::complementarity})
+        BOOST_TEST(says(check, 1.01 * StressLimits::contact));
+}
+
+// On a mesh that leaves the Hermite form few digits of its curvature a tip that passes its stop is
+// seen all the same: certified figures are of the tip's own size.
+BOOST_AUTO_TEST_CASE(fixed_points_on_fine_meshes_are_judged_by_the_size_of_the_tip) {
+    StressParameters pressed;
+    pressed.algorithm = Algorithm::fixed_point;
+    pressed.alpha = 0.1;
+    pressed.zeta = 0.1;
+    pressed.dt = 0.01;
+    pressed.steps = 20;
+    pressed.theta_A = 0.5;
+    pressed.load = 1.0;
+    pressed.stops = {-1e-3, 1e-3};
+    pressed.time = "euler";
+    pressed.elements = 1000;
+    const StressCase fine = judge(pressed);
+    BOOST_TEST(name_of(fine.outcome) == "certified", fine.reason);
+    BOOST_TEST(fine.checks->allowance > 0.0);
+    BOOST_TEST(fine.checks->allowance <= 1e-3);
+    BOOST_TEST(fine.checks->penetration < 1e-15);
+
+    const Mesh mesh = Mesh::uniform(pressed.elements);
+    const Beam beam{pressed.alpha, pressed.zeta, pressed.theta_A, pressed.stops};
+    const ProblemData data = stress_problem(pressed, mesh);
+    Scheme scheme;
+    scheme.algorithm = Algorithm::fixed_point;
+    scheme.time = TimeScheme::named(pressed.time);
+    const Beam free{pressed.alpha, pressed.zeta, pressed.theta_A, {}};
+    const auto solver = make_solver(free, data, mesh, scheme, pressed.dt, Needs{true, true, true});
+    const auto state = [&]() -> SolverState {
+        return {solver->temperature(), solver->curvature(), solver->contact_stress()};
+    };
+    SolveRecorder recorder(beam, data, mesh, pressed.time, pressed.dt, {.least_size = 1.0},
+                           state());
+    double penetration = 0.0;
+    solver->observe([&](const Solve&) {
+        penetration = std::max(penetration,
+                               contact_defects(beam, mesh, recorder.record(state())).penetration);
+    });
+    TimeLevels levels(data, scheme.time, pressed.dt * static_cast<double>(pressed.steps),
+                      pressed.steps);
+    for (std::int64_t n = 1; n <= pressed.steps; ++n) {
+        BOOST_REQUIRE(solver->step(levels.at(n)).empty());
+        BOOST_REQUIRE(recorder.end_step().empty());
+    }
+    BOOST_TEST(penetration > 1e-3);
+}
+
+// By a part of 1e-6, of temperature or curvature, at any place.
+BOOST_AUTO_TEST_CASE(another_initial_state_than_that_of_the_data_is_seen) {
+    for (const auto initial : {InitialData::smooth, InitialData::rough, InitialData::random})
+        for (const auto algorithm : {Algorithm::direct, Algorithm::fixed_point}) {
+            StressParameters start;
+            start.initial = initial;
+            start.elements = 12;
+            start.theta_A = 0.5;
+            start.dt = 0.01;
+            start.steps = 4;
+            start.time = "euler";
+            const Mesh mesh = Mesh::uniform(start.elements);
+            const ProblemData data = stress_problem(start, mesh);
+            Scheme scheme;
+            scheme.algorithm = algorithm;
+            const Beam beam{0.5, 0.1, start.theta_A, {}};
+            const auto solver =
+                make_solver(beam, data, mesh, scheme, start.dt, Needs{true, true, true});
+            const SolverState state{solver->temperature(), solver->curvature(), 0.0};
+            const auto defect = [&](const SolverState& of) {
+                return initial_defect(beam, data, mesh, {}, of);
+            };
+            BOOST_TEST(defect(state) < 1e-9);
+            SolverState warmer = state;
+            warmer.theta *= 1.000001;
+            BOOST_TEST(defect(warmer) > 1e-7);
+            SolverState bent = state;
+            bent.w *= 1.000001;
+            BOOST_TEST(defect(bent) > 1e-7);
+            SolverState once = state;
+            once.w(1, 5) += 1e-6;
+            BOOST_TEST(defect(once) > 1e-7);
+            once.w(1, 5) = std::numeric_limits<double>::quiet_NaN();
+            BOOST_TEST(!(defect(once) <= 1.0));
+        }
 }
 
 // However busy the machine is: no longer than it was waited for.
@@ -314,6 +425,7 @@ BOOST_AUTO_TEST_CASE(closeness_is_that_of_the_check_nearest_to_its_limit) {
     BOOST_TEST((half(&StressChecks::energy, StressLimits::energy) == either));
     BOOST_TEST((half(&StressChecks::heat_residual, StressLimits::residual) == either));
     BOOST_TEST((half(&StressChecks::beam_residual, StressLimits::residual) == either));
+    BOOST_TEST((half(&StressChecks::initial, StressLimits::initial) == either));
     BOOST_TEST((half(&StressChecks::penetration, StressLimits::contact) == with_stops));
     BOOST_TEST((half(&StressChecks::wrong_sign, StressLimits::contact) == with_stops));
     BOOST_TEST((half(&StressChecks::complementarity, StressLimits::contact) == with_stops));
