@@ -45,7 +45,7 @@ Json json_of(const StressChecks& checks) {
               {"penetration", number_json(checks.penetration)},
               {"wrong_sign", number_json(checks.wrong_sign)},
               {"complementarity", number_json(checks.complementarity)},
-              {"initial", number_json(checks.initial)},
+              {"initial_state", number_json(checks.initial)},
               {"allowance", number_json(checks.allowance)},
               {"path", number_json(checks.path)},
               {"path_limit", number_json(checks.path_limit)}};
@@ -145,7 +145,7 @@ LongText stress_csv(const StressCases& cases) {
         std::string rows =
             "alpha,zeta,dt,elements,steps,g1,g2,theta_A,load,initial,seed,time,thermal_mass,"
             "algorithm,outcome,energy,heat_residual,beam_residual,penetration,"
-            "wrong_sign,complementarity,initial,path,error,order_defect,seconds,reason\n";
+            "wrong_sign,complementarity,initial_state,path,error,order_defect,seconds,reason\n";
         constexpr std::size_t at_a_time = 65'536; // bytes
         cases.visit([&](const StressCase& one) {
             rows += csv_row(one);

@@ -444,6 +444,9 @@ bool vanishes_at_the_finest(const DataAnalysis& analysis, const ColumnAnalysis& 
         for (const auto& width : analysis.widths)
             rows[r].widths.push_back(width.numbers[r]);
         rows[r].error = column.numbers[r];
+        // Zero to its digits, or within its deviation.
+        if (r < column.verdicts.size() && column.verdicts[r].verdict == Verdict::unresolved)
+            rows[r].error = std::numeric_limits<double>::quiet_NaN();
     }
     return vanishes_at_the_finest(rows);
 }

@@ -135,17 +135,22 @@ FigureSource read_source(TableReader& table, const std::string& key) {
                                                                "another name");
         source.patterns.emplace_back(name, *patterns->text(name), patterns->place(name));
     }
-    for (const auto& one : source.patterns)
-        for (const auto& other : source.patterns)
-            if (one.name == other.name + "_order")
-                throw InputError(patterns->place_of_key(one.name),
-                                 "tables have a column " + one.name +
-                                     " of their own, with the "
-                                     "orders of " +
-                                     other.name + "; give the number another name");
     if (source.patterns.empty())
         throw table.error(key, " is empty; name a number: { L2 = 'L2 error = (\\S+)' }");
     return source;
+}
+
+/// Tables have the orders of a number beside it.
+void require_other_columns(TableReader& table, const SolverBlock& solver) {
+    for (const auto& [key, own] : {std::pair("errors", &solver.errors), {"values", &solver.values}})
+        for (const FigureSource* others : {&solver.errors, &solver.values})
+            for (const auto& one : own->patterns)
+                for (const auto& other : others->patterns)
+                    if (one.name == other.name + "_order")
+                        throw table.error(key, fmt::format(" name {0}, and tables have a column "
+                                                           "{0} with the orders of {1}; give the "
+                                                           "number another name",
+                                                           one.name, other.name));
 }
 
 Parameters read_parameters(TableReader& table, const Parameters* known) {
@@ -259,6 +264,7 @@ SolverBlock read_solver(TableReader table, const std::filesystem::path& folder, 
     solver.files = read_files(table, folder);
     solver.errors = read_source(table, "errors");
     solver.values = read_source(table, "values");
+    require_other_columns(table, solver);
     for (const auto& pattern : solver.values.patterns)
         if (solver.errors.pattern(pattern.name) != nullptr)
             throw table.error("values", " has " + pattern.name +

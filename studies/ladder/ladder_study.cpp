@@ -138,9 +138,10 @@ void expect_method(TableReader& table, const std::string& key, const std::string
                         const auto& column = result.get<LadderResult>()->analysis->columns[k];
                         const auto found =
                             finest_failed(result) ? std::nullopt : (*column.limit).*method;
-                        return std::vector{
-                            Metric{what, found ? std::optional((*found).*figure) : std::nullopt,
-                                   "the method says nothing of these values"}};
+                        return std::vector{Metric{
+                            what, found ? std::optional((*found).*figure) : std::nullopt,
+                            finest_failed(result) ? finest_run_failed
+                                                  : "the method says nothing of these values"}};
                     });
     finish_expecting(*inner, before, expectations);
 }

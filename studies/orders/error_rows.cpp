@@ -7,7 +7,6 @@
 #include <functional>
 #include <limits>
 #include <map>
-#include <ranges>
 #include <utility>
 
 namespace tvbeam {
@@ -45,30 +44,41 @@ bool vanishes_at_the_finest(std::span<const ErrorRow> rows) {
     return least > near_rounding * greatest && std::isfinite(least) &&
            std::ranges::any_of(rows, [&](const ErrorRow& zero) {
                return zero.error == 0 &&
-                      std::ranges::none_of(std::views::reverse(rows), [&](const ErrorRow& other) {
+                      std::none_of(rows.rbegin(), rows.rend(), [&](const ErrorRow& other) {
                           return is_positive(other.error) && is_as_fine(other, zero);
                       });
            });
 }
 
-bool is_cancelled(const ErrorRow& row, std::span<const ErrorRow> rows) {
-    return row.widths.size() > 1 && std::ranges::any_of(rows, [&](const ErrorRow& other) {
-               return std::isfinite(other.error) && row.error < cancelled * other.error &&
-                      is_as_fine(other, row);
-           });
+std::vector<bool> cancelled_rows(std::span<const ErrorRow> rows) {
+    std::vector<bool> result(rows.size(), false);
+    std::vector<double> errors;
+    for (const ErrorRow& row : rows)
+        if (row.widths.size() > 1 && is_positive(row.error))
+            errors.push_back(row.error);
+    if (errors.empty())
+        return result;
+    const auto middle = errors.begin() + std::ssize(errors) / 2;
+    std::ranges::nth_element(errors, middle);
+    const double small = cancelled * *middle;
+    for (std::size_t i = 0; i < rows.size(); ++i)
+        result[i] = rows[i].error < small &&
+                    std::any_of(rows.rbegin(), rows.rend(), [&](const ErrorRow& other) {
+                        return std::isfinite(other.error) &&
+                               rows[i].error < cancelled * other.error &&
+                               is_as_fine(other, rows[i]);
+                    });
+    return result;
 }
 
 TermRows usable_rows(std::span<const ErrorRow> given, std::size_t most_rows) {
     const auto d =
         given.empty() ? Eigen::Index{0} : static_cast<Eigen::Index>(given.front().widths.size());
-    double most_error = 0;
-    for (const auto& row : given)
-        if (std::isfinite(row.error))
-            most_error = std::max(most_error, row.error);
+    const auto is_cancelled = cancelled_rows(given);
     const auto usable = [&](const ErrorRow& row) {
         return is_positive(row.error) &&
                std::all_of(row.widths.begin(), row.widths.end(), is_positive) &&
-               !(row.error < cancelled * most_error && is_cancelled(row, given));
+               !is_cancelled[static_cast<std::size_t>(&row - given.data())];
     };
     const bool stated = std::all_of(given.begin(), given.end(), [&](const ErrorRow& row) {
         return !usable(row) || is_positive(row.sigma);

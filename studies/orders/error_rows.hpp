@@ -30,9 +30,9 @@ constexpr std::size_t fewest_levels = 3;
 bool vanishes_at_the_finest(std::span<const ErrorRow> rows);
 inline constexpr const char* finest_is_zero = "the error of the finest run is zero";
 
-/// Whether terms cancel in the row of a grid until rounding is left of them: a finer one has an
-/// error so many times as large.
-bool is_cancelled(const ErrorRow& row, std::span<const ErrorRow> rows);
+/// In which rows of a grid terms cancel until rounding is left of them: such an error is rounding
+/// beside most of the errors, and beside one of a row that is as fine.
+std::vector<bool> cancelled_rows(std::span<const ErrorRow> rows);
 
 /// Rows with a logarithm, but those of a grid that are cancelled; those of one cell are one row of
 /// their mean, and of the sum of their weights 1/σ². A cell is one point of the widths, or, where

@@ -264,6 +264,8 @@ void fit_each_alone(const TermRows& rows, const AllLevels& levels,
                 if (inside)
                     chosen.push_back(r);
             }
+            if (chosen.empty())
+                continue; // of a grid without its finest corner
             TermSearch search(rows.subset(chosen).along(i));
             for (std::size_t k = 0; k < shapes.size(); ++k)
                 if (std::ssize(chosen) > shapes[k].parameters())

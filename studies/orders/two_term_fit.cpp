@@ -172,6 +172,7 @@ TwoTermFit fit_two_term(std::span<const Refinement> records,
     std::vector<ErrorRow> given;
     for (const auto& record : records)
         given.push_back({{record.h, record.dt}, record.error});
+    const auto is_cancelled = cancelled_rows(given);
     for (std::size_t i = 0; i < records.size(); ++i) {
         if (reference && (reference->h > records[i].h || reference->dt > records[i].dt ||
                           reference->h <= 0 || reference->dt <= 0))
@@ -180,7 +181,7 @@ TwoTermFit fit_two_term(std::span<const Refinement> records,
             fit.rejected.push_back(std::move(*why));
             continue;
         }
-        if (is_cancelled(given[i], given)) {
+        if (is_cancelled[i]) {
             fit.rejected.push_back(
                 {i, Rejection::exact, "the terms cancel there, and rounding is left of the error"});
             continue;

@@ -437,8 +437,9 @@ Entries of_expectations() {
         {"expect.stress.FIGURE", KeyType::band, "anything",
          "certified, refused, stopped, failed, cases, the first four of a regime (\"time "
          "bdf2.refused\"); CHECK.count, .least and .greatest of energy, heat_residual, "
-         "beam_residual, penetration, wrong_sign, complementarity, path, error, order_defect; of "
-         "the other tables those that a message lists where a name is none"},
+         "beam_residual, penetration, wrong_sign, complementarity, initial_state, fixed_point, "
+         "path, error, order_defect; of the other tables those that a message lists where a name "
+         "is none"},
     };
 }
 

@@ -97,7 +97,7 @@ const std::vector<NamedCheck>& stress_checks() {
         {"penetration", "penetration", of_contact<&StressChecks::penetration>},
         {"wrong_sign", "wrong sign", of_contact<&StressChecks::wrong_sign>},
         {"complementarity", "min-residual", of_contact<&StressChecks::complementarity>},
-        {"initial", "initial state", plain<&StressChecks::initial>},
+        {"initial_state", "initial state", plain<&StressChecks::initial>},
         {"fixed_point", "fixed point, of its limits", part_of_allowed},
         {"path", "path, of its limit", path_part},
         {"error", "error/predicted", where_made<&StressChecks::error>},

@@ -49,7 +49,6 @@ std::optional<Comparison> compared(const Pairing& pair, const WorkPrecisionBlock
         if (one.faster == pair.slower && one.slower == pair.faster) {
             Comparison turned = one.times;
             turned.ratio = 1.0 / one.times.ratio;
-            turned.distinguishable = false; // as sooner: it is not
             return turned;
         }
     }
@@ -92,22 +91,24 @@ void expect_sooner(TableReader& table, const WorkPrecisionBlock& block,
                                               absence}};
                 }));
         if (const auto wanted = one.flag("distinguishable"))
-            expectations.push_back(
-                [pair, block, record, what, absence, wanted,
-                 place = one.place("distinguishable")](const StudyResult& result) {
-                    const auto times = compared(pair, block, record(result));
-                    const auto words = [](bool yes) {
-                        return yes ? "distinguishable" : "not distinguishable";
-                    };
-                    return std::vector{CheckedExpectation{
-                        .what = what,
-                        .expected = words(*wanted),
-                        .found = !times               ? absence
-                                 : times->ratio < 1.0 ? "not sooner: the other one is"
-                                                      : words(times->distinguishable),
-                        .place = place,
-                        .holds = times && times->distinguishable == *wanted}};
-                });
+            expectations.push_back([pair, block, record, what, absence, wanted,
+                                    place =
+                                        one.place("distinguishable")](const StudyResult& result) {
+                const auto times = compared(pair, block, record(result));
+                const auto words = [](bool yes) {
+                    return yes ? "distinguishable" : "not distinguishable";
+                };
+                const bool is_other = times && times->ratio < 1.0 && times->distinguishable;
+                const bool is_sooner = times && times->distinguishable && !is_other;
+                return std::vector{CheckedExpectation{.what = what,
+                                                      .expected = words(*wanted),
+                                                      .found = !times ? absence
+                                                               : is_other
+                                                                   ? "not sooner: the other one is"
+                                                                   : words(is_sooner),
+                                                      .place = place,
+                                                      .holds = times && is_sooner == *wanted}};
+            });
         finish_expecting(one, before, expectations);
     }
 }

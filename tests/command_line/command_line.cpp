@@ -327,7 +327,7 @@ BOOST_AUTO_TEST_CASE(analyse_writes_and_gates_as_a_scene_does) {
                    .exit == 1);
     BOOST_TEST(call(directory, analyse + "--expect 'L1.order = [1, 2]'").exit == 2);
 
-    // A field that is missing holds against its record, and every one of what is repeated counts.
+    // A run that was not made is in no record, and every one of what is repeated counts.
     const std::string rows = "h,error\n0.4,0.16\n0.2,0.041\n0.2,0.039\n0.1,NA\n0.05,0.0025\n";
     const std::string repeated = "analyse " + directory.write("repeated.csv", rows);
     BOOST_TEST(call(directory, repeated + " --record " + in + "r.json").exit == 0);
@@ -339,7 +339,8 @@ BOOST_AUTO_TEST_CASE(analyse_writes_and_gates_as_a_scene_does) {
     directory.write("repeated.csv", std::string(rows).replace(rows.find("NA"), 2, "inf"));
     const Called infinite = call(directory, repeated + " --baseline " + in + "r.json");
     BOOST_TEST(infinite.exit == 1);
-    BOOST_TEST(has(infinite.output, "expected none, found \"inf\""), infinite.output);
+    BOOST_TEST(has(infinite.output, "h = 0.1: expected a recorded error, found inf"),
+               infinite.output);
     BOOST_TEST(call(directory, "analyse - --size ndofs --error L2 < " + table).exit == 0);
 }
 

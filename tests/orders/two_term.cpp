@@ -613,7 +613,7 @@ BOOST_AUTO_TEST_CASE(a_ladder_without_refinement_has_its_rows_only) {
 
 BOOST_AUTO_TEST_SUITE_END()
 
-BOOST_AUTO_TEST_SUITE(cancelled_rows)
+BOOST_AUTO_TEST_SUITE(rows_of_zero_and_rounding)
 
 // |h − 100 Δt²| with h and Δt such that the terms cancel to rounding in two runs of sixteen: they
 // say nothing, and the fourteen others are the model.
@@ -634,14 +634,40 @@ BOOST_AUTO_TEST_CASE(runs_whose_terms_cancel_to_rounding_have_no_part_in_the_fit
 }
 
 // Of a sequence, where nothing cancels to rounding in between unless something is wrong, nothing is
-// left out; nor is what is small because its widths are.
-BOOST_AUTO_TEST_CASE(only_a_row_of_a_grid_with_a_finer_one_of_a_greater_error_is_cancelled) {
-    const std::vector<ErrorRow> rows{{{0.2, 0.1}, 1e-17}, {{0.1, 0.1}, 1e-3}, {{0.1, 0.05}, 1e-18}};
-    BOOST_TEST(is_cancelled(rows[0], rows));
-    BOOST_TEST(!is_cancelled(rows[1], rows));
-    BOOST_TEST(!is_cancelled(rows[2], rows));
-    const std::vector<ErrorRow> line{{{0.2}, 1e-17}, {{0.1}, 1e-3}};
-    BOOST_TEST(!is_cancelled(line[0], line));
+// left out; nor is what is small because its widths are, or beside one run that blew up.
+BOOST_AUTO_TEST_CASE(only_a_row_of_a_grid_that_is_rounding_beside_most_is_cancelled) {
+    std::vector<ErrorRow> rows;
+    for (const double h : {0.4, 0.2, 0.1})
+        for (const double dt : {0.4, 0.2, 0.1})
+            rows.push_back({{h, dt}, h * h + dt});
+    const std::vector<bool> none(rows.size(), false);
+    BOOST_TEST((cancelled_rows(rows) == none));
+    rows[8].error = 1e16;
+    BOOST_TEST((cancelled_rows(rows) == none));
+    rows[8].error = 1e-17; // no row is as fine
+    BOOST_TEST((cancelled_rows(rows) == none));
+    rows[8].error = 0.11;
+    rows[4].error = 1e-17;
+    auto middle = none;
+    middle[4] = true;
+    BOOST_TEST((cancelled_rows(rows) == middle));
+    const std::vector<ErrorRow> line{{{0.4}, 1e-2}, {{0.2}, 1e-17}, {{0.1}, 1e-3}};
+    BOOST_TEST((cancelled_rows(line) == std::vector<bool>(3, false)));
+}
+
+// Runs that take too long are missing in the corner where both widths are finest.
+BOOST_AUTO_TEST_CASE(grids_without_their_finest_corner_are_fitted_or_refused) {
+    for (int most = 0; most <= 8; ++most) {
+        std::vector<ErrorRow> rows;
+        for (int i = 0; i < 5; ++i)
+            for (int j = 0; j < 5; ++j)
+                rows.push_back({{0.4 * std::exp2(-i), 0.4 * std::exp2(-j)},
+                                i + j <= most ? 0.16 * std::exp2(-2 * i) + 0.4 * std::exp2(-j)
+                                              : std::numeric_limits<double>::quiet_NaN()});
+        const auto orders = estimate_orders(rows);
+        for (const auto& [order, truth] : {std::pair(orders[0], 2.0), {orders[1], 1.0}})
+            BOOST_TEST((!order.determined || (order.low <= truth && truth <= order.high)), most);
+    }
 }
 
 BOOST_AUTO_TEST_CASE(an_error_vanishes_at_the_finest_where_none_is_as_fine_and_none_near_rounding) {
