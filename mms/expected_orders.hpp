@@ -111,8 +111,8 @@ struct ExpectedOrders {
 ///   what is differenced is quadratic in time BDF2 is exact but for its first step, of SDIRK2,
 ///   whose error O(Δt³) stays: 3. Without viscosity u_xx answers to the load at once, and the
 ///   stages of SDIRK2, which are of order 1, leave Δt² u_xxtt in the heat equation: where that is
-///   not zero at an end, modes up to Δt^(-1/2) see it, SDIRK2 has 1.5 to 2, and its single step
-///   in BDF2 leaves 2 to 3.
+///   not zero at an end, its part in the mode k is 1/k, of modes up to Δt^(-1/2). So SDIRK2 has
+///   7/4 to 2 in the norm of θ̃_x, and 2 in the others; its single step in BDF2 leaves 9/4 to 3.
 /// - of the stress at rigid stops: as long as the tip is pressed and has been from t = 0 on, the
 ///   order p of u. When a contact begins, the computed tip has an error e = O(Δt^p) and comes to
 ///   the stop too early or too late by τ. Too early: the gap ~ τ^m is e, and the stop takes away a

@@ -65,6 +65,10 @@ public:
 
         /// What a key in it is; null: there is none of that name.
         [[nodiscard]] const Node* find(std::string_view key) const;
+        /// Whether the document may choose names for tables in it.
+        [[nodiscard]] bool has_chosen_names() const {
+            return (like != nullptr ? like : this)->any != nullptr;
+        }
         /// The names that are fixed.
         [[nodiscard]] std::vector<std::string> names() const;
     };

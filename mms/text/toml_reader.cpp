@@ -341,7 +341,7 @@ const toml::node* TableReader::find(std::string_view key, KeyType type) {
         throw InputError(place(key), full(key) + " is a key of its own, " +
                                          words_of(entry->entry->type) +
                                          "; nothing can be called so here");
-    if (differs && node == nullptr && type == KeyType::table)
+    if (differs && node == nullptr && type == KeyType::table && keys_->has_chosen_names())
         return nullptr; // a name that the user gave, of which nothing is said
     if (differs || (keys_ != nullptr && entry == nullptr))
         throw std::logic_error("the table of keys does not say that " + full(key) + " may be " +

@@ -21,6 +21,8 @@ struct BaselineEntry {
     std::map<std::string, double> figures;
     /// Of figures that are rounding, what they are below: another processor has others.
     std::map<std::string, double> rounding = {};
+    /// Figures of runs that were not made: a record of before this was kept may have them as none.
+    std::set<std::string> not_made = {};
     std::string said = {}; ///< all that the result says (said_result.hpp), as JSON; empty: not kept
 };
 BaselineEntry baseline_entry(const StudyResult& result);

@@ -262,15 +262,6 @@ bool steps_grow(const Rows& levels) {
            roundings * std::numeric_limits<double>::epsilon() * std::abs(levels.back().value);
 }
 
-/// Those of a sum of two powers turn once at most.
-bool turns_twice(const Rows& levels) {
-    const auto steps = steps_of(levels);
-    int turns = 0;
-    for (std::size_t i = 1; i < steps.size(); ++i)
-        turns += steps[i] * steps[i - 1] < 0 ? 1 : 0;
-    return turns >= 2;
-}
-
 /// The levels less the finest value and over the greatest distance from it, so that no square of
 /// theirs leaves the range of doubles. The scale is zero where the values are all the same.
 struct ScaledRows {
@@ -398,10 +389,10 @@ LimitEstimate estimate_limit(std::span<const ValueRow> rows, const LimitTuning& 
         coarsely_printed_step(given, tuning.units_of_exact_steps / std::clamp(halvings, 0.15, 1.0));
     if (result.finest_step)
         add_rounding(given);
-    const bool growing = steps_grow(given);
-    const bool apart = runs_apart_in_the_end(given) || (growing && turns_twice(given));
-    if ((is_significant(given) || goes_further_than_digits(given)) && (apart || growing)) {
-        // Those of h − 4 h² grow, too, while h falls from 1/8 to 1/16.
+    const bool apart = runs_apart_in_the_end(given);
+    if ((is_significant(given) || goes_further_than_digits(given)) &&
+        (apart || steps_grow(given))) {
+        // Those of h − 4 h² grow, too, while h falls from 1/8 to 1/16, and those of noise may.
         result.limit.status = result.order.status =
             apart ? "the values run apart" : "the steps between the values do not shrink";
         result.finest_step.reset(); // no digits make them do that
