@@ -27,17 +27,27 @@ using GiNaC::ex;
 
 namespace {
 
-constexpr double jump_tolerance = 1e-9;      ///< relative to what jumps
-constexpr double least_relative_jump = 1e-3; ///< within a phase, relative likewise
+constexpr double jump_tolerance = 1e-9; ///< relative to what jumps
 
-bool in_all(const DerivedSolution& derived, const auto& holds) {
-    return std::all_of(derived.derived.begin(), derived.derived.end(), holds);
+/// The phases that begin before the final time.
+std::size_t phases_until(const DerivedSolution& derived, double final_time) {
+    return static_cast<std::size_t>(
+        std::ranges::count_if(derived.phases, [&](const PhaseExpressions& phase) {
+            return phase.begin_value < final_time;
+        }));
+}
+
+bool in_all(const DerivedSolution& derived, double final_time, const auto& holds) {
+    return std::all_of(derived.derived.begin(),
+                       derived.derived.begin() +
+                           static_cast<std::ptrdiff_t>(phases_until(derived, final_time)),
+                       holds);
 }
 
 /// Whether the derivative by s, so many times, vanishes in every phase.
-bool vanishes(const DerivedSolution& derived, ex DerivedPhase::*member, const GiNaC::symbol& s,
-              int times) {
-    return in_all(derived, [&](const DerivedPhase& phase) {
+bool vanishes(const DerivedSolution& derived, double final_time, ex DerivedPhase::*member,
+              const GiNaC::symbol& s, int times) {
+    return in_all(derived, final_time, [&](const DerivedPhase& phase) {
         ex result = phase.*member;
         for (int i = 0; i < times; ++i)
             result = derivative(result, s);
@@ -45,14 +55,33 @@ bool vanishes(const DerivedSolution& derived, ex DerivedPhase::*member, const Gi
     });
 }
 
+/// Whether every phase goes on with the formulas of the first.
+bool is_one_formula(const DerivedSolution& derived, double final_time) {
+    const DerivedPhase& first = derived.derived.front();
+    return in_all(derived, final_time, [&](const DerivedPhase& phase) {
+        return is_identically_zero(checked_difference(phase.theta, first.theta)) &&
+               is_identically_zero(checked_difference(phase.u, first.u));
+    });
+}
+
 /// Whether u_xxtt is other than zero at an end of the beam, in any phase.
-bool bends_at_an_end(const DerivedSolution& derived) {
+bool bends_at_an_end(const DerivedSolution& derived, double final_time) {
     const ModelSymbols& s = model_symbols();
-    return !in_all(derived, [&](const DerivedPhase& phase) {
+    return !in_all(derived, final_time, [&](const DerivedPhase& phase) {
         const ex second = derivative(phase.u_xxt, s.t);
         return is_identically_zero(substituted(second, {{s.x, 0}})) &&
                is_identically_zero(substituted(second, {{s.x, 1}}));
     });
+}
+
+/// Whether the tip is other than linear in t, by one formula in all phases.
+bool tip_moves_unevenly(const DerivedSolution& derived, double final_time) {
+    const ModelSymbols& s = model_symbols();
+    return !is_one_formula(derived, final_time) ||
+           !in_all(derived, final_time, [&](const DerivedPhase& phase) {
+               const ex tip = substituted(phase.u, {{s.x, 1}});
+               return is_identically_zero(derivative(derivative(tip, s.t), s.t));
+           });
 }
 
 /// θ̃_t and u_xxt in every phase, over x.
@@ -80,22 +109,30 @@ std::vector<Switch> switches(const DerivedSolution& derived, double final_time) 
     const ArrayXd x = sample_points(0.0, 1.0);
     const ArrayXd sizes = sizes_of(tape, derived, final_time);
     std::vector<Switch> result;
-    const auto at_one_place = [&](const ArrayXd& s) {
-        Eigen::ArrayXXd values(2, s.size());
-        for (Eigen::Index n = 0; n < s.size(); ++n)
-            values.col(n) = tape.at(ArrayXd::Constant(1, 0.4321), s(n));
-        return values;
-    };
     for (const PhaseExpressions& phase : derived.phases) {
         if (!(phase.begin_value < final_time))
             break;
         const double end = std::min(phase.end_value, final_time);
         // At its begin the phase before it holds.
         const double begin = phase.begin_value + 1e-9 * (end - phase.begin_value);
-        if (const auto jump =
-                find_jump(at_one_place, uneven_grid(begin, end), least_relative_jump)) {
-            const double size = std::abs(jump->size);
-            result.push_back({jump->at, jump->row == 0 ? size : 0.0, jump->row == 1 ? size : 0.0});
+        const bool is_expected = may_jump(phase.theta) || may_jump(phase.u);
+        const double least = least_jump(is_expected);
+        std::optional<Jump> greatest;
+        for (const double place : parts_to_search(is_expected)) {
+            const auto in_time = [&](const ArrayXd& s) {
+                Eigen::ArrayXXd values(2, s.size());
+                for (Eigen::Index n = 0; n < s.size(); ++n)
+                    values.col(n) = tape.at(ArrayXd::Constant(1, place), s(n));
+                return values;
+            };
+            const auto jump = find_jump(in_time, uneven_grid(begin, end), least);
+            if (jump && !(greatest && std::abs(jump->size) <= std::abs(greatest->size)))
+                greatest = jump;
+        }
+        if (greatest) {
+            const double size = std::abs(greatest->size);
+            result.push_back(
+                {greatest->at, greatest->row == 0 ? size : 0.0, greatest->row == 1 ? size : 0.0});
         }
         if (!(phase.end_value < final_time))
             break;
@@ -316,7 +353,8 @@ private:
     }
 
     [[nodiscard]] Forecast stress_in_time(Method method) const {
-        if (!known_.u_has_time_error)
+        const bool is_held_from_the_start = !is_penalised() && known_.contact.onsets.empty();
+        if (!known_.tip_has_time_error || (!coupled_ && is_held_from_the_start))
             return no_error;
         // A jump at the end of the last contact comes too late for the stress.
         const double pressed = known_.contact.pressed_until
@@ -364,14 +402,19 @@ std::optional<Kink> kink_in(const DerivedSolution& derived, double final_time) {
         if (phase.begin_value >= final_time)
             break;
         const double end = std::min(phase.end_value, final_time);
-        const ArrayXd t =
-            ArrayXd::Constant(1, phase.begin_value + 0.4321 * (end - phase.begin_value));
+        const bool is_expected = may_jump(phase.u) || may_jump(phase.theta);
+        const double least = least_jump(is_expected);
         int derivative = 2;
         for (const ex& formula : {derived.derived[i].u_xx, derived.derived[i].u_xxx}) {
             const Tape tape = compile_tape({formula});
-            const auto in_x = [&](const ArrayXd& x) { return tape.evaluate(x, t); };
-            if (const auto jump = find_jump(in_x, uneven_grid(0.0, 1.0), least_relative_jump))
-                return Kink{jump->at, derivative};
+            for (const double part : parts_to_search(is_expected)) {
+                const ArrayXd t =
+                    ArrayXd::Constant(1, phase.begin_value + part * (end - phase.begin_value));
+                const auto in_x = [&](const ArrayXd& x) { return tape.evaluate(x, t); };
+                const auto exactly = [&](const ArrayXd& x) { return tape.evaluate_wide(x, t); };
+                if (const auto jump = find_jump(in_x, exactly, uneven_grid(0.0, 1.0), least))
+                    return Kink{jump->at, derivative};
+            }
             ++derivative;
         }
     }
@@ -544,8 +587,8 @@ ExpectedOrders expected_orders(const Solution& solution, const Beam& beam, doubl
     return located(solution.phases.front().u, "the solution", [&] {
         const ModelSymbols& s = model_symbols();
         ExpectedOrders result;
-        result.theta_is_exact = vanishes(derived, &DerivedPhase::theta_x, s.x, 1);
-        result.u_is_exact = vanishes(derived, &DerivedPhase::u_xx, s.x, 2);
+        result.theta_is_exact = vanishes(derived, final_time, &DerivedPhase::theta_x, s.x, 1);
+        result.u_is_exact = vanishes(derived, final_time, &DerivedPhase::u_xx, s.x, 2);
         result.switches = switches(derived, final_time);
         result.cusps = cusps(derived, final_time);
         result.kink = kink_in(derived, final_time);
@@ -554,24 +597,29 @@ ExpectedOrders expected_orders(const Solution& solution, const Beam& beam, doubl
             seek_farthest_tip(derived, beam.stops, final_time, result);
         else if (beam.stops.exist())
             result.contact = contact_history(derived, beam.stops, final_time);
-        const bool theta_is_linear = vanishes(derived, &DerivedPhase::theta, s.t, 2) &&
+        const bool theta_is_linear = vanishes(derived, final_time, &DerivedPhase::theta, s.t, 2) &&
                                      !jumps(result.switches, &Switch::theta_t_jump);
-        const bool u_is_linear = vanishes(derived, &DerivedPhase::u_xx, s.t, 2) &&
+        const bool u_is_linear = vanishes(derived, final_time, &DerivedPhase::u_xx, s.t, 2) &&
                                  !jumps(result.switches, &Switch::u_xxt_jump);
         const bool coupled = beam.alpha != 0.0;
         result.theta_has_time_error = !theta_is_linear || (coupled && !u_is_linear);
         result.u_has_time_error =
             coupled ? result.theta_has_time_error : beam.zeta != 0.0 && !u_is_linear;
+        result.tip_has_time_error =
+            result.u_has_time_error && (coupled || tip_moves_unevenly(derived, final_time));
+        const bool goes_on = is_one_formula(derived, final_time) &&
+                             !jumps(result.switches, &Switch::theta_t_jump) &&
+                             !jumps(result.switches, &Switch::u_xxt_jump);
         const auto quadratic = [&](bool has_time_error, ex DerivedPhase::*field) {
-            return result.switches.empty() && has_time_error && vanishes(derived, field, s.t, 3);
+            return goes_on && has_time_error && vanishes(derived, final_time, field, s.t, 3);
         };
         result.theta_is_quadratic = quadratic(result.theta_has_time_error, &DerivedPhase::theta);
         result.u_is_quadratic = quadratic(result.u_has_time_error, &DerivedPhase::u_xx);
         if (coupled)
             result.theta_is_quadratic = result.u_is_quadratic =
                 result.theta_is_quadratic && result.u_is_quadratic;
-        result.stages_miss_ends =
-            result.theta_has_time_error && coupled && beam.zeta == 0.0 && bends_at_an_end(derived);
+        result.stages_miss_ends = result.theta_has_time_error && coupled && beam.zeta == 0.0 &&
+                                  bends_at_an_end(derived, final_time);
         result.orders = PredictedOrders(result, beam).all();
         result.reasons = reasons(result, beam);
         return result;

@@ -72,6 +72,7 @@ struct ExpectedOrders {
     bool u_is_exact = false;     ///< u is cubic in x: the C¹ cubics hold it
     bool theta_has_time_error = true;
     bool u_has_time_error = true;
+    bool tip_has_time_error = true; ///< in u(1,t), which without coupling answers to itself alone
     /// Of degree 2 at most in t, so that BDF2 has no error but that of its first step: both
     /// fields, where they are coupled; else each by itself.
     bool theta_is_quadratic = false;
@@ -113,6 +114,9 @@ struct ExpectedOrders {
 ///   stages of SDIRK2, which are of order 1, leave Δt² u_xxtt in the heat equation: where that is
 ///   not zero at an end, its part in the mode k is 1/k, of modes up to Δt^(-1/2). So SDIRK2 has
 ///   7/4 to 2 in the norm of θ̃_x, and 2 in the others; its single step in BDF2 leaves 9/4 to 3.
+/// - of the stress without coupling: (1 − x, ·) of the beam equation has u(1,t) and its rate alone.
+///   A tip that has been held from t = 0 on, or that is linear in t by one formula, has no time
+///   error, and neither has σ.
 /// - of the stress at rigid stops: as long as the tip is pressed and has been from t = 0 on, the
 ///   order p of u. When a contact begins, the computed tip has an error e = O(Δt^p) and comes to
 ///   the stop too early or too late by τ. Too early: the gap ~ τ^m is e, and the stop takes away a

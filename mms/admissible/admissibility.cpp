@@ -29,10 +29,6 @@ namespace {
 /// Of single operations, to prove that the tip stays between the stops: a few tenths of a second.
 constexpr std::int64_t most_enclosures = 1'000'000;
 
-/// Of a jump within a phase, to the largest value: smaller steps may be those of rounding, where
-/// large terms cancel.
-constexpr double least_jump = 1e-3;
-
 /// The largest sizes of the solution's parts over all phases; tolerances are relative to them.
 struct Scales {
     double theta = 0.0;
@@ -155,8 +151,9 @@ private:
         const double begin = derived_.phases[i].begin_value;
         const double end = std::min(derived_.phases[i].end_value, final_time_);
         constexpr std::array<std::size_t, 2> in_t{0, 4};
-        // A jump is one nearly always and everywhere.
-        for (const double part : {0.1234567, 0.4321, 0.8765}) {
+        const bool is_expected = may_jump(phase.theta) || may_jump(phase.u);
+        const double least = least_jump(is_expected);
+        for (const double part : parts_to_search(is_expected)) {
             const ArrayXd t = ArrayXd::Constant(1, begin + part * (end - begin));
             for (const std::array<std::size_t, 2> in_x :
                  {std::array<std::size_t, 2>{0, 2}, {1, 3}}) {
@@ -166,8 +163,7 @@ private:
                 const auto exactly = [&](const ArrayXd& x) -> Eigen::ArrayXXd {
                     return tape.evaluate_wide(x, t)(in_x, Eigen::all);
                 };
-                if (const auto jump =
-                        find_jump(in_space, exactly, uneven_grid(0.0, 1.0), least_jump))
+                if (const auto jump = find_jump(in_space, exactly, uneven_grid(0.0, 1.0), least))
                     refuse(in_x.at(static_cast<std::size_t>(jump->row)), jump->size, jump->at, t(0),
                            "derivative in x");
             }
@@ -178,7 +174,7 @@ private:
             const auto exactly = [&](const ArrayXd& s) -> Eigen::ArrayXXd {
                 return tape.evaluate_wide(x, s)(in_t, Eigen::all);
             };
-            if (const auto jump = find_jump(in_time, exactly, uneven_grid(begin, end), least_jump))
+            if (const auto jump = find_jump(in_time, exactly, uneven_grid(begin, end), least))
                 refuse(in_t.at(static_cast<std::size_t>(jump->row)), jump->size, part, jump->at,
                        "rate");
         }

@@ -77,6 +77,16 @@ std::optional<Jump> jump_in(const Intervals& intervals, Index k, const FunctionR
 
 } // namespace
 
+ArrayXd parts_to_search(bool is_expected) {
+    const ArrayXd few{{0.1234567, 0.4321, 0.8765}};
+    if (!is_expected)
+        return few;
+    constexpr Index further = 30;
+    ArrayXd parts(few.size() + further);
+    parts << few, ArrayXd::LinSpaced(further, 0.0123, 0.98765);
+    return parts;
+}
+
 ArrayXd uneven_grid(double begin, double end) {
     constexpr Index count = 65;
     ArrayXd points = ArrayXd::LinSpaced(count, begin, end);

@@ -17,6 +17,17 @@ struct Jump {
     double size; ///< from before it to behind it
 };
 
+/// What is a jump within a phase, over the largest value: less where a formula may have one
+/// (may_jump); elsewhere a layer would be one.
+constexpr double least_jump(bool is_expected) {
+    return is_expected ? 1e-6 : 1e-3;
+}
+
+/// Parts of an interval, at each of which the other coordinate is searched for a jump. A jump is
+/// one nearly always and everywhere, so that three are enough where none is to be expected; where a
+/// formula may have one, it may be seen for a while.
+Eigen::ArrayXd parts_to_search(bool is_expected);
+
 /// The ends, and points between them that no round number halves: of most formulas that jump there,
 /// a place has no value.
 Eigen::ArrayXd uneven_grid(double begin, double end);

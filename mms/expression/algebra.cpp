@@ -347,6 +347,19 @@ numeric exact_rational(double value) {
     return numeric(digits.c_str()) * GiNaC::pow(numeric(10), numeric(exponent));
 }
 
+bool may_jump(const ex& expression) {
+    for (auto part = expression.preorder_begin(); part != expression.preorder_end(); ++part) {
+        if (is_a<GiNaC::power>(*part) && !part->op(1).info(GiNaC::info_flags::nonnegint))
+            return true;
+        if (is_a<GiNaC::function>(*part)) {
+            const std::string name = ex_to<GiNaC::function>(*part).get_name();
+            if (name == "tan" || name == "asin" || name == "acos" || name == "log")
+                return true;
+        }
+    }
+    return false;
+}
+
 bool depends_on(const ex& expression, const GiNaC::symbol& s) {
     return expression.has(s);
 }

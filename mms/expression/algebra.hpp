@@ -57,6 +57,10 @@ bool is_identically_zero(const GiNaC::ex& expression);
 /// The rational that the shortest decimal of a finite double stands for: 0.017 is 17/1000.
 GiNaC::numeric exact_rational(double value);
 
+/// Whether the expression, or a derivative of it, may jump somewhere: it has a quotient, a root, a
+/// logarithm, or a function that has one of these for a derivative.
+bool may_jump(const GiNaC::ex& expression);
+
 /// Whether the symbol occurs.
 bool depends_on(const GiNaC::ex& expression, const GiNaC::symbol& s);
 

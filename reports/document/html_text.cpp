@@ -1,5 +1,7 @@
 #include "reports/document/html_text.hpp"
 
+#include "reports/document/visible_text.hpp"
+
 #include <algorithm>
 #include <cctype>
 #include <map>
@@ -82,7 +84,7 @@ without_brackets(const std::string& name, const std::string& formula, std::size_
 
 std::string html_text(const std::string& text) {
     std::string html;
-    for (const char c : text)
+    for (const char c : visible(text))
         switch (c) {
         case '&':
             html += "&amp;";

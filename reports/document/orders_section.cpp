@@ -31,6 +31,8 @@ std::string size_text(double size, double uncertainty) {
         ++digit;
     }
     const double leading = std::floor(std::log10(size));
+    if (digit > leading)
+        return ""; // rounded up it is as much
     if (leading >= -4 && leading <= 4 && digit <= 0)
         return fmt::format("{:.{}f}({:.0f})", size, static_cast<int>(-digit), times);
     return fmt::format("{:.{}f}({:.0f})e{:.0f}", size / std::pow(10.0, leading),

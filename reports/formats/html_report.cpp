@@ -63,7 +63,6 @@ th.text, td.text { text-align: left; }
 tbody tr:first-child > * { border-top: 1px solid var(--ink); }
 tbody th { font-weight: 400; }
 sup, sub { font-size: .72em; line-height: 0; }
-.pad { visibility: hidden; }
 .number { white-space: nowrap; }
 pre { background: var(--card); border-radius: .3rem; font-size: .85rem; line-height: 1.4; margin: .6rem 0;
   overflow-x: auto; overflow-wrap: normal; padding: .7rem .9rem; }
@@ -87,8 +86,12 @@ std::string html_number(const WrittenNumber& number, const NumberColumn& column)
     std::string missing(column.fraction - std::min(column.fraction, number.fraction.size()), '0');
     if (!missing.empty() && number.fraction.empty())
         missing.insert(0, ".");
+    // Spaces as wide as a digit and as a point: what reads the text alone sees no digits there.
     const auto unseen = [](const std::string& text) {
-        return text.empty() ? text : "<span class=\"pad\" aria-hidden=\"true\">" + text + "</span>";
+        std::string spaces;
+        for (const char c : text)
+            spaces += c == '.' ? "\u2008" : "\u2007";
+        return spaces;
     };
     // Powers of ten stand below each other already; a gap before them would not be understood.
     html += number.suffix.empty() && column.exponent == 0 ? unseen(missing) : "";

@@ -184,7 +184,7 @@ private:
         std::vector<Metric> metrics;
         // Rows of one width have one order between them; a row without an error has none, and is
         // not passed over.
-        for (std::size_t row = 1; row < column_.orders.size(); ++row)
+        for (std::size_t row = 0; row < column_.orders.size(); ++row)
             if (column_.orders[row] || !is_positive(column_.numbers[row]))
                 metrics.push_back({"observed order" + row_text(analysis_, row), column_.orders[row],
                                    "none: the error is not a positive number"});

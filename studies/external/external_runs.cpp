@@ -393,8 +393,9 @@ std::set<std::string> absolute_paths_in(const std::string& word) {
     constexpr const char* ends = " \t\n\r\"'`=,:;()<>|&";
     for (std::size_t at = 0; at < word.size();) {
         const std::size_t end = std::min(word.find_first_of(ends, at), word.size());
-        if (word[at] == '/')
-            paths.insert(word.substr(at, end - at));
+        // Also behind an option's letter, as in -f/path/a.awk, or @/path/a.txt.
+        if (const std::size_t root = word.find('/', at); root < end)
+            paths.insert(word.substr(root, end - root));
         at = end + 1;
     }
     return paths;

@@ -56,7 +56,14 @@ std::size_t end_of_part(const std::string& pattern, std::size_t at) {
         const char letter = pattern[at];
         if (letter == '\\')
             ++at;
-        else if (in_class)
+        else if (in_class && letter == '[' && at + 1 < pattern.size() &&
+                 std::string_view(":.=").find(pattern[at + 1]) != std::string_view::npos) {
+            // As [:space:], whose bracket ends no class.
+            const std::size_t end = pattern.find(std::string{pattern[at + 1], ']'}, at + 2);
+            if (end == std::string::npos)
+                return pattern.size();
+            at = end + 1;
+        } else if (in_class)
             in_class = letter != ']';
         else if (letter == '[')
             in_class = true;
@@ -278,6 +285,28 @@ bool goes_on(const std::string& pattern, const std::string& number, const std::s
     return ends_as_one && std::regex_search(behind, rest);
 }
 
+/// Whether the number that a group took begins before it, with digits or a sign that a repetition
+/// like .* left of it took.
+bool begins_before(const std::string& pattern, const std::string& number,
+                   const std::string& before) {
+    static const std::regex front(R"([-+.\d]$)");
+    std::size_t group = 0;
+    while (group < pattern.size() &&
+           !(pattern[group] == '(' && pattern.substr(group + 1, 1) != "?")) {
+        group = pattern[group] == '\\'  ? group + 2
+                : pattern[group] == '[' ? end_of_part(pattern, group)
+                                        : group + 1;
+    }
+    const bool is_repeated =
+        group > 0 && group < pattern.size() &&
+        std::string_view("*+?").find(pattern[group - 1]) != std::string_view::npos &&
+        !(group > 1 && pattern[group - 2] == '\\');
+    const bool begins_as_one =
+        !number.empty() &&
+        (std::isdigit(static_cast<unsigned char>(number.front())) != 0 || number.front() == '.');
+    return is_repeated && begins_as_one && std::regex_search(before, front);
+}
+
 /// A count of that many digits, as of {4} or \1, is beyond what the library reads it into.
 bool has_long_number(const std::string& pattern) {
     constexpr int most_digits = 9;
@@ -327,6 +356,11 @@ void OutputReading::take(const std::string& line) {
     goes_on_ = ends_match && goes_on(pattern_->text, *found_, behind)
                    ? *found_ + behind.substr(0, behind.find_first_of(" \t\r"))
                    : std::string();
+    const std::string before(line.begin(), (*match)[1].first);
+    if (begins_before(pattern_->text, *found_, before))
+        begins_before_ = before.substr(before.find_last_of(" \t") + 1) + *found_;
+    else
+        begins_before_.clear();
     was_cut_ = is_cut;
     twice_ = ++match != std::sregex_iterator();
 }
@@ -344,6 +378,11 @@ ReadFigure OutputReading::figure() const {
         return {{},
                 "of " + goes_on_ + ", " + pattern_->name + " would be " + *found_ + ": '" +
                     pattern_->text + "' ends within the number; (\\S+) takes it whole"};
+    if (!begins_before_.empty())
+        return {{},
+                "of " + begins_before_ + ", " + pattern_->name + " would be " + *found_ + ": '" +
+                    pattern_->text +
+                    "' begins within the number; a space or an = before the group keeps it whole"};
     return number_of(pattern_->name, *found_);
 }
 

@@ -327,7 +327,8 @@ OrderInterval order_of_differences(const Rows& given, double from_models) {
                                    step * std::pow(stretch, p) / leading,
                                    std::hypot(levels[k].sigma, levels[k + 1].sigma) / step});
         }
-        order = estimate_orders(differences).front();
+        // Those of values that go to and fro leave residuals that are no scatter.
+        order = estimate_orders(differences, {}, {.contradicted = infinity}).front();
         if (!(order.value > 0))
             break;
         p = order.value;
@@ -440,6 +441,10 @@ LimitEstimate estimate_limit(std::span<const ValueRow> rows, const LimitTuning& 
             scale * (factor * mean->spread + tuning.narrowest * std::abs(mean->value) + unknown),
             std::max(given.back().unit / 2, is_wider ? scale * scatter : 0.0));
         const double limit = origin + scale * mean->value;
+        if (!std::isfinite(limit) || !std::isfinite(half)) {
+            result.limit.status = "values or deviations of so many sizes overflow";
+            return result;
+        }
         result.limit = {.value = limit,
                         .low = limit - half,
                         .high = limit + half,

@@ -43,7 +43,7 @@ OrderEnsemble::OrderEnsemble(std::span<const ErrorRow> rows, const std::vector<d
                              const OrderTuning& tuning)
     : OrderEnsemble(rows_of(rows, reference, tuning.most_rows), tuning) {}
 
-OrderEnsemble::OrderEnsemble(TermRows rows, const OrderTuning& tuning)
+OrderEnsemble::OrderEnsemble(TermRows rows, const OrderTuning& tuning, bool may_scatter)
     : tuning_(tuning), rows_(std::move(rows)) {
     for (Index i = 0; i < rows_.widths(); ++i) {
         levels_.push_back(levels_of(rows_.log_widths.col(i), tuning_.one_level));
@@ -64,6 +64,11 @@ OrderEnsemble::OrderEnsemble(TermRows rows, const OrderTuning& tuning)
     // Three levels make intervals as wide as that already.
     for (const auto& levels : levels_)
         stretch_.push_back(scatters_ && levels.size() > fewest_levels ? drift_left(levels) : 1.0);
+    if (const double shown = may_scatter ? unstated_scatter() : 0; shown > rows_.scatter) {
+        TermRows scattered = rows_;
+        scattered.scatter = shown;
+        scattered_.reset(new OrderEnsemble(std::move(scattered), tuning_, false));
+    }
     const auto moving = moving_widths(rows_, tuning_.idle);
     if (moving.empty() || std::ssize(moving) == rows_.widths())
         return;
@@ -91,6 +96,28 @@ bool OrderEnsemble::residuals_scatter() const {
     }
     return std::isfinite(of_windows) && of_windows > tuning_.least_seen_scatter &&
            of_all <= tuning_.as_in_windows * of_windows;
+}
+
+/// Of a sequence of close levels whose residuals are far more than what is known of its scatter:
+/// the least that any window shows, with Student's factor. What the models lack falls from window
+/// to window with the width. 0 where there is nothing to say.
+double OrderEnsemble::unstated_scatter() const {
+    constexpr double close = 1.5; // a ratio of about 1.5 or less
+    if (rows_.widths() > 1 || levels_.front().size() == fewest_levels ||
+        !std::isfinite(tuning_.contradicted) || drift_left(levels_.front()) < close)
+        return 0;
+    constexpr int fewest_spare = 2; // in a window: one residual is small by chance
+    double shown = infinity;
+    for (const auto& member : members_) {
+        const TermFit& fit = member.fit;
+        const bool is_of_all = is_of_all_rows(member);
+        if (is_of_all && fit.dof > 0 &&
+            fit.scale <= std::max(tuning_.contradicted * rows_.scatter, least_scatter))
+            return 0;
+        if (fit.dof >= (is_of_all ? 1 : fewest_spare))
+            shown = std::min(shown, fit.scale * student_over_normal(fit.dof));
+    }
+    return std::isfinite(shown) ? shown : 0;
 }
 
 std::optional<Index> OrderEnsemble::place_among_moving(Index width) const {
@@ -204,9 +231,15 @@ std::optional<OrderEnsemble::Mixture> OrderEnsemble::mix(const Functional& numbe
             weight * (change * change + (rows_.scatter > 0 ? std::max(0.0, off - own) : off + own));
     }
     const double factor = levels_.size() == 1 ? sequence_factor() : grid_factor();
-    return Mixture{mean, std::hypot(1.96 * std::sqrt(scatter / weights),
-                                    factor * std::sqrt(spread / weights)) +
-                             tuning_.narrowest};
+    const double half =
+        std::hypot(1.96 * std::sqrt(scatter / weights), factor * std::sqrt(spread / weights)) +
+        tuning_.narrowest;
+    if (!scattered_)
+        return Mixture{mean, half};
+    const auto other = scattered_->mix(number);
+    if (!other)
+        return std::nullopt;
+    return Mixture{mean, std::max(half, std::abs(other->value - mean) + other->half)};
 }
 
 double OrderEnsemble::sequence_factor() const {

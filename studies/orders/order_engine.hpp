@@ -101,7 +101,7 @@ public:
     const OrderTuning& tuning() const { return tuning_; }
 
 private:
-    OrderEnsemble(TermRows rows, const OrderTuning& tuning);
+    OrderEnsemble(TermRows rows, const OrderTuning& tuning, bool may_scatter = true);
     struct Mixture {
         double value = 0;
         double half = 0;
@@ -116,6 +116,7 @@ private:
     /// Of a positive number, given its logarithms.
     OrderInterval mix_logarithms(const Functional& logarithm) const;
     bool residuals_scatter() const;
+    double unstated_scatter() const;
     OrderMotion motion_of(Eigen::Index width) const;
     double greatest_share(Eigen::Index width) const;
     bool is_followed() const;
@@ -139,6 +140,7 @@ private:
     std::string failure_;
     std::vector<Eigen::Index> moving_widths_;
     std::shared_ptr<const OrderEnsemble> moving_;
+    std::shared_ptr<const OrderEnsemble> scattered_; ///< the same, with its unstated scatter
 };
 
 /// The orders of the error in each width; the failure in every status where there are none.

@@ -109,6 +109,34 @@ BOOST_AUTO_TEST_CASE(csv_and_json_hold_the_same_doubles) {
     BOOST_TEST(directory.count() == 2u); // no temporary file is left
 }
 
+BOOST_AUTO_TEST_CASE(a_report_does_not_take_the_place_of_what_is_read) {
+    const TemporaryDirectory directory;
+    const std::string table = "h,E\n0.1,0.01\n0.05,0.0025\n0.025,0.000625\n";
+    const std::string data = directory.write("t.csv", table);
+    const std::string expect = directory.write("e.toml", "E.orders = [1, 3]\n");
+    const std::string base = (directory.path() / "b.json").string();
+    const std::string analyse = "analyse " + data + " --error E ";
+    BOOST_TEST(call(directory, analyse + "--record " + base).exit == 0);
+    for (const std::string& arguments :
+         {analyse + "--json " + data, analyse + "--csv " + (directory.path() / "./t.csv").string(),
+          analyse + "--expect " + expect + " --junit " + expect,
+          analyse + "--baseline " + base + " --json " + base, analyse + "--record " + data}) {
+        const auto refused = call(directory, arguments);
+        BOOST_TEST(refused.exit == 2, arguments);
+        BOOST_TEST(has(refused.errors, "would take the place of a file that is read"),
+                   refused.errors);
+    }
+    BOOST_TEST(directory.read("t.csv") == table);
+    const std::string scene = directory.write("s.toml", call(directory, "list impact").output);
+    for (const std::string& arguments :
+         {"run " + scene + " --json " + scene, "run " + scene + " --csv " + scene,
+          "check " + scene + " --record " + scene})
+        BOOST_TEST(call(directory, arguments).exit == 2, arguments);
+    BOOST_TEST(directory.read("s.toml") == call(directory, "list impact").output);
+    // A baseline may be recorded anew.
+    BOOST_TEST(call(directory, analyse + "--baseline " + base + " --record " + base).exit == 0);
+}
+
 BOOST_AUTO_TEST_CASE(two_reports_in_one_file_are_refused) {
     const TemporaryDirectory directory;
     const std::string file = (directory.path() / "r").string();

@@ -139,6 +139,15 @@ const std::vector<Case> cases = {
      between_stops,
      "6:6",
      {"(3): u_xx jumps by", "at t = 1"}},
+    // A slope that jumps for a while, and one that jumps by little.
+    {solution("sin(pi*x) + sqrt((x - 0.3137)^2)*x*(1 - x)*exp(-800*(t - 0.65)^2)", "0"),
+     between_stops,
+     "1:10",
+     {"theta_x jumps by", "x = 0.3137"}},
+    {solution("sin(pi*x) + 0.005*sqrt((x - 0.3137)^2)*x*(1 - x)", "0"),
+     between_stops,
+     "1:10",
+     {"theta_x jumps by", "x = 0.3137"}},
     // The jump is at a time after the last one.
     {sine + "[[phase]]\nuntil = 2\nu = 0\n[[phase]]\nu = \"x^2\"\n", between_stops, "", {}},
     {sine + "[[phase]]\nuntil = 5\nu = 0\n[[phase]]\nu = \"x\"\n", between_stops, "", {}},

@@ -289,6 +289,43 @@ BOOST_AUTO_TEST_CASE(a_jump_after_the_last_contact_spares_the_contact_stress) {
     BOOST_TEST(least_order(early, "sigma_L2") == 1.0);
 }
 
+// What begins after the final time, and phases that go on with the same formulas, change nothing.
+BOOST_AUTO_TEST_CASE(orders_are_of_what_is_run_however_it_is_written) {
+    const std::string theta = "theta = 't^2*x*(1 - x)'\n";
+    const std::string u = "u = 't^2*x^2*(3 - x)/50'\n";
+    const auto words = [](const std::string& text) {
+        std::string all;
+        for (const auto& row :
+             expected_orders(parse_solution(text, "my.toml"), {0.3, 0.1, 0.0, {}}, 1.0).orders)
+            all += row.norm + " " + words_of(row.in_h) + " " + words_of(row.euler) + " " +
+                   words_of(row.bdf2) + " " + words_of(row.sdirk2) + "\n";
+        return all;
+    };
+    const std::string whole = words(theta + u);
+    BOOST_TEST(whole.find("theta_L2L2 2 1 3 2") != std::string::npos, whole);
+    BOOST_TEST(words(theta + "[[phase]]\nuntil = 0.5\n" + u + "[[phase]]\n" + u) == whole);
+    BOOST_TEST(words(theta + "[[phase]]\nuntil = 5\n" + u +
+                     "[[phase]]\nu = 't^2*x^2*(3 - x)/50 + (t - 5)^4*x^2*sin(x)'\n") == whole);
+}
+
+// Without coupling the beam equation with 1 - x has u(1,t) and its rate alone.
+BOOST_AUTO_TEST_CASE(the_stress_of_a_tip_without_a_time_error_has_none_without_coupling) {
+    const auto of_stress = [](const std::string& text, double alpha, double epsilon) {
+        const Beam beam{alpha, 0.1, 0.0, {-0.1, 0.1, epsilon}};
+        const auto orders = expected_orders(parse_solution(text, "my.toml"), beam, 1.0).orders;
+        return words_of(orders.back().bdf2);
+    };
+    const std::string bent = "theta = 'cos(t)*sin(pi*x)'\n";
+    const std::string held =
+        bent + "u = 'g2*x^2*(3 - x)/2 + x^2*(1 - x)^2*cos(3*t)/20'\nsigma = '-(2 + sin(t))'\n";
+    BOOST_TEST(of_stress(held, 0.0, 0.0) == "-");
+    BOOST_TEST(of_stress(held, 0.3, 0.0) == "2");
+    const std::string even =
+        bent + "u = '(g2 + (1 + t)/20)*x^2*(3 - x)/2 + x^2*(1 - x)^2*cos(3*t)/20'\n";
+    BOOST_TEST(of_stress(even, 0.0, 0.01) == "-");
+    BOOST_TEST(of_stress(even, 0.3, 0.01) == "2");
+}
+
 BOOST_AUTO_TEST_CASE(a_solution_linear_in_time_has_no_time_residual) {
     const Solution solution = parse_solution("theta = 'x*(1 - x)*t'\nu = 'x^2*t/100'\n", "my.toml");
     const Beam beam = {0.4, 0.15, 0.0, {}};

@@ -509,4 +509,14 @@ BOOST_AUTO_TEST_CASE(two_widths_have_no_limit_and_the_status_says_so) {
     BOOST_TEST(limit.limit.status == "a limit needs values at three different widths");
 }
 
+// One deviation is 18 decades below the others.
+BOOST_AUTO_TEST_CASE(what_overflows_has_no_limit_and_the_status_says_so) {
+    std::vector<ValueRow> rows;
+    for (const double h : {1.0, 0.5, 0.25, 0.125})
+        rows.push_back({.h = h, .value = 1 + h * h, .sigma = h == 0.25 ? 1e-21 : 1e-3});
+    const auto found = estimate_limit(rows);
+    BOOST_TEST((!found.limit.determined || std::isfinite(found.limit.half_width())));
+    BOOST_TEST((found.limit.determined || !found.limit.status.empty()));
+}
+
 BOOST_AUTO_TEST_SUITE_END()

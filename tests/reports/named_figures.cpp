@@ -141,7 +141,8 @@ BOOST_AUTO_TEST_CASE(of_a_size_as_many_digits_are_shown_as_its_interval_tells) {
          {Case{3.5601, 0.098, "3.6(4)"}, Case{0.16781, 0.148, "0.17(3)"},
           Case{1.6781e-5, 0.148, "1.7(3)e-5"}, Case{9.97, 0.01, "10.0(1)"},
           Case{234567, 0.02, "2.35(5)e5"}, Case{350, 0.2, "3.5(7)e2"}, Case{2.0, 0.001, "2.000(2)"},
-          Case{0.5, 1.5, ""}, Case{0.5, std::numeric_limits<double>::infinity(), ""}}) {
+          Case{0.5, 1.5, ""}, Case{9.6, 0.97, ""},
+          Case{0.5, std::numeric_limits<double>::infinity(), ""}}) {
         TwoTermFit fit;
         fit.model = {.a = size, .p = 2.0, .b = size, .q = 1.0, .rho = 0.0};
         fit.p.determined = fit.q.determined = true;

@@ -143,6 +143,23 @@ BOOST_AUTO_TEST_CASE(a_pattern_that_ends_within_a_number_is_a_failure) {
         BOOST_TEST(*read({line}, "L2 = ([0-9]+\\.?[0-9]?)").value == 9.7, line);
 }
 
+BOOST_AUTO_TEST_CASE(a_pattern_that_begins_within_a_number_is_a_failure) {
+    for (const std::string line : {"L2 = 21.5", "L2 = -1.5", "L2: .5, 1.5e3 -2.5"}) {
+        const ReadFigure found = read({line}, "L2.*(\\d\\.\\d)");
+        BOOST_TEST(!found.value, line);
+        BOOST_TEST(found.failure.find("begins within the number") != std::string::npos,
+                   found.failure);
+    }
+    BOOST_TEST(*read({"L2 = 1.5"}, "L2.*(\\d\\.\\d)").value == 1.5);
+    // What the pattern itself names before the group is meant so.
+    BOOST_TEST(*read({"L2 = 1e-05"}, "e-(\\d+)").value == 5.0);
+    BOOST_TEST(*read({"took 12:30"}, "[0-9]+:([0-9]+)").value == 30.0);
+}
+
+BOOST_AUTO_TEST_CASE(a_named_class_is_part_of_its_brackets) {
+    BOOST_TEST(*read({"L2 = 1.5"}, "L2[[:space:]:=]+(\\S+)").value == 1.5);
+}
+
 BOOST_AUTO_TEST_CASE(the_digits_that_were_printed_are_known) {
     BOOST_TEST(read({"L2 = 1.760"}, "L2 = (\\S+)").printed.last_place == -3);
     BOOST_TEST(in_file("e.csv", "L2\n1.50e-2\n").printed.last_place == -4);
@@ -518,8 +535,8 @@ BOOST_AUTO_TEST_CASE(a_run_is_known_by_what_its_figures_depend_on) {
 BOOST_AUTO_TEST_CASE(a_run_is_known_by_the_files_that_its_words_name_within_them) {
     const TemporaryDirectory directory;
     const std::string config = directory.write("config.txt", "3\n");
-    for (const std::string& word :
-         {config, "--config=" + config, "cat '" + config + "'; true", "a," + config + ":b"}) {
+    for (const std::string& word : {config, "--config=" + config, "-f" + config, "@" + config,
+                                    "cat '" + config + "'; true", "a," + config + ":b"}) {
         const std::string file = directory.write(
             "scene.toml", "[solver]\ncommand = [\"sh\", \"-c\", \"" + word +
                               "\", \"{elements}\"]\nerrors = { L2 = 'L2 = (\\S+)' }\n"

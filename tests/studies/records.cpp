@@ -267,6 +267,9 @@ BOOST_AUTO_TEST_CASE(an_order_of_a_row_without_an_error_is_none_and_holds_nothin
     BOOST_TEST(!holds("0"));
     // Two runs of a width have one order.
     BOOST_TEST(holds("0.01\n0.1,0.0101"));
+    // The coarsest has none in the row behind it.
+    for (const std::string coarsest : {"0.64", "nan", "-0.64"})
+        BOOST_TEST(holds("0.01\n0.8," + coarsest) == (coarsest == "0.64"), coarsest);
 }
 
 BOOST_AUTO_TEST_CASE(of_four_widths_at_a_time_no_order_is_told) {

@@ -40,6 +40,14 @@ int analyse_command(const AnalyseOptions& options) {
     const auto baseline =
         options.baseline.empty() ? std::nullopt : std::optional<Baseline>(options.baseline);
     const DataAnalysis analysis = analyse(read_data(options.file, options.choice));
+    std::vector<std::string> inputs{options.file};
+    if (options.expect)
+        inputs.push_back(*options.expect);
+    require_no_input("--record", options.record, inputs); // a baseline may be recorded anew
+    inputs.push_back(options.baseline);
+    require_no_input("--json", options.json, inputs);
+    require_no_input("--csv", options.csv, inputs);
+    require_no_input("--junit", options.junit, inputs);
     CheckedScene checked{analysis.name, 0.0, {}, {}};
     if (options.expect)
         checked.expectations = check(analysis, *options.expect);

@@ -80,8 +80,11 @@ int check_command(const CheckOptions& options) {
                 "has no [expect] block, so there is nothing to check; add one, or record a "
                 "baseline with --record");
     std::set<std::string> recorded;
+    require_no_input("--junit", options.junit, {options.baseline});
     for (const auto& scene : scenes) {
         require_runnable(scene);
+        require_no_input("--junit", options.junit, files_of(scene));
+        require_no_input("--record", options.record, files_of(scene));
         if (baseline || !options.record.empty())
             require_recordable(scene);
         if (!options.record.empty())

@@ -29,4 +29,20 @@ void require_apart(const std::string& first, const std::string& file, const std:
                          "two reports do not fit in one place; give one of them another");
 }
 
+void require_no_input(const std::string& option, const std::string& file,
+                      const std::vector<std::string>& inputs) {
+    for (const auto& input : inputs)
+        if (file != "-" && same_place(file, input))
+            throw InputError({option + " " + file},
+                             "would take the place of a file that is read; give it another");
+}
+
+std::vector<std::string> files_of(const Scene& scene) {
+    std::vector<std::string> files{scene.file};
+    if (scene.solver)
+        for (const auto& file : scene.solver->files)
+            files.push_back(file.source.string());
+    return files;
+}
+
 } // namespace tvbeam

@@ -2,9 +2,11 @@
 
 #include "mms/text/input_error.hpp"
 #include "reports/files/output_file.hpp"
+#include "studies/scene/scene.hpp"
 
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace tvbeam {
 
@@ -46,5 +48,12 @@ Destination destination(const std::string& name);
 /// Throws InputError where two options name one place.
 void require_apart(const std::string& first, const std::string& file, const std::string& second,
                    const std::string& other);
+
+/// Throws InputError where a report would take the place of a file that the command reads.
+void require_no_input(const std::string& option, const std::string& file,
+                      const std::vector<std::string>& inputs);
+
+/// The files that a scene consists of.
+std::vector<std::string> files_of(const Scene& scene);
 
 } // namespace tvbeam

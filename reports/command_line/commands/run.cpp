@@ -120,6 +120,8 @@ int run_command(const RunOptions& options) {
     std::optional<ReportDirectory> out;
     std::optional<KeptRuns> kept;
     require_runnable(scene);
+    require_no_input("--json", options.json, files_of(scene));
+    require_no_input("--csv", options.csv, files_of(scene));
     if (!options.out.empty()) {
         opened([&] {
             out.emplace(options.out, scene.report);
@@ -184,6 +186,8 @@ int sweep_command(const RunOptions& options, const Sweep& sweep) {
         predict(scenes.back(), options.quiet, options.really_long);
         require_runnable(scenes.back());
     }
+    require_no_input("--json", options.json, files_of(scenes.front()));
+    require_no_input("--csv", options.csv, files_of(scenes.front()));
     std::optional<ReportDirectory> out;
     if (!options.out.empty())
         opened([&] { out.emplace(options.out, scenes.front().report); });
