@@ -84,7 +84,11 @@ without_brackets(const std::string& name, const std::string& formula, std::size_
 
 std::string html_text(const std::string& text) {
     std::string html;
-    for (const char c : visible(text))
+    // Of the control characters HTML has the line end and the tabulator only.
+    std::string spaced = text;
+    std::ranges::replace_if(
+        spaced, [](unsigned char c) { return c < ' ' && c != '\n' && c != '\t'; }, ' ');
+    for (const char c : visible(spaced))
         switch (c) {
         case '&':
             html += "&amp;";
@@ -102,8 +106,7 @@ std::string html_text(const std::string& text) {
             html += "&#39;";
             break;
         default:
-            // Of the control characters HTML has the line end and the tabulator only.
-            html += static_cast<unsigned char>(c) < ' ' && c != '\n' && c != '\t' ? ' ' : c;
+            html += c;
         }
     return html;
 }

@@ -23,8 +23,9 @@ bool is_scene_file(const std::filesystem::path& file) {
 
 SolutionSetting setting_of(const Scene& scene) {
     if (scene.solver)
-        throw InputError({scene.file}, "the scene runs a solver of its own, and poses no problem of the "
-                                       "beam; name the file of its solution or equations");
+        throw InputError({scene.file},
+                         "the scene runs a solver of its own, and has no beam to derive "
+                         "from; name the file of its solution or equations");
     if (!scene.poses_problem())
         throw InputError({scene.file},
                          "[stress] poses problems of its own: there is no solution to derive "
