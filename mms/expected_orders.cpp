@@ -606,7 +606,8 @@ ExpectedOrders expected_orders(const Solution& solution, const Beam& beam, doubl
         result.u_has_time_error =
             coupled ? result.theta_has_time_error : beam.zeta != 0.0 && !u_is_linear;
         result.tip_has_time_error =
-            result.u_has_time_error && (coupled || tip_moves_unevenly(derived, final_time));
+            result.u_has_time_error && (coupled || tip_moves_unevenly(derived, final_time) ||
+                                        jumps(result.switches, &Switch::u_xxt_jump));
         const bool goes_on = is_one_formula(derived, final_time) &&
                              !jumps(result.switches, &Switch::theta_t_jump) &&
                              !jumps(result.switches, &Switch::u_xxt_jump);

@@ -18,9 +18,10 @@ struct Jump {
 };
 
 /// What is a jump within a phase, over the largest value: less where a formula may have one
-/// (may_jump); elsewhere a layer would be one.
+/// (may_jump); elsewhere a layer would be one, and below this the rounding of large terms that
+/// cancel.
 constexpr double least_jump(bool is_expected) {
-    return is_expected ? 1e-6 : 1e-3;
+    return is_expected ? 5e-5 : 1e-3;
 }
 
 /// Parts of an interval, at each of which the other coordinate is searched for a jump. A jump is

@@ -18,21 +18,26 @@ std::string value_text(double value) {
     return value == 0.0 ? "0" : scientific(value, 4);
 }
 
-/// With as many digits as tell times of the whole run apart.
-std::string time_text(double t, double final_time) {
-    const double decade = std::floor(std::log10(final_time));
-    constexpr double most = 6; // of zeros, on either side of the point
-    if (std::abs(decade) > most)
-        return t == 0 ? "0" : scientific(t, 4);
-    return fixed(t, 4 + static_cast<int>(std::max(0.0, -decade)));
-}
+/// The times of an evolution, with as many digits as tell its steps apart.
+struct TimeScale {
+    double final_time, dt;
+
+    [[nodiscard]] std::string text(double t) const {
+        const double decade = std::floor(std::log10(final_time));
+        constexpr double most = 6; // of zeros, on either side of the point
+        if (std::abs(decade) > most)
+            return t == 0 ? "0" : scientific(t, 4);
+        return fixed(
+            t, static_cast<int>(std::max(4 + std::max(0.0, -decade), std::ceil(-std::log10(dt)))));
+    }
+};
 
 bool has_exact(const EvolutionResult& result) {
     return std::any_of(result.probes.begin(), result.probes.end(),
                        [](const ProbeHistory& probe) { return !probe.exact.empty(); });
 }
 
-Table probe_table(const EvolutionResult& result, double final_time) {
+Table probe_table(const EvolutionResult& result, const TimeScale& times) {
     Table::Group key{"", {{"probe", {}}}};
     Table::Group range{"", {{"least", {}}, {"at t", {}}, {"greatest", {}}, {"at t", {}}}};
     Table::Group end{"", {{"at the end", {}}}};
@@ -41,8 +46,7 @@ Table probe_table(const EvolutionResult& result, double final_time) {
         key.columns[0].cells.push_back(probe.name);
         const auto add = [&](std::size_t column, std::optional<std::size_t> sample) {
             range.columns[column].cells.push_back(sample ? value_text(probe.values[*sample]) : "");
-            range.columns[column + 1].cells.push_back(
-                sample ? time_text(result.t[*sample], final_time) : "");
+            range.columns[column + 1].cells.push_back(sample ? times.text(result.t[*sample]) : "");
         };
         add(0, probe.least());
         add(2, probe.greatest());
@@ -56,7 +60,7 @@ Table probe_table(const EvolutionResult& result, double final_time) {
     return {"What the probes range over.", key, groups};
 }
 
-Table event_table(const std::vector<ContactEvent>& events, double final_time, bool yields) {
+Table event_table(const std::vector<ContactEvent>& events, const TimeScale& times, bool yields) {
     Table::Group key{"", {{"t", {}}}};
     Table::Group what{"", {{"contact", {}}, {"stop", {}}}};
     if (yields)
@@ -65,7 +69,7 @@ Table event_table(const std::vector<ContactEvent>& events, double final_time, bo
         if (events.size() > shown_events && i >= shown_events / 2 &&
             i < events.size() - shown_events / 2)
             continue;
-        key.columns[0].cells.push_back(time_text(events[i].t, final_time));
+        key.columns[0].cells.push_back(times.text(events[i].t));
         what.columns[0].cells.push_back(name_of(events[i].kind));
         what.columns[1].cells.push_back(name_of(events[i].stop));
         if (yields)
@@ -78,7 +82,7 @@ Table event_table(const std::vector<ContactEvent>& events, double final_time, bo
 }
 
 /// What never happened is said of a whole run only.
-void add_contact(Section& section, const EvolutionResult& result, double final_time,
+void add_contact(Section& section, const EvolutionResult& result, const TimeScale& times,
                  const Stops& stops) {
     const bool whole = result.run.status == RungStatus::ok;
     if (!whole && result.events.empty())
@@ -87,7 +91,7 @@ void add_contact(Section& section, const EvolutionResult& result, double final_t
     if (result.events.empty())
         section.blocks.emplace_back(Finding{"The tip never presses on a stop."});
     else
-        section.blocks.emplace_back(event_table(result.events, final_time, stops.epsilon > 0.0));
+        section.blocks.emplace_back(event_table(result.events, times, stops.epsilon > 0.0));
     if (result.events.size() > shown_events)
         section.blocks.emplace_back(Paragraph{fmt::format("of {} events the first and the last {}",
                                                           result.events.size(), shown_events / 2)});
@@ -116,6 +120,7 @@ Table period_table(const EvolutionResult& result) {
 
 Section evolution_section(const EvolutionResult& result, const Scene& scene) {
     const EvolutionBlock& block = *scene.get<EvolutionBlock>();
+    const TimeScale times{block.final_time, block.rung.dt};
     Section section{"Evolution", {}};
     section.blocks.emplace_back(Paragraph{fmt::format(
         "Evolution up to T = {} with s = {}, dt = {}, {} samples", shortest(block.final_time),
@@ -126,11 +131,11 @@ Section evolution_section(const EvolutionResult& result, const Scene& scene) {
             Finding{std::string(result.run.status == RungStatus::failed ? "The run failed"
                                                                         : "The run did not end") +
                     "; this is what it reached: " + result.run.reason});
-    section.blocks.emplace_back(probe_table(result, block.final_time));
+    section.blocks.emplace_back(probe_table(result, times));
     if (has_exact(result))
         section.blocks.emplace_back(Paragraph{"error: greatest distance from the exact solution"});
     if (scene.beam.stops.exist())
-        add_contact(section, result, block.final_time, scene.beam.stops);
+        add_contact(section, result, times, scene.beam.stops);
     if (!result.periods.empty()) {
         section.blocks.emplace_back(BlankLine{});
         section.blocks.emplace_back(

@@ -48,8 +48,9 @@ OutputFile::OutputFile(std::filesystem::path path) : path_(std::move(path)) {
     if (exists) {
         // What a link points to is replaced, not the link; and a device or pipe is written to, not
         // replaced.
-        path_ = std::filesystem::canonical(path_, error);
-        if (!error && !std::filesystem::is_regular_file(path_, error)) {
+        if (std::filesystem::is_regular_file(path_, error)) {
+            path_ = std::filesystem::canonical(path_, error);
+        } else {
             descriptor_ = uncut([&] { return open(path_.c_str(), O_WRONLY | O_CLOEXEC); });
             if (descriptor_ < 0)
                 fail();

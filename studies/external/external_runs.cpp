@@ -394,7 +394,9 @@ std::set<std::string> absolute_paths_in(const std::string& word) {
     for (std::size_t at = 0; at < word.size();) {
         const std::size_t end = std::min(word.find_first_of(ends, at), word.size());
         // Also behind an option's letter, as in -f/path/a.awk, or @/path/a.txt.
-        if (const std::size_t root = word.find('/', at); root < end)
+        const std::size_t root = word.find('/', at);
+        const bool is_root = root == at || (root < at + 3 && (word[at] == '-' || word[at] == '@'));
+        if (root < end && is_root)
             paths.insert(word.substr(root, end - root));
         at = end + 1;
     }

@@ -285,26 +285,47 @@ bool goes_on(const std::string& pattern, const std::string& number, const std::s
     return ends_as_one && std::regex_search(behind, rest);
 }
 
-/// Whether the number that a group took begins before it, with digits or a sign that a repetition
-/// like .* left of it took.
-bool begins_before(const std::string& pattern, const std::string& number,
-                   const std::string& before) {
-    static const std::regex front(R"([-+.\d]$)");
+/// Whether a repetition of any character, as .*, ends a pattern.
+bool ends_with_anything(std::string pattern) {
+    if (pattern.ends_with("*?") || pattern.ends_with("+?"))
+        pattern.pop_back();
+    if (!pattern.ends_with('*') && !pattern.ends_with('+') && !pattern.ends_with('?'))
+        return false;
+    pattern.pop_back();
+    if (pattern.ends_with(']')) {
+        const auto begin = pattern.rfind('[');
+        return begin != std::string::npos && pattern.compare(begin, 2, "[^") == 0;
+    }
+    return pattern.ends_with("\\S") || (pattern.ends_with('.') && !pattern.ends_with("\\."));
+}
+
+/// What stands before the group's number and belongs to it, digits or a minus, where a repetition
+/// of any character took it; or empty.
+std::string begin_before(const std::string& pattern, const std::string& number,
+                         const std::string& before) {
     std::size_t group = 0;
     while (group < pattern.size() &&
-           !(pattern[group] == '(' && pattern.substr(group + 1, 1) != "?")) {
+           !(pattern[group] == '(' && pattern.substr(group + 1, 1) != "?"))
         group = pattern[group] == '\\'  ? group + 2
                 : pattern[group] == '[' ? end_of_part(pattern, group)
                                         : group + 1;
+    static const std::regex one(R"(^[-+]?(\d+\.?\d*|\.\d+)([eEdD][-+]?\d+)?$)");
+    if (group >= pattern.size() || !ends_with_anything(pattern.substr(0, group)) ||
+        !std::regex_match(number, one))
+        return {};
+    constexpr std::size_t longest = 40; // no number has more before its end
+    std::string belongs;
+    for (std::size_t size = 1; size <= std::min(before.size(), longest); ++size) {
+        const std::string front = before.substr(before.size() - size);
+        const bool begins = size == before.size() ||
+                            std::string_view(" \t=:").find(before[before.size() - size - 1]) !=
+                                std::string_view::npos;
+        const bool counts =
+            front.find_first_of("0123456789") != std::string::npos || (front == "-" && begins);
+        if (counts && std::regex_match(front + number, one))
+            belongs = front;
     }
-    const bool is_repeated =
-        group > 0 && group < pattern.size() &&
-        std::string_view("*+?").find(pattern[group - 1]) != std::string_view::npos &&
-        !(group > 1 && pattern[group - 2] == '\\');
-    const bool begins_as_one =
-        !number.empty() &&
-        (std::isdigit(static_cast<unsigned char>(number.front())) != 0 || number.front() == '.');
-    return is_repeated && begins_as_one && std::regex_search(before, front);
+    return belongs;
 }
 
 /// A count of that many digits, as of {4} or \1, is beyond what the library reads it into.
@@ -357,10 +378,8 @@ void OutputReading::take(const std::string& line) {
                    ? *found_ + behind.substr(0, behind.find_first_of(" \t\r"))
                    : std::string();
     const std::string before(line.begin(), (*match)[1].first);
-    if (begins_before(pattern_->text, *found_, before))
-        begins_before_ = before.substr(before.find_last_of(" \t") + 1) + *found_;
-    else
-        begins_before_.clear();
+    const std::string begin = begin_before(pattern_->text, *found_, before);
+    begins_before_ = begin.empty() ? begin : begin + *found_;
     was_cut_ = is_cut;
     twice_ = ++match != std::sregex_iterator();
 }

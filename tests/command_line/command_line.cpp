@@ -133,8 +133,23 @@ BOOST_AUTO_TEST_CASE(a_report_does_not_take_the_place_of_what_is_read) {
           "check " + scene + " --record " + scene})
         BOOST_TEST(call(directory, arguments).exit == 2, arguments);
     BOOST_TEST(directory.read("s.toml") == call(directory, "list impact").output);
+    const std::string own = directory.write("mine.toml", "theta = 'x*(1 - x)*t'\nu = '0'\n");
+    const std::string posed =
+        directory.write("p.toml", "solution = 'mine.toml'\n[beam]\nalpha = 0.3\nzeta = "
+                                  "0.1\n[ladder]\nfinal_time = 1\nelements = [2, 4]\ndt = [0.5, "
+                                  "0.25]\nnorms = ['theta_L2L2']\n");
+    BOOST_TEST(call(directory, "run " + posed + " --json " + own).exit == 2);
+    BOOST_TEST(call(directory, "run " + posed + " --json " + base).exit == 0);
+    // Pipes and devices lose nothing.
+    BOOST_TEST(call(directory, "analyse /dev/stdin --error E --json /dev/stdout < " + data +
+                                   " | cat > " + base)
+                   .exit == 0);
+    BOOST_TEST(has(directory.read("b.json"), "\"columns\""));
     // A baseline may be recorded anew.
-    BOOST_TEST(call(directory, analyse + "--baseline " + base + " --record " + base).exit == 0);
+    BOOST_TEST(call(directory, analyse + "--record " + base + ".new").exit == 0);
+    BOOST_TEST(call(directory, "analyse " + data + " --error E --baseline " + base +
+                                   ".new --record " + base + ".new")
+                   .exit == 0);
 }
 
 BOOST_AUTO_TEST_CASE(two_reports_in_one_file_are_refused) {

@@ -144,7 +144,7 @@ BOOST_AUTO_TEST_CASE(a_pattern_that_ends_within_a_number_is_a_failure) {
 }
 
 BOOST_AUTO_TEST_CASE(a_pattern_that_begins_within_a_number_is_a_failure) {
-    for (const std::string line : {"L2 = 21.5", "L2 = -1.5", "L2: .5, 1.5e3 -2.5"}) {
+    for (const std::string line : {"L2 = 21.5", "L2 = -1.5", "L2: .5, 1.5e3 -2.5", "L2=-1.5"}) {
         const ReadFigure found = read({line}, "L2.*(\\d\\.\\d)");
         BOOST_TEST(!found.value, line);
         BOOST_TEST(found.failure.find("begins within the number") != std::string::npos,
@@ -154,6 +154,11 @@ BOOST_AUTO_TEST_CASE(a_pattern_that_begins_within_a_number_is_a_failure) {
     // What the pattern itself names before the group is meant so.
     BOOST_TEST(*read({"L2 = 1e-05"}, "e-(\\d+)").value == 5.0);
     BOOST_TEST(*read({"took 12:30"}, "[0-9]+:([0-9]+)").value == 30.0);
+    BOOST_TEST(*read({"L20.5"}, "L\\d?(\\S+)").value == 0.5);
+    BOOST_TEST(*read({"L2-0.5"}, "L2-?(\\S+)").value == 0.5);
+    // Dots and dashes that lead to a number.
+    for (const std::string line : {"L2 ..... 0.5", "L2.....0.5", "L2 -----0.5", "L2: +0.5"})
+        BOOST_TEST(*read({line}, "L2[^0-9]*(\\S+)").value == 0.5, line);
 }
 
 BOOST_AUTO_TEST_CASE(a_named_class_is_part_of_its_brackets) {

@@ -54,6 +54,7 @@ int derive_equations(const std::filesystem::path& file, const DeriveOptions& opt
     std::string text = language        ? system_code(derived, *language)
                        : options.latex ? system_latex(derived)
                                        : system_text(derived);
+    require_no_input("--out", options.out, {file.string()});
     Destination out = destination(options.out.empty() ? "-" : options.out);
     const bool alone = language || options.latex;
     if (!alone && !remarks.empty())

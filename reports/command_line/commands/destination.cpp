@@ -2,18 +2,29 @@
 
 #include <filesystem>
 #include <system_error>
+#include <variant>
 
 namespace tvbeam {
 
 namespace {
 
-/// Whether two reports are wanted in the same file, or both on standard output.
+namespace fs = std::filesystem;
+
+/// Whether two names are of one file, or both of standard output. Devices and pipes hold nothing
+/// that could be lost.
 bool same_place(const std::string& first, const std::string& second) {
     if (first.empty() || second.empty())
         return false;
+    if (first == "-" || second == "-")
+        return first == second;
     std::error_code error;
-    return first == second || std::filesystem::weakly_canonical(first, error) ==
-                                  std::filesystem::weakly_canonical(second, error);
+    if (fs::exists(second, error) && !fs::is_regular_file(second, error))
+        return false;
+    const fs::path one = fs::weakly_canonical(first, error);
+    if (error)
+        return false;
+    const fs::path other = fs::weakly_canonical(second, error);
+    return !error && one == other;
 }
 
 } // namespace
@@ -39,9 +50,16 @@ void require_no_input(const std::string& option, const std::string& file,
 
 std::vector<std::string> files_of(const Scene& scene) {
     std::vector<std::string> files{scene.file};
-    if (scene.solver)
+    if (const auto* solution = std::get_if<Solution>(&scene.problem);
+        solution != nullptr && !solution->phases.empty())
+        files.push_back(solution->phases.front().u.begin().file);
+    if (scene.solver) {
         for (const auto& file : scene.solver->files)
             files.push_back(file.source.string());
+        for (const auto& word : scene.solver->command)
+            if (word.text.starts_with('/')) // as in `python3 /path/solve.py`
+                files.push_back(word.text);
+    }
     return files;
 }
 
