@@ -78,7 +78,7 @@ std::optional<Jump> jump_in(const Intervals& intervals, Index k, const FunctionR
 } // namespace
 
 ArrayXd parts_to_search(bool is_expected) {
-    const ArrayXd few{{0.1234567, 0.4321, 0.8765}};
+    ArrayXd few{{0.1234567, 0.4321, 0.8765}};
     if (!is_expected)
         return few;
     constexpr Index further = 30;

@@ -1,5 +1,6 @@
 #include "reports/command_line/commands/destination.hpp"
 
+#include <algorithm>
 #include <filesystem>
 #include <system_error>
 #include <variant>
@@ -42,10 +43,12 @@ void require_apart(const std::string& first, const std::string& file, const std:
 
 void require_no_input(const std::string& option, const std::string& file,
                       const std::vector<std::string>& inputs) {
-    for (const auto& input : inputs)
-        if (file != "-" && same_place(file, input))
-            throw InputError({option + " " + file},
-                             "would take the place of a file that is read; give it another");
+    const bool is_input = file != "-" && std::ranges::any_of(inputs, [&](const auto& input) {
+                              return same_place(file, input);
+                          });
+    if (is_input)
+        throw InputError({option + " " + file},
+                         "would take the place of a file that is read; give it another");
 }
 
 std::vector<std::string> files_of(const Scene& scene) {
