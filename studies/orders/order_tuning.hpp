@@ -48,10 +48,10 @@ struct OrderTuning {
     /// Residuals of all rows of a sequence of close levels that are so many times what is known of
     /// its scatter show more, and its intervals hold what they would be with that, too. Of h^p (1 +
     /// c h), c = 0 or -1 … 2, on four to eight levels with 0.1 to 5 % of scatter that nobody
-    /// states, of a seed that nothing was chosen with, 53 of 1166 intervals missed without it in
-    /// the ratio 1.25 (32 of 504 on four or five levels) and 32 of 1392 in 1.5, and none of 783 and
-    /// 6 of 1225 do with it. In the ratio 2 it was 17 of 1660: these are left alone. Infinite:
-    /// it is not looked for.
+    /// states, of a seed that nothing was chosen with, 45 of 1114 intervals missed without it in
+    /// the ratio 1.25 (31 of 493 on four or five levels) and 38 of 1453 in 1.5, and 3 of 780 (3 of
+    /// 318) and 5 of 1245 do with it. In the ratio 2 it was 17 of 1642: these are left alone.
+    /// Infinite: it is not looked for.
     double contradicted = 3;
     /// A member that is uncertain by u counts for 1 / (1 + (u / this)²) of one: each adds its u_m²
     /// over itself to half², and whether a fit that determines nothing has an infinite error or one
