@@ -100,6 +100,9 @@ std::optional<Jump> find_jump(const FunctionRows& functions, const ArrayXd& grid
     const double length = grid(count) - grid(0);
     const ArrayXXd on_grid = functions(grid);
     const ArrayXd least = least_distance * on_grid.abs().rowwise().maxCoeff();
+    // The curvature beside a small jump may take off most of its distance from linear; where none
+    // is expected, to look closer takes time alone.
+    const double halved_from = least_distance < least_jump(false) ? 0.25 : 1.0;
     Intervals here{grid.head(count), grid.tail(count), on_grid.leftCols(count),
                    on_grid.rightCols(count)};
     here.middle = functions(here.centre());
@@ -118,7 +121,7 @@ std::optional<Jump> find_jump(const FunctionRows& functions, const ArrayXd& grid
                 if (const auto jump = jump_in(here, k, functions, length, least))
                     return jump;
             if (const double greatest = distance.col(k).maxCoeff();
-                is_finite && !is_last && greatest > 1.0)
+                is_finite && !is_last && greatest > halved_from)
                 kept.emplace_back(-greatest, k);
         }
         if (kept.empty())
