@@ -11,6 +11,7 @@
 #include <cmath>
 #include <fstream>
 #include <iterator>
+#include <set>
 #include <stdexcept>
 #include <string_view>
 #include <utility>
@@ -273,59 +274,127 @@ ReadFigure figure_in_csv(const std::filesystem::path& file, const std::string& n
     return number_of(name, row[static_cast<std::size_t>(column - names.begin())]);
 }
 
-/// Whether the number that a group took goes on behind it: with digits, or with an exponent.
-bool goes_on(const std::string& pattern, const std::string& number, const std::string& behind) {
-    static const std::regex rest(R"(^(\d|\.\d|[eEdD][+-]?\d))");
-    // What is counted off, as (.{11}), is meant so.
-    if (pattern.find('{') != std::string::npos)
-        return false;
+/// What a pattern names on either side of its group: the row of characters that stand for
+/// themselves, and of digits, next to it.
+struct NamedBeside {
+    std::string before;
+    std::string behind;
+    bool is_counted_off = false; ///< as .{11} before the group
+    bool counts_itself = false;  ///< as (.{11})
+};
+
+/// Whether an atom of a pattern names what it takes: a character that stands for itself, a digit,
+/// a sign.
+bool names_what_it_takes(const std::string& atom) {
+    static const std::set<std::string> classes{"\\d", "[0-9]", "[[:digit:]]", "[-+]", "[+-]"};
+    if (atom.size() == 1)
+        return std::string_view(".^$|()").find(atom) == std::string_view::npos;
+    return classes.contains(atom) || (atom.size() == 2 && atom[0] == '\\' &&
+                                      std::ispunct(static_cast<unsigned char>(atom[1])) != 0);
+}
+
+/// The end of *, +, ? or {…}, with the ? that may follow.
+std::size_t end_of_repetition(const std::string& pattern, std::size_t at) {
+    if (at < pattern.size() && std::string_view("*+?").find(pattern[at]) != std::string_view::npos)
+        ++at;
+    else if (at < pattern.size() && pattern[at] == '{')
+        at = std::min(pattern.find('}', at), pattern.size() - 1) + 1;
+    else
+        return at;
+    return at < pattern.size() && pattern[at] == '?' ? at + 1 : at;
+}
+
+NamedBeside named_beside_the_group(const std::string& pattern) {
+    NamedBeside named;
+    bool is_behind = false;
+    for (std::size_t at = 0; at < pattern.size();) {
+        const std::size_t begin = at;
+        const bool is_group = pattern[at] == '(' && pattern.substr(at + 1, 1) != "?";
+        at = pattern[at] == '\\'                 ? std::min(at + 2, pattern.size())
+             : pattern[at] == '[' || is_group    ? end_of_part(pattern, at)
+             : pattern.compare(at, 2, "(?") == 0 ? std::min(at + 3, pattern.size())
+                                                 : at + 1;
+        const std::string atom = pattern.substr(begin, at - begin);
+        const std::size_t repetition = at;
+        at = end_of_repetition(pattern, at);
+        if (is_group) {
+            named.counts_itself =
+                std::regex_search(atom, std::regex(R"((^|[^\\])\{\d)")); // \{ is itself
+            is_behind = true;
+            continue;
+        }
+        // Behind the group also one of a few, as [dh]; before it [-=] may take a minus unmeant.
+        const bool is_one_of_few =
+            is_behind && atom.starts_with('[') && !atom.starts_with("[^") && at == repetition;
+        if (is_one_of_few || names_what_it_takes(atom))
+            (is_behind ? named.behind : named.before) += pattern.substr(begin, at - begin);
+        else if (is_behind)
+            break;
+        else {
+            named.before.clear();
+            named.is_counted_off = pattern.substr(repetition, 1) == "{";
+        }
+    }
+    return named;
+}
+
+/// Whether a part of a pattern takes a character or more at the end, or the begin, of the text.
+bool takes_some(const std::string& part, const std::string& text, bool at_end) {
+    std::smatch match;
+    const std::regex own(at_end ? "(?:" + part + ")$" : "^(?:" + part + ")",
+                         std::regex_constants::ECMAScript | std::regex_constants::__polynomial);
+    return !part.empty() && std::regex_search(text, match, own) && match.length() > 0;
+}
+
+constexpr std::size_t longest_number = 40;
+
+/// What stands behind the group's number and belongs to it, digits or an exponent, and is not
+/// named by the pattern; or empty.
+std::string rest_behind(const std::string& pattern, const std::string& number,
+                        const std::string& behind) {
+    static const std::regex rest(R"(^(\d|\.\d|\.?[eEdD][+-]?\d))");
+    static const std::regex exponent_of_three(R"(^[+-]\d{3}(?!\d))"); // Fortran's, as 0.12-100
     const bool ends_as_one =
         !number.empty() &&
         (std::isdigit(static_cast<unsigned char>(number.back())) != 0 || number.back() == '.');
-    return ends_as_one && std::regex_search(behind, rest);
+    const bool goes_on =
+        ends_as_one &&
+        (std::regex_search(behind, rest) ||
+         (number.find('.') != std::string::npos && std::regex_search(behind, exponent_of_three)));
+    const NamedBeside named = goes_on ? named_beside_the_group(pattern) : NamedBeside();
+    // What is counted off, as (.{11}), is meant so.
+    if (!goes_on || named.counts_itself || takes_some(named.behind, behind, false))
+        return {};
+    return behind.substr(0, behind.find_first_of(" \t\r"));
 }
 
-/// Whether a repetition of any character, as .*, ends a pattern.
-bool ends_with_anything(std::string pattern) {
-    if (pattern.ends_with("*?") || pattern.ends_with("+?"))
-        pattern.pop_back();
-    if (!pattern.ends_with('*') && !pattern.ends_with('+') && !pattern.ends_with('?'))
-        return false;
-    pattern.pop_back();
-    if (pattern.ends_with(']')) {
-        const auto begin = pattern.rfind('[');
-        return begin != std::string::npos && pattern.compare(begin, 2, "[^") == 0;
-    }
-    return pattern.ends_with("\\S") || (pattern.ends_with('.') && !pattern.ends_with("\\."));
-}
-
-/// What stands before the group's number and belongs to it, digits or a minus, where a repetition
-/// of any character took it; or empty.
+/// What stands before the group's number and belongs to it, digits, a point or a minus, and is not
+/// named by the pattern; or empty.
 std::string begin_before(const std::string& pattern, const std::string& number,
                          const std::string& before) {
-    std::size_t group = 0;
-    while (group < pattern.size() &&
-           !(pattern[group] == '(' && pattern.substr(group + 1, 1) != "?"))
-        group = pattern[group] == '\\'  ? group + 2
-                : pattern[group] == '[' ? end_of_part(pattern, group)
-                                        : group + 1;
     static const std::regex one(R"(^[-+]?(\d+\.?\d*|\.\d+)([eEdD][-+]?\d+)?$)");
-    if (group >= pattern.size() || !ends_with_anything(pattern.substr(0, group)) ||
-        !std::regex_match(number, one))
+    if (!std::regex_match(number, one))
         return {};
-    constexpr std::size_t longest = 40; // no number has more before its end
     std::string belongs;
-    for (std::size_t size = 1; size <= std::min(before.size(), longest); ++size) {
+    for (std::size_t size = 1; size <= std::min(before.size(), longest_number); ++size) {
         const std::string front = before.substr(before.size() - size);
-        const bool begins = size == before.size() ||
-                            std::string_view(" \t=:").find(before[before.size() - size - 1]) !=
-                                std::string_view::npos;
-        const bool counts =
-            front.find_first_of("0123456789") != std::string::npos || (front == "-" && begins);
+        // A hyphen or a dot behind a letter, or behind another, leads to a number.
+        const char last = size == before.size() ? ' ' : before[before.size() - size - 1];
+        const bool begins = std::isalnum(static_cast<unsigned char>(last)) == 0 &&
+                            std::string_view("-._)]").find(last) == std::string_view::npos;
+        const bool counts = front.find_first_of("0123456789") != std::string::npos ||
+                            (begins && (front == "-" || front == "." || front == "-."));
         if (counts && std::regex_match(front + number, one))
             belongs = front;
     }
-    return belongs;
+    if (belongs.empty())
+        return {};
+    const NamedBeside named = named_beside_the_group(pattern);
+    const std::size_t tail =
+        before.size() - std::min(before.size(), pattern.size() + longest_number);
+    return named.is_counted_off || takes_some(named.before, before.substr(tail), true)
+               ? std::string()
+               : belongs;
 }
 
 /// A count of that many digits, as of {4} or \1, is beyond what the library reads it into.
@@ -372,11 +441,8 @@ void OutputReading::take(const std::string& line) {
     const std::string behind = (*match)[1].second == line.end()
                                    ? std::string()
                                    : std::string((*match)[1].second, line.end());
-    // What the pattern itself names behind the group is meant so, too.
-    const bool ends_match = (*match)[1].second == (*match)[0].second;
-    goes_on_ = ends_match && goes_on(pattern_->text, *found_, behind)
-                   ? *found_ + behind.substr(0, behind.find_first_of(" \t\r"))
-                   : std::string();
+    const std::string rest = rest_behind(pattern_->text, *found_, behind);
+    goes_on_ = rest.empty() ? rest : *found_ + rest;
     const std::string before(line.begin(), (*match)[1].first);
     const std::string begin = begin_before(pattern_->text, *found_, before);
     begins_before_ = begin.empty() ? begin : begin + *found_;

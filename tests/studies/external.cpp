@@ -137,10 +137,25 @@ BOOST_AUTO_TEST_CASE(a_pattern_that_ends_within_a_number_is_a_failure) {
     }
     // What the pattern names behind the group, or counts off.
     BOOST_TEST(*read({"took 2d3h"}, "took ([0-9]+)d").value == 2.0);
+    BOOST_TEST(*read({"took 2d3h"}, "took ([0-9]+)[dh]").value == 2.0);
     BOOST_TEST(*read({"0.25000.5"}, "^(.{6})").value == 0.25);
     for (const std::string line :
          {"L2 = 9.7", "L2 = 9.7 e-04", "L2 = 9.7em", "L2 = 9.7, 2", "L2 = 9.7e"})
         BOOST_TEST(*read({line}, "L2 = ([0-9]+\\.?[0-9]?)").value == 9.7, line);
+    // A brace that counts nothing, an exponent behind a bare point or without its letter, and what
+    // stands before a word further on.
+    for (const auto& [line, pattern] : std::vector<std::pair<std::string, std::string>>{
+             {"{\"cd\": 5.3125e-04}", R"(\{"cd": (\d+\.\d+))"},
+             {"a{2}= 5.3125e-04", R"(a\{2\}= (\d+\.\d+))"},
+             {"L2 = [8.e-01]", R"(L2 = \[(\d*\.?\d+))"},
+             {"L2 = 0.123-100", R"(L2 = ([\d.]+))"},
+             {"L2 = 4.0e-01, 3 steps", R"(L2 = ([\d.]+).*steps)"}})
+        BOOST_TEST(read({line}, pattern).failure.find("ends within the number") !=
+                       std::string::npos,
+                   pattern);
+    BOOST_TEST(*read({"L2 = 4.0e-01, 3 steps"}, R"(L2 = (\S+),.*steps)").value == 0.4);
+    BOOST_TEST(*read({"L2 = [8., 4.]"}, R"(L2 = \[(\d+\.?\d*))").value == 8.0);
+    BOOST_TEST(*read({"L2 = 4.0-2"}, R"(L2 = ([\d.]+))").value == 4.0); // a range
 }
 
 BOOST_AUTO_TEST_CASE(a_pattern_that_begins_within_a_number_is_a_failure) {
@@ -156,6 +171,28 @@ BOOST_AUTO_TEST_CASE(a_pattern_that_begins_within_a_number_is_a_failure) {
     BOOST_TEST(*read({"took 12:30"}, "[0-9]+:([0-9]+)").value == 30.0);
     BOOST_TEST(*read({"L20.5"}, "L\\d?(\\S+)").value == 0.5);
     BOOST_TEST(*read({"L2-0.5"}, "L2-?(\\S+)").value == 0.5);
+    // A minus, a point or digits that a class of anything else took, or nothing did.
+    for (const auto& [line, pattern] :
+         std::vector<std::pair<std::string, std::string>>{{"drag: -0.75", R"(drag\D*([-+\d.eE]+))"},
+                                                          {"drag: -0.75", R"((\d+\.\d+)$)"},
+                                                          {"drag: -.75", R"(drag\W+(\d+))"},
+                                                          {"drag=-0.75", R"(drag[ =:-]+(\S+))"},
+                                                          {"(-0.75)", R"(\W?(\d\.\d+))"},
+                                                          {"drag: 12", R"(drag: (\d)+)"},
+                                                          {"drag: 1.5", R"(\d\D(\d))"}})
+        BOOST_TEST(read({line}, pattern).failure.find("begins within the number") !=
+                       std::string::npos,
+                   pattern);
+    // What is named, or counted off; a hyphen, a date and a version are no signs.
+    for (const auto& [line, pattern] :
+         std::vector<std::pair<std::string, std::string>>{{"drag: -0.75", R"(drag: -(\S+))"},
+                                                          {"drag: -0.75", R"(drag: [-+]?(\S+))"},
+                                                          {"123450.75", R"(^.{5}(\S+))"},
+                                                          {"level-0.75", R"(level\D(\S+))"},
+                                                          {"of 2026-0.75", R"(\D(\S{4})$)"},
+                                                          {"took 12.0.75", R"(took \d+\.(\S+))"},
+                                                          {"(x=-0.75)", R"((?:x|y)=-(\d\.\d+))"}})
+        BOOST_TEST(read({line}, pattern).value.value_or(0.0) == 0.75, pattern);
     // Dots and dashes that lead to a number.
     for (const std::string line : {"L2 ..... 0.5", "L2.....0.5", "L2 -----0.5", "L2: +0.5"})
         BOOST_TEST(*read({line}, "L2[^0-9]*(\\S+)").value == 0.5, line);
