@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <set>
 #include <system_error>
@@ -74,6 +75,15 @@ std::optional<double> rounding_of(const StudyResult& result, const std::vector<R
     return std::nullopt;
 }
 
+/// Levels and measurements that are repeated, in their order.
+std::string another_name(const std::string& what,
+                         const std::function<bool(const std::string&)>& is_taken) {
+    std::string name = what;
+    for (int count = 2; is_taken(name); ++count)
+        name = fmt::format("{} ({})", what, count);
+    return name;
+}
+
 } // namespace
 
 void require_recordable(const Scene& scene) {
@@ -96,10 +106,11 @@ BaselineEntry baseline_entry(const StudyResult& result) {
     for (const auto& [series, results] : result.runs())
         for (const auto& run : *results)
             for (std::size_t k = 0; k < series.measures.size(); ++k) {
-                const std::string name =
+                const std::string name = another_name(
                     fmt::format("{}.{}: {} at {}", series.study, series.measures[k].name,
                                 series.measures[k].is_value ? "value" : "error",
-                                run.rung.name([](double dt) { return fmt::format("{}", dt); }));
+                                run.rung.name([](double dt) { return fmt::format("{}", dt); })),
+                    [&](const auto& taken) { return entry.figures.contains(taken); });
                 entry.figures[name] = error_of(run, k).value_or(std::nan(""));
                 if (const auto most = rounding_of(result, *results, k))
                     entry.rounding[name] = *most;
@@ -122,10 +133,9 @@ BaselineEntry baseline_entry(const DataAnalysis& analysis) {
             std::string what = column.name + ":";
             for (const auto& width : analysis.widths)
                 what += fmt::format(" {} = {}", width.name, width.numbers[row]);
-            // Measurements that are repeated, in their order.
-            std::string name = what;
-            for (int count = 2; figures.contains(name) || not_made.contains(name); ++count)
-                name = fmt::format("{} ({})", what, count);
+            const std::string name = another_name(what, [&](const auto& taken) {
+                return figures.contains(taken) || not_made.contains(taken);
+            });
             if (!column.missing.empty() && column.missing[row])
                 not_made.insert(name);
             else

@@ -24,9 +24,13 @@ using Json = nlohmann::ordered_json;
 constexpr std::size_t largest_result = std::size_t{1} << 30U; // bytes
 constexpr int deepest_result = 40;                            // values within each other
 
-/// Different from run to run of the same.
-bool is_not_compared(const std::string& key) {
-    return key == "provenance" || key == "seconds" || key == "schema";
+/// Different from run to run of the same. No number of a solver is called so.
+bool is_time(const std::string& key) {
+    return key == "seconds";
+}
+
+bool is_nothing(const std::string& /*key*/) {
+    return false;
 }
 
 Json result_in(const std::string& name) {
@@ -129,8 +133,9 @@ ComparedResults compare_results(const std::string& first, const std::string& sec
     for (std::size_t i = 0; i < names.size(); ++i) {
         Json json = result_in(*names.at(i));
         if (json.contains("scene"))
-            scenes.at(i) = json_values(json["scene"], is_not_compared);
-        json.erase("scene");
+            scenes.at(i) = json_values(json["scene"], is_nothing);
+        for (const char* key : {"scene", "schema", "provenance"})
+            json.erase(key);
         if (const Json swept = json.value("key", Json()); swept.is_string()) {
             Json values = Json::array(); // the scene has the first alone
             for (const auto& row : json.value("rows", Json::array()))
@@ -145,7 +150,7 @@ ComparedResults compare_results(const std::string& first, const std::string& sec
                                                      SolverRuns::is_remark(remark);
                                           }),
                            remarks->end());
-        results.at(i) = json_values(json, is_not_compared);
+        results.at(i) = json_values(json, is_time);
     }
     ComparedResults compared;
     std::size_t in_scene = 0;

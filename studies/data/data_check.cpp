@@ -34,7 +34,7 @@ public:
         check_order();
         check_rows();
         check_errors();
-        expect_verdicts(table_, analysis_.rows(), "row", [&](const JudgeVerdicts& judge) {
+        expect_verdicts(table_, {analysis_.rows(), "row"}, [&](const JudgeVerdicts& judge) {
             checked_.push_back(judge(column_.name, column_.verdicts));
         });
         if (column_.limit)
@@ -195,7 +195,7 @@ private:
 
     void check_errors() {
         read_error_bands(
-            table_, analysis_.rows(), "row",
+            table_, {analysis_.rows(), "row"},
             [&](std::size_t row, double lowest, double highest, const Place& place) {
                 checked_.push_back(held(
                     {column_.name + ": error" + row_text(analysis_, row), column_.numbers[row], ""},

@@ -52,6 +52,10 @@ Expectation all_of(const TableReader& table, const std::string& key,
     };
 }
 
+std::string rungs_text(std::size_t count) {
+    return std::to_string(count) + (count == 1 ? " rung" : " rungs");
+}
+
 std::vector<std::string> all_verdicts() {
     std::vector<std::string> names;
     for (auto verdict = 0; verdict <= static_cast<int>(Verdict::failed); ++verdict)
@@ -61,11 +65,16 @@ std::vector<std::string> all_verdicts() {
 
 /// As many values as there are rows.
 void require_count(const TableReader& table, const std::string& key, std::size_t values,
-                   std::size_t count, const std::string& rows) {
-    if (values != count)
-        throw table.error(key, " has " + std::to_string(values) +
-                                   (values == 1 ? " value for " : " values for ") +
-                                   std::to_string(count) + " " + rows + "s; give one a " + rows);
+                   const ListedRows& rows) {
+    if (values < rows.count || (values > rows.count && !rows.may_grow))
+        throw table.error(
+            key, " has " + std::to_string(values) + (values == 1 ? " value for " : " values for ") +
+                     std::to_string(rows.count) + " " + rows.name +
+                     (rows.may_grow ? "s, or more; give one a " : "s; give one a ") + rows.name);
+}
+
+ListedRows rungs_of(const Series& series) {
+    return {series.rungs.size(), "rung", series.may_grow};
 }
 
 /// Of a table for a norm, or a value, that the study does not have.
@@ -135,14 +144,14 @@ void expect_band(TableReader& table, const std::string& key, std::vector<Expecta
             in_band(band->lowest, band->highest, table.place(key), std::move(metrics)));
 }
 
-void expect_verdicts(TableReader& table, std::size_t count, const std::string& rows,
+void expect_verdicts(TableReader& table, const ListedRows& rows,
                      const std::function<void(JudgeVerdicts)>& add) {
     const auto wanted = table.texts("verdicts");
     if (!wanted)
         return;
-    require_count(table, "verdicts", wanted->size(), count, rows);
+    require_count(table, "verdicts", wanted->size(), rows);
     const auto known = all_verdicts();
-    for (std::size_t row = 0; row < count; ++row)
+    for (std::size_t row = 0; row < wanted->size(); ++row)
         if (const auto& word = (*wanted)[row];
             std::find(known.begin(), known.end(), word) == known.end())
             throw table.error("verdicts",
@@ -296,7 +305,7 @@ void expect_counters(TableReader& table, const Series& series,
         const auto wanted = counters->numbers(name);
         if (!wanted)
             continue;
-        require_count(*counters, name, wanted->size(), series.rungs.size(), "rung");
+        require_count(*counters, name, wanted->size(), rungs_of(series));
         std::vector<std::string> counts; // whole numbers, to the last digit
         for (const double count : *wanted)
             counts.push_back(fmt::format("{}", count));
@@ -308,8 +317,9 @@ void expect_counters(TableReader& table, const Series& series,
     counters->finish();
 }
 
-void read_error_bands(TableReader& table, std::size_t count, const std::string& rows,
-                      const std::function<void(std::size_t, double, double, const Place&)>& add) {
+std::size_t
+read_error_bands(TableReader& table, const ListedRows& rows,
+                 const std::function<void(std::size_t, double, double, const Place&)>& add) {
     const auto given = table.number("within");
     const double within = given.value_or(1e-3);
     if (!(within > 0.0 && within <= widest_part))
@@ -319,29 +329,39 @@ void read_error_bands(TableReader& table, std::size_t count, const std::string& 
     if (!errors) {
         if (given)
             throw table.error("within", " is how near the errors must come: give errors = […]");
-        return;
+        return 0;
     }
-    require_count(table, "errors", errors->size(), count, rows);
-    for (std::size_t row = 0; row < count; ++row) {
+    require_count(table, "errors", errors->size(), rows);
+    for (std::size_t row = 0; row < errors->size(); ++row) {
         const double error = (*errors)[row];
         if (error < 0.0)
             throw table.error("errors",
                               " holds " + message_text(error) + "; errors are not below 0", row);
         add(row, error * (1.0 - within), error * (1.0 + within), table.place("errors", row));
     }
+    return errors->size();
 }
 
 void expect_errors(TableReader& table, const Series& series, std::size_t k,
                    std::vector<Expectation>& expectations) {
-    read_error_bands(
-        table, series.rungs.size(), "rung",
+    const std::size_t count = read_error_bands(
+        table, rungs_of(series),
         [&](std::size_t row, double lowest, double highest, const Place& place) {
             expectations.push_back(
                 in_band(lowest, highest, place, [series, k, row](const StudyResult& result) {
-                    const RungResult& run = runs_of(result, series.study)[row];
-                    return std::vector{row_metric(series, run, k, "error", error_of(run, k))};
+                    const auto& runs = runs_of(result, series.study);
+                    if (row >= runs.size()) // their number is judged below
+                        return std::vector<Metric>();
+                    return std::vector{
+                        row_metric(series, runs[row], k, "error", error_of(runs[row], k))};
                 }));
         });
+    if (count > 0 && series.may_grow)
+        expectations.push_back(all_of(table, "errors", {rungs_text(count)},
+                                      [study = series.study](const StudyResult& result) {
+                                          return std::vector{
+                                              rungs_text(runs_of(result, study).size())};
+                                      }));
 }
 
 void expect_figures(TableReader& table, const std::string& study,

@@ -55,10 +55,18 @@ void expect_band(TableReader& table, const std::string& key, std::vector<Expecta
                  Metrics metrics);
 Expectation in_band(double lowest, double highest, const Place& place, Metrics metrics);
 
-/// verdicts = one a row (name_of(Verdict)). count: of the rows, which are called so.
+/// The rows of which a list has one value each, and what one is called. Where `until` may add to
+/// them, a list may have more; how many there are is judged with what it holds.
+struct ListedRows {
+    std::size_t count = 0;
+    std::string name;
+    bool may_grow = false;
+};
+
+/// verdicts = one a row (name_of(Verdict)).
 using JudgeVerdicts =
     std::function<CheckedExpectation(const std::string&, const std::vector<RowVerdict>&)>;
-void expect_verdicts(TableReader& table, std::size_t count, const std::string& rows,
+void expect_verdicts(TableReader& table, const ListedRows& rows,
                      const std::function<void(JudgeVerdicts)>& add);
 
 /// KEY = [ … ]: all that the result says, word by word or number by number, to six digits.
@@ -99,9 +107,10 @@ void expect_counters(TableReader& table, const Series& series,
 inline constexpr double widest_part = 0.5;
 
 /// errors = one a row, within = the relative half-width of their bands (widest_part), default 1e-3:
-/// add(row, lowest, highest, place) for each. rows: what they are called.
-void read_error_bands(TableReader& table, std::size_t count, const std::string& rows,
-                      const std::function<void(std::size_t, double, double, const Place&)>& add);
+/// add(row, lowest, highest, place) for each. Their number; 0 without a list.
+std::size_t
+read_error_bands(TableReader& table, const ListedRows& rows,
+                 const std::function<void(std::size_t, double, double, const Place&)>& add);
 
 /// A band for any of the figures of a study, by every key that nobody has read.
 void expect_figures(TableReader& table, const std::string& study,

@@ -84,9 +84,10 @@ std::string order_sentence(const std::string& width, const ColumnAnalysis& colum
 std::vector<RungResult> telling(const std::optional<ReferenceBlock>& reference,
                                 const std::vector<RungResult>& rungs) {
     std::vector<RungResult> result;
-    std::copy_if(
-        rungs.begin(), rungs.end(), std::back_inserter(result),
-        [&](const RungResult& rung) { return !reference || !reference->is_close_to(rung.rung); });
+    std::copy_if(rungs.begin(), rungs.end(), std::back_inserter(result),
+                 [&](const RungResult& rung) {
+                     return !reference || !reference->is_close_to(rung.rung, rungs);
+                 });
     return result;
 }
 
@@ -130,7 +131,7 @@ bool is_coarsely_printed(const std::vector<RungResult>& rungs, std::size_t k) {
 } // namespace
 
 Series series_of(const LadderBlock& block, const Method& method) {
-    return {"ladder", block.final_time, method, block.norms, block.rungs};
+    return {"ladder", block.final_time, method, block.norms, block.rungs, block.until.has_value()};
 }
 
 LadderResult make_runs(const LadderBlock& block, const Method& method, const RunCall& run,
@@ -190,7 +191,8 @@ LadderResult analyse_ladder(const LadderBlock& block, const Method& method,
     }
     result.quadrature_remark = quadrature_remark(result.rungs, series.measures);
     if (!series.measures.empty() && solver.reference)
-        result.reference_remark = reference_remark(*solver.reference, result.rungs);
+        result.reference_remark =
+            reference_remark(*solver.reference, result.rungs, solver.starts_with_jump);
     return result;
 }
 

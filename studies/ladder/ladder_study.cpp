@@ -238,12 +238,14 @@ struct LadderStudy final : KindOf<LadderBlock, LadderResult> {
                             [series, k, in_interval](const StudyResult& result) {
                                 return predicted_metrics(series, k, in_interval, result);
                             });
-            expect_verdicts(norm, series.rungs.size(), "rung", [&](const JudgeVerdicts& judge) {
-                expectations.push_back([series, k, judge](const StudyResult& result) {
-                    return std::vector{judge("ladder." + series.measures[k].name,
-                                             result.get<LadderResult>()->norms[k].verdicts)};
+            expect_verdicts(
+                norm, {series.rungs.size(), "rung", series.may_grow},
+                [&](const JudgeVerdicts& judge) {
+                    expectations.push_back([series, k, judge](const StudyResult& result) {
+                        return std::vector{judge("ladder." + series.measures[k].name,
+                                                 result.get<LadderResult>()->norms[k].verdicts)};
+                    });
                 });
-            });
         };
         for_each_measure(table, block_in(block).norms, expectations, read);
     }

@@ -111,8 +111,15 @@ bool ReferenceBlock::is(const Rung& rung) const {
     return rung.elements == elements && steps_in(rung) == 1;
 }
 
-bool ReferenceBlock::is_close_to(const Rung& rung) const {
-    return !richardson && (2 * rung.elements >= elements || steps_in(rung) <= 2);
+bool ReferenceBlock::is_close_to(const Rung& rung, const std::vector<RungResult>& rungs) const {
+    // What every rung lacks is in no order.
+    const auto same_in_all = [&](auto width) {
+        return rungs.size() > 1 && std::ranges::all_of(rungs, [&](const RungResult& other) {
+                   return other.rung.*width == rungs.front().rung.*width;
+               });
+    };
+    return !richardson && ((2 * rung.elements >= elements && !same_in_all(&Rung::elements)) ||
+                           (steps_in(rung) <= 2 && !same_in_all(&Rung::dt)));
 }
 
 std::optional<Refinement> ReferenceBlock::widths() const {
@@ -142,7 +149,7 @@ std::vector<std::int64_t> kept_levels(const ReferenceBlock& reference,
 namespace {
 
 /// What the finest level does not show of its error: the part that the reference has as well.
-std::string missing_remark(const ReferenceBlock& reference, const Rung& finest) {
+std::string missing_remark(const ReferenceBlock& reference, const Rung& finest, bool is_smooth) {
     const double in_h =
         static_cast<double>(finest.elements) / static_cast<double>(reference.elements);
     const double in_dt = 1.0 / static_cast<double>(reference.steps_in(finest));
@@ -152,6 +159,8 @@ std::string missing_remark(const ReferenceBlock& reference, const Rung& finest) 
     if (std::max(in_h, in_dt) <= seen)
         return {};
     const auto part = [](const char* width, double ratio) {
+        if (ratio >= 1.0)
+            return fmt::format("all of the part in {}", width);
         return fmt::format("{:.2g} % of a first-order part in {} and {:.2g} % of a second-order "
                            "one",
                            100.0 * ratio, width, 100.0 * ratio * ratio);
@@ -160,9 +169,10 @@ std::string missing_remark(const ReferenceBlock& reference, const Rung& finest) 
     if (in_dt > seen)
         parts += (parts.empty() ? "" : ", ") + part("dt", in_dt);
     return fmt::format("The reference has an error of its own, so that errors of a smooth solution "
-                       "are measured too small, most at s = {} (dt = {:g}): by up to {}. "
-                       "richardson = true extrapolates that away.",
-                       finest.elements, finest.dt, parts);
+                       "are measured too small, most at s = {} (dt = {:g}): by up to {}. {}",
+                       finest.elements, finest.dt, parts,
+                       is_smooth ? "richardson = true extrapolates that away."
+                                 : "A finer one has less.");
 }
 
 bool changes_contact(const RungResult& run) {
@@ -172,22 +182,27 @@ bool changes_contact(const RungResult& run) {
 
 } // namespace
 
-std::string reference_remark(const ReferenceBlock& reference,
-                             const std::vector<RungResult>& rungs) {
+std::string reference_remark(const ReferenceBlock& reference, const std::vector<RungResult>& rungs,
+                             bool starts_with_jump) {
     std::string named;
     std::size_t close = 0;
     for (const auto& run : rungs)
-        if (reference.is_close_to(run.rung))
+        if (reference.is_close_to(run.rung, rungs))
             named += fmt::format("{}s = {} (dt = {:g})", close++ > 0 ? ", " : "", run.rung.elements,
                                  run.rung.dt);
-    if (reference.richardson && std::ranges::any_of(rungs, changes_contact))
-        return "The reference is extrapolated as that of a smooth solution, and a contact begins "
-               "or "
-               "ends: what error of its own that leaves is not known, and one that stands still "
-               "may "
-               "be the reference's.";
+    const bool changes = std::ranges::any_of(rungs, changes_contact);
+    if (reference.richardson && (changes || starts_with_jump))
+        return fmt::format("The reference is extrapolated as that of a smooth solution, and {}: "
+                           "what error of its own that leaves is not known, and one that stands "
+                           "still may be the reference's.",
+                           changes
+                               ? "a contact begins or ends"
+                               : "theta0 is not theta_A at x = 0, so that the temperature jumps "
+                                 "at t = 0");
     if (close == 0)
-        return rungs.empty() ? "" : missing_remark(reference, rungs.back().rung);
+        return rungs.empty()
+                   ? ""
+                   : missing_remark(reference, rungs.back().rung, !changes && !starts_with_jump);
     return (close == 1 ? "The level " : "The levels ") + named +
            (close == 1 ? " has an h or dt" : " have an h or dt") +
            " within a factor of two of the reference's: what is measured there lacks much of the "

@@ -27,9 +27,9 @@ struct ReferenceBlock {
     /// extrapolated one: its rungs have twice its dt or more.
     [[nodiscard]] bool is(const Rung& rung) const;
 
-    /// Whether the orders of the rung are lost in the reference's own error: its h or Δt is within
-    /// a factor of two of the reference's, and nothing is extrapolated.
-    [[nodiscard]] bool is_close_to(const Rung& rung) const;
+    /// Whether the orders of the rung are lost in the reference's own error: its h or Δt, where the
+    /// rungs refine it, is within a factor of two of the reference's, and nothing is extrapolated.
+    [[nodiscard]] bool is_close_to(const Rung& rung, const std::vector<RungResult>& rungs) const;
 
     /// Its h and dt, if its own error counts: not of an extrapolated one.
     [[nodiscard]] std::optional<Refinement> widths() const;
@@ -40,10 +40,12 @@ struct ReferenceBlock {
 std::vector<std::int64_t> kept_levels(const ReferenceBlock& reference,
                                       const std::vector<Series>& measured);
 
-/// A sentence about the rungs too close to the reference for their orders to mean anything, or else
-/// about the part of the finest error that the reference has as well; empty where that is small. Of
-/// an extrapolated one about a contact that begins or ends.
-std::string reference_remark(const ReferenceBlock& reference, const std::vector<RungResult>& rungs);
+/// starts_with_jump: the solution is not smooth. A sentence about the rungs too close to the
+/// reference for their orders to mean anything, or else about the part of the finest error that the
+/// reference has as well; empty where that is small. Of an extrapolated one about a contact that
+/// begins or ends, or a jump.
+std::string reference_remark(const ReferenceBlock& reference, const std::vector<RungResult>& rungs,
+                             bool starts_with_jump);
 
 /// Reads the block. measured: what will be measured against the reference. Throws InputError where
 /// the reference does not fit a rung, is coarser than one, or would fill more than 1 GiB.

@@ -88,6 +88,17 @@ RungResult rung_result(const Rung& rung, const RunResult& run, double seconds) {
             run.errors, run.uncertainties};
 }
 
+namespace {
+
+bool starts_with_jump(const Beam& beam, const ProblemData& data) {
+    constexpr double rounding = 1e-9;
+    const double start = values(data, data.theta_initial, Eigen::ArrayXd::Zero(1), 0.0)(0);
+    return std::abs(start - beam.theta_A) >
+           rounding * std::max(std::abs(start), std::abs(beam.theta_A));
+}
+
+} // namespace
+
 StudiedSolver beam_runs(const Scene& scene, const ProblemData& data, const ProblemData& measured,
                         const Defects& defects) {
     const auto run = [&scene, &measured, &defects](const RunTask& task) {
@@ -123,7 +134,8 @@ StudiedSolver beam_runs(const Scene& scene, const ProblemData& data, const Probl
             .reference = scene.reference,
             .remark = remark,
             .rounding = rounding,
-            .has_defect = !defects.none()};
+            .has_defect = !defects.none(),
+            .starts_with_jump = starts_with_jump(scene.beam, data)};
 }
 
 } // namespace tvbeam

@@ -120,6 +120,7 @@ struct Series {
     Method method;
     std::vector<Measure> measures;
     std::vector<Rung> rungs;
+    bool may_grow = false; ///< by levels that `until` adds
 };
 
 /// To which the longest of the series runs; 0 without any.

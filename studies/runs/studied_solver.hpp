@@ -39,6 +39,9 @@ struct StudiedSolver {
 
     /// Its runs are made with a deliberate defect.
     bool has_defect = false;
+
+    /// The temperature jumps to theta_A at t = 0: no solution is smooth there.
+    bool starts_with_jump = false;
 };
 
 } // namespace tvbeam

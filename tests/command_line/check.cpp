@@ -79,6 +79,55 @@ BOOST_AUTO_TEST_CASE(a_baseline_is_compared_with_the_new_run_and_never_read_in_i
         2);
 }
 
+// Of those that `until` adds nobody is exempt.
+BOOST_AUTO_TEST_CASE(expectations_of_every_level_count_those_that_are_added) {
+    const TemporaryDirectory directory;
+    const auto checked = [&](const std::string& expected) {
+        return call(directory, "check " + directory.write("u.toml", R"([solver]
+command = ["awk", "BEGIN { print \"L2 =\", {h} * {h} }"]
+errors = { L2 = 'L2 = (\S+)' }
+[ladder]
+elements = [2, 4, 8]
+norms = ["L2"]
+until = { order = 0.05, levels = 4 }
+[expect.ladder.L2]
+)" + expected));
+    };
+    const std::string three = "[0.25, 0.0625, 0.015625";
+    BOOST_TEST(checked("errors = " + three + ", 0.00390625]").exit == 0);
+    BOOST_TEST(checked("errors = " + three + ", 0.004]").exit == 1);
+    BOOST_TEST(has(checked("errors = " + three + "]").output,
+                   "ladder.L2.errors: expected 3 rungs, found 4 rungs"));
+    BOOST_TEST(has(checked("errors = " + three + ", 0.00390625, 0.001]").output,
+                   "expected 5 rungs, found 4 rungs"));
+    BOOST_TEST(has(checked("errors = [0.25, 0.0625]").errors, "2 values for 3 rungs, or more"));
+    const std::string word = "'asymptotic'";
+    const std::string words = word + ", " + word + ", " + word;
+    BOOST_TEST(checked("verdicts = [" + words + ", " + word + "]").exit == 0);
+    BOOST_TEST(checked("verdicts = [" + words + "]").exit == 1);
+}
+
+// As of levels that a solver knows by {level}.
+BOOST_AUTO_TEST_CASE(a_baseline_keeps_levels_that_are_repeated) {
+    const TemporaryDirectory directory;
+    const std::string file = (directory.path() / "base.json").string();
+    const std::string scene = directory.write("p.toml", R"([solver]
+command = ["awk", "BEGIN { print \"L2 =\", exp(-{level}) * ({level} == {at} ? 2 : 1) }"]
+errors = { L2 = 'L2 = (\S+)' }
+parameters = { at = 9 }
+[ladder]
+elements = [8, 8, 8]
+norms = ["L2"]
+)");
+    BOOST_TEST(call(directory, "check " + scene + " --record " + file).exit == 0);
+    BOOST_TEST(call(directory, "check " + scene + " --baseline " + file).exit == 0);
+    for (const std::string level : {"0", "1", "2"})
+        BOOST_TEST(call(directory, "check " + scene + " --set solver.parameters.at=" + level +
+                                       " --baseline " + file)
+                           .exit == 1,
+                   level);
+}
+
 // Rounding of another processor is no change; an error that was, or is, more than rounding is one.
 BOOST_AUTO_TEST_CASE(errors_that_are_rounding_are_those_of_any_processor) {
     const TemporaryDirectory directory;

@@ -253,6 +253,23 @@ BOOST_AUTO_TEST_CASE(a_comparison_says_what_differs_and_by_how_much) {
     BOOST_TEST(apart.exit == 1);
     BOOST_TEST(has(apart.output, "same in both to a part of 0.0001, 1 differ"), apart.output);
     BOOST_TEST(call(directory, "compare " + a + " " + b + " --tolerance -1").exit == 2);
+    // Numbers of a solver that are called as what a result says of itself.
+    const auto named = [&](const std::string& name, const std::string& error) {
+        return directory.write(error + ".json",
+                               R"({"schema":"tvbeam-result/1","provenance":{"date":")" + error +
+                                   R"("},"scene":{"solver":{"parameters":{"seconds":)" + error +
+                                   R"(}}},"ladder":{"rungs":[{"seconds":)" + error +
+                                   R"(,"errors":{")" + name + "\":" + error + "}}]}}");
+    };
+    for (const std::string name : {"schema", "provenance"}) {
+        const Called differs =
+            call(directory, "compare " + named(name, "1") + " " + named(name, "1000"));
+        BOOST_TEST(differs.exit == 1, name);
+        BOOST_TEST(has(differs.output, "ladder.rungs 1.errors." + name), differs.output);
+        BOOST_TEST(has(differs.output, "solver.parameters.seconds: 1 against 1000"),
+                   differs.output);
+        BOOST_TEST(has(differs.output, "1 differ"), differs.output); // and not the seconds
+    }
 }
 
 // Every shipped scene is one of the schema, and a misspelt key is none.

@@ -227,6 +227,41 @@ BOOST_AUTO_TEST_CASE(what_the_reference_has_of_the_finest_error_is_said) {
                remark);
 }
 
+// Errors of Euler's steps alone: every level lacks the error in h, and no order does.
+BOOST_AUTO_TEST_CASE(a_width_that_no_rung_refines_brings_none_close_to_the_reference) {
+    const std::string steps_alone = R"([ladder]
+final_time = 1
+elements = [32, 32, 32]
+dt = [0.02, 0.01, 0.005]
+norms = ["theta_L2L2"]
+)";
+    const LadderResult ladder = ladder_of(free_beam + steps_alone + reference(32, "2e-4"));
+    BOOST_TEST(std::abs(*ladder.norms[0].orders[2] - 1.0) < 0.05);
+    BOOST_TEST(ladder.reference_remark.find("within a factor") == std::string::npos);
+    BOOST_TEST(ladder.reference_remark.find("all of the part in h, 4 % of a first-order part in "
+                                            "dt") != std::string::npos,
+               ladder.reference_remark);
+    BOOST_TEST(ladder_of(free_beam + steps_alone + reference(32, "2.5e-3"))
+                   .reference_remark.starts_with("The level s = 32 (dt = 0.005) has"));
+}
+
+// theta0 is 0 where theta_A is 1.
+BOOST_AUTO_TEST_CASE(an_extrapolated_reference_of_a_jump_is_remarked) {
+    const auto remark_of = [](const std::string& beam, bool richardson) {
+        return ladder_of("[data]\nheat_source = '0'\n[beam]\nalpha = 0\nzeta = 0.1\n" + beam +
+                         "[ladder]\nfinal_time = 0.1\nelements = [4, 8]\ndt = [0.1, 0.05]\n"
+                         "norms = [\"theta_L2L2\"]\n" +
+                         reference(32, "0.0125", richardson))
+            .reference_remark;
+    };
+    BOOST_TEST(remark_of("theta_A = 1\n", true).find("the temperature jumps at t = 0") !=
+               std::string::npos);
+    BOOST_TEST(remark_of("", true).empty());
+    // Nor is it recommended.
+    BOOST_TEST(remark_of("theta_A = 1\n", false).ends_with("A finer one has less."));
+    BOOST_TEST(remark_of("", false).ends_with("richardson = true extrapolates that away."));
+}
+
 BOOST_AUTO_TEST_CASE(the_stress_is_measured_against_the_reference_s) {
     const std::string ladder = R"([ladder]
 final_time = 2
