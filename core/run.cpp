@@ -130,8 +130,28 @@ Needs needs_of(const RunRequest& request, const ProblemData& data, const Observe
     return observer == nullptr ? needs : needs.with(observer->needs);
 }
 
+/// That the request is one of the model (1)–(10): what is not would run, and mean nothing.
+void require_meaning(const RunRequest& request) {
+    const auto& [alpha, zeta, theta_A, stops] = request.beam;
+    const auto require = [](bool holds, const char* name, double value, const char* rule) {
+        if (!holds)
+            throw std::domain_error(fmt::format("{} is {:g}; it must be {}", name, value, rule));
+    };
+    require(request.steps >= 1, "steps", static_cast<double>(request.steps), "1 or more");
+    require(request.final_time > 0.0 && std::isfinite(request.final_time), "final_time",
+            request.final_time, "> 0 and finite");
+    require(alpha >= 0.0 && std::isfinite(alpha), "alpha", alpha, ">= 0 and finite");
+    require(zeta >= 0.0 && std::isfinite(zeta), "zeta", zeta, ">= 0 and finite");
+    require(std::isfinite(theta_A), "theta_A", theta_A, "finite");
+    require(stops.lower <= 0.0, "the lower stop", stops.lower, "<= 0");
+    require(stops.upper >= 0.0, "the upper stop", stops.upper, ">= 0");
+    require(stops.epsilon >= 0.0 && std::isfinite(stops.epsilon), "epsilon", stops.epsilon,
+            ">= 0 and finite");
+}
+
 /// Either way of running.
 RunResult attempt(const RunRequest& request, const ProblemData& data, const Observer* observer) {
+    require_meaning(request);
     if (request.advance && !request.advance(0))
         return {.status = RunStatus::interrupted};
     const auto resolution =

@@ -63,7 +63,8 @@ struct Observer {
     std::function<void(double t, const Solver& solver)> visit; ///< at t = 0, and after each step
 };
 
-/// Runs to the end or to the first step that fails. Does not throw for a failing run. An observed
+/// Runs to the end or to the first step that fails. Does not throw for a failing run, nor for a
+/// request without a meaning, as a negative zeta, which fails with that reason. An observed
 /// run marches in nodal values.
 RunResult run(const RunRequest& request, const ProblemData& data,
               const Observer* observer = nullptr);

@@ -40,6 +40,10 @@ Mesh MeshFamily::with(Eigen::Index elements) const {
         }
     }
     mesh.lengths = mesh.nodes.tail(elements) - mesh.nodes.head(elements);
+    for (Eigen::Index j = 0; j < elements; ++j)
+        if (!(mesh.lengths(j) > 0.0))
+            throw std::invalid_argument("element " + std::to_string(j + 1) + " of " +
+                                        std::to_string(elements) + " has no length");
     return mesh;
 }
 

@@ -34,7 +34,9 @@ struct MeshFamily {
 
     [[nodiscard]] bool is_uniform() const { return grading == 1.0 && nodes.empty(); }
 
-    /// The mesh of s elements. Throws std::invalid_argument when s < 1 or no multiple of m.
+    /// The mesh of s elements. Throws std::invalid_argument when s < 1 or no multiple of m, and
+    /// where an element has no length: of nodes in no order, or graded beyond what doubles tell
+    /// apart.
     [[nodiscard]] Mesh with(Eigen::Index elements) const;
 };
 

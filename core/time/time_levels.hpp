@@ -21,8 +21,8 @@ struct StepSources {
 ///
 /// The sources may jump from one phase to the next, where one ulp decides: in doubles 0.4 · 3/4 is
 /// greater than 0.3. A level is therefore the double nearest to T n/N, T being the decimal that it
-/// is written as; and a level or the time of a stage that is the end of a phase to round-off is
-/// that end.
+/// is written as (one ulp off it where T N in units of T's last digit is beyond 2^53); and a level
+/// or the time of a stage that is the end of a phase to round-off is that end.
 class TimeLevels {
 public:
     /// data must outlive the object.

@@ -156,6 +156,26 @@ void leave_open(const DataAnalysis& data, const DataColumn& errors,
     }
 }
 
+/// Whether a width that coarser rows refine stands still where the finest refine another.
+bool stands_still(const DataColumn& width, const DataColumn& along) {
+    const auto& own = along.numbers;
+    std::size_t before = own.size() - 1;
+    while (before > 0 && own[before] == own.back())
+        --before;
+    return varies(width.numbers) && own[before] != own.back() &&
+           width.numbers[before] == width.numbers.back();
+}
+
+/// How a width changes with the one that rows are refined along.
+std::string path_words(const DataColumn& width, const DataColumn& along) {
+    if (!varies(width.numbers))
+        return "it is the same in all rows";
+    return stands_still(width, along)
+               ? fmt::format("it stands still at {:.4g} where the finest rows refine {}",
+                             width.numbers.back(), along.name)
+               : "it is refined with " + along.name;
+}
+
 /// Errors of one or two widths.
 void analyse_records(const DataAnalysis& data, const std::vector<std::size_t>& used,
                      const std::vector<double>& sigma, ColumnAnalysis& column) {
@@ -192,7 +212,7 @@ void analyse_records(const DataAnalysis& data, const std::vector<std::size_t>& u
                 "; three of each in all pairs would show both orders";
     } else if (used.size() > 1)
         column.by_width[used.back()].status =
-            "it is refined with " + data.widths[used.front()].name;
+            path_words(data.widths[used.back()], data.widths[used.front()]);
     if (found.along.has_logarithm)
         column.findings.push_back(fmt::format("{}: a factor ln {} stands beside the power",
                                               column.name, data.widths[used.front()].name));
@@ -377,7 +397,17 @@ ColumnAnalysis analyse_values(const DataAnalysis& data, const DataColumn& values
             rows[r].unit = values.units[r];
     }
     const bool on_one_path = is_one_path(data.widths, along);
-    if (on_one_path) {
+    const auto still = std::ranges::find_if(data.widths, [&](const DataColumn& width) {
+        return stands_still(width, data.widths[along]);
+    });
+    if (on_one_path && still != data.widths.end()) {
+        column.limit.emplace();
+        column.limit->limit.status = column.limit->order.status = fmt::format(
+            "{0} stands still at {1:.4g} in the finest rows and is refined in coarser ones, so "
+            "that the values go to no one limit; refine it to the end, or leave out the rows with "
+            "another {0}",
+            still->name, still->numbers.back());
+    } else if (on_one_path) {
         column.limit = estimate_limit(rows);
     } else {
         column.limit.emplace();
@@ -389,10 +419,9 @@ ColumnAnalysis analyse_values(const DataAnalysis& data, const DataColumn& values
     column.by_width[along] = order;
     for (std::size_t i = 0; i < data.widths.size(); ++i)
         if (i != along)
-            column.by_width[i].status =
-                !varies(data.widths[i].numbers) ? "it is the same in all rows"
-                : on_one_path                   ? "it is refined with " + data.widths[along].name
-                                                : column.limit->order.status;
+            column.by_width[i].status = on_one_path || !varies(data.widths[i].numbers)
+                                            ? path_words(data.widths[i], data.widths[along])
+                                            : column.limit->order.status;
     std::string held; // its error is in the limit
     for (const auto& width : data.widths)
         if (on_one_path && !varies(width.numbers))

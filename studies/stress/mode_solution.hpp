@@ -16,7 +16,8 @@ struct Mode {
 };
 
 /// Without load and stops, T' = −π²T + αA' and A + ζA' + αT = 0. At t = 0, dt, …, steps·dt, by the
-/// eigenvalues of the symmetric 2 × 2 matrix of (T, A)'. ζ > 0.
+/// eigenvalues of the symmetric 2 × 2 matrix of (T, A)'. Where ζ = 0, A = −αT for t > 0: A jumps
+/// there at once from what it is at t = 0, and T with it, by which T − αA keeps its value.
 std::vector<Mode> exact_mode(const Beam& beam, Mode initial, double dt, std::int64_t steps);
 
 /// What the scheme makes of it on a uniform mesh, Θ_i = T sin πx_i, by the recurrence in long

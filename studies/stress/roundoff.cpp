@@ -97,6 +97,9 @@ std::optional<double> sine_floor(const RoundOffBlock& block, const Beam& beam, c
     for (std::size_t n = 1; n < modes.size(); ++n)
         sum += block.dt * static_cast<double>(modes[n].theta * modes[n].theta) * square;
     const double w = largest(modes, &Mode::w, 1) * std::sqrt(square);
+    constexpr double has_square = 1e-140; // in doubles, of which a norm sums squares
+    if (w < has_square)
+        return std::nullopt;
     return std::max(std::abs(result.errors[0] - sum) / sum, std::abs(result.errors[1] - w) / w);
 }
 
@@ -115,14 +118,12 @@ RoundOffRow measure_round_off(const RoundOffBlock& block, std::size_t index) {
     if (elements <= block.finest_hermite)
         row.hermite = nodal_floor(block, beam, mesh, Algorithm::fixed_point, modes);
     row.hermite_predicted = hermite_floor(elements, block.zeta, block.dt, block.steps);
-    if (block.zeta > 0.0) {
-        const auto exact = exact_mode(beam, {1.0L, 0.0L}, block.dt, block.steps);
-        long double error = 0.0L;
-        for (std::size_t n = 1; n < modes.size(); ++n)
-            error = std::max(error, std::abs(modes[n].w - exact[n].w));
-        row.discretisation_error = static_cast<double>(error) / largest(exact, &Mode::w, 1);
-    }
-    if (row.hermite_predicted > row.discretisation_error && row.discretisation_error > 0.0)
+    const auto exact = exact_mode(beam, {1.0L, 0.0L}, block.dt, block.steps);
+    long double error = 0.0L;
+    for (std::size_t n = 1; n < modes.size(); ++n)
+        error = std::max(error, std::abs(modes[n].w - exact[n].w));
+    row.discretisation_error = static_cast<double>(error) / largest(exact, &Mode::w, 1);
+    if (row.hermite_predicted > row.discretisation_error)
         row.remark = "the Hermite form's predicted round-off exceeds the discretisation error";
     return row;
 }

@@ -97,6 +97,11 @@ public:
                                         "direct algorithm");
             options_.least_size = 1.0;
         }
+        constexpr double most = 1e300;
+        if (parameters.zeta / parameters.dt > most)
+            throw std::domain_error("zeta/dt is beyond the range of floating point");
+        if (std::abs(parameters.theta_A) / unit_ > most)
+            throw std::domain_error("theta_A over the load is beyond the range of floating point");
         options_.unit = unit_;
         solver_ = make_solver(beam_, data_, mesh_, scheme_, parameters.dt, Needs{true, true, true});
     }

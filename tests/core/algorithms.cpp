@@ -195,6 +195,41 @@ BOOST_DATA_TEST_CASE(matrices_are_factored_once_for_each_coefficient,
     BOOST_TEST(form.factorizations() == (time == "bdf2" ? 2 : 1));
 }
 
+BOOST_AUTO_TEST_CASE(a_request_without_a_meaning_fails_with_the_reason) {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+    const RunRequest sound{paper_beam, Mesh::uniform(2), {}, 1.0, 2, {}};
+    BOOST_TEST((run(sound, ProblemData{}).status == RunStatus::ok));
+    const std::vector<std::pair<std::function<void(RunRequest&)>, std::string>> wrong{
+        {[](RunRequest& of) { of.steps = 0; }, "steps is 0"},
+        {[](RunRequest& of) { of.steps = -1; }, "steps is -1"},
+        {[](RunRequest& of) { of.final_time = 0.0; }, "final_time is 0"},
+        {[](RunRequest& of) { of.final_time = infinity; }, "final_time is inf"},
+        {[](RunRequest& of) { of.beam.alpha = -1.0; }, "alpha is -1"},
+        {[](RunRequest& of) { of.beam.zeta = -1.0; }, "zeta is -1"},
+        {[](RunRequest& of) { of.beam.theta_A = nan; }, "theta_A is nan"},
+        {[](RunRequest& of) {
+             of.beam.stops = {0.1, 0.2};
+         },
+         "the lower stop is 0.1"},
+        {[](RunRequest& of) {
+             of.beam.stops = {-0.1, -0.05};
+         },
+         "the upper stop is -0.05"},
+        {[](RunRequest& of) {
+             of.beam.stops = {nan, 0.1};
+         },
+         "the lower stop is nan"},
+        {[](RunRequest& of) { of.beam.stops.epsilon = -1.0; }, "epsilon is -1"}};
+    for (const auto& [change, words] : wrong) {
+        RunRequest request = sound;
+        change(request);
+        const RunResult result = run(request, ProblemData{});
+        BOOST_TEST((result.status == RunStatus::failed), words);
+        BOOST_TEST(result.reason.starts_with(words + "; it must be"), result.reason);
+    }
+}
+
 BOOST_AUTO_TEST_CASE(a_run_tells_of_no_step_before_it_is_made) {
     std::int64_t visited = -1; // t = 0 is no step
     std::int64_t told = 0;

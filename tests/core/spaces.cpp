@@ -62,6 +62,14 @@ BOOST_AUTO_TEST_CASE(mesh_refuses_no_elements) {
     BOOST_TEST(Mesh::uniform(1).elements() == 1);
 }
 
+BOOST_AUTO_TEST_CASE(a_family_has_no_mesh_with_elements_of_no_length) {
+    const MeshFamily graded{.grading = 400.0, .nodes = {}}; // (1/10)^400 is 0 in doubles
+    BOOST_CHECK_THROW(graded.with(10), std::invalid_argument);
+    BOOST_TEST((graded.with(2).lengths > 0.0).all());
+    const MeshFamily in_no_order{.nodes = {0.0, 0.7, 0.3, 1.0}};
+    BOOST_CHECK_THROW(in_no_order.with(6), std::invalid_argument);
+}
+
 BOOST_AUTO_TEST_CASE(mass_and_stiffness_give_the_integrals_of_hat_functions) {
     // For v = x(1 − x) interpolated and its hats: vᵀMv = ‖I_hv‖² and vᵀKv = ‖(I_hv)'‖², integrated
     // element by element.

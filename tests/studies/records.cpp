@@ -736,6 +736,37 @@ BOOST_AUTO_TEST_CASE(widths_that_are_refined_together_have_one_order) {
     }
 }
 
+// 1 + h^2 + dt, whose limit is 1: at the dt of the finest rows it is 1.025.
+BOOST_AUTO_TEST_CASE(a_width_that_stands_still_in_the_finest_rows_leaves_no_limit) {
+    const std::string coarse = "0.2,0.1,1.14,0.14\n";
+    const std::string still = "0.1,0.025,1.035,0.035\n0.05,0.025,1.0275,0.0275\n"
+                              "0.025,0.025,1.025625,0.025625\n0.0125,0.025,1.02515625,0.02515625\n";
+    const auto analysed = [](const std::string& rows) {
+        return analysis_of("h,dt,v,e\n" + rows,
+                           {.sizes = {"h", "dt"}, .errors = {"e"}, .values = {"v"}});
+    };
+    const auto column_of = [](const DataAnalysis& all, bool is_value) {
+        return *std::ranges::find_if(
+            all.columns, [&](const ColumnAnalysis& one) { return one.is_value == is_value; });
+    };
+    const DataAnalysis both = analysed(coarse + still);
+    const auto values = column_of(both, true);
+    BOOST_TEST(!values.limit->limit.determined);
+    BOOST_TEST(values.limit->limit.status.starts_with("dt stands still at 0.025 in the finest"));
+    for (const bool is_value : {false, true})
+        BOOST_TEST(column_of(both, is_value).by_width[1].status ==
+                   "it stands still at 0.025 where the finest rows refine h");
+    const auto held = column_of(analysed(still), true);
+    BOOST_TEST((held.limit->limit.low <= 1.025 && 1.025 <= held.limit->limit.high));
+    BOOST_TEST(held.findings.front().find("at dt = 0.025") != std::string::npos);
+    // Refined to the end, though by other steps.
+    const auto to_the_end =
+        column_of(analysed("0.2,0.16,1.2,0.2\n0.1,0.04,1.05,0.05\n0.05,0.01,1.0125,0.0125\n"
+                           "0.025,0.0025,1.003125,0.003125\n"),
+                  true);
+    BOOST_TEST((to_the_end.limit->limit.low <= 1 && 1 <= to_the_end.limit->limit.high));
+}
+
 BOOST_AUTO_TEST_CASE(a_width_that_grows_beside_another_leaves_it_its_order) {
     std::string text = "h,k,dt,error\n";
     for (const double h : {0.1, 0.05, 0.025, 0.0125})

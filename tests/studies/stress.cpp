@@ -189,6 +189,71 @@ BOOST_AUTO_TEST_CASE(a_form_that_stops_says_why_and_meets_no_expectation) {
     BOOST_TEST(measure_round_off(block, 0).hermite.reason.empty());
 }
 
+// Without viscosity A = -alpha T at once, as with next to none.
+BOOST_AUTO_TEST_CASE(the_discretisation_error_without_viscosity_is_that_of_next_to_none) {
+    RoundOffBlock block;
+    block.alpha = 0.3;
+    block.dt = 1e-3;
+    block.steps = 3;
+    block.time = "euler";
+    block.elements = {2, 16};
+    for (std::size_t i = 0; i < block.elements.size(); ++i) {
+        block.zeta = 1e-9;
+        const double wanted = measure_round_off(block, i).discretisation_error;
+        block.zeta = 0.0;
+        const double found = measure_round_off(block, i).discretisation_error;
+        BOOST_TEST(std::abs(found / wanted - 1.0) < 1e-4, found << " " << wanted);
+        // T = exp(-pi^2 t/(1 + alpha^2)), of which Euler has (1 + z)^-n with z = lambda dt/(1 +
+        // alpha^2) and the eigenvalue lambda of the mesh; both relative to the first step's.
+        const double h = 1.0 / static_cast<double>(block.elements[i]);
+        const double square = std::pow(std::sin(std::numbers::pi * h / 2.0), 2);
+        const double lambda = 12.0 * square / (h * h) / (3.0 - 2.0 * square);
+        const double inertia = 1.0 + block.alpha * block.alpha;
+        double error = 0.0;
+        for (int n = 1; n <= 3; ++n)
+            error = std::max(error, std::abs(std::pow(1.0 + lambda * block.dt / inertia, -n) -
+                                             std::exp(-std::numbers::pi * std::numbers::pi *
+                                                      block.dt * n / inertia)));
+        error /= std::exp(-std::numbers::pi * std::numbers::pi * block.dt / inertia);
+        BOOST_TEST(std::abs(found / error - 1.0) < 0.02, found << " " << error);
+    }
+}
+
+BOOST_AUTO_TEST_CASE(no_floor_is_found_of_norms_whose_squares_underflow) {
+    RoundOffBlock block;
+    block.zeta = 0.1;
+    block.dt = 1e-3;
+    block.steps = 3;
+    block.time = "euler";
+    block.elements = {8};
+    for (const double alpha : {0.3, 1e-170}) {
+        block.alpha = alpha;
+        const auto row = measure_round_off(block, 0);
+        BOOST_TEST(row.sine.has_value() == (alpha == 0.3));
+        BOOST_TEST(row.moment.value.value_or(1.0) < 1e-13);
+    }
+}
+
+// What overflows in the judge is no failure of the solver.
+BOOST_AUTO_TEST_CASE(data_beyond_the_range_of_the_checks_are_refused_and_do_not_fail) {
+    StressParameters viscous = loaded_case(0.0, 4);
+    viscous.load = 0.0;
+    viscous.initial = InitialData::zero;
+    viscous.zeta = 1e15;
+    viscous.dt = 1e-300;
+    StressParameters heated = viscous;
+    heated.zeta = 1.0;
+    heated.dt = 0.01;
+    heated.load = 1e-300;
+    heated.theta_A = 1e300;
+    for (const auto& [parameters, words] :
+         {std::pair(viscous, "zeta/dt is beyond"), {heated, "theta_A over the load is beyond"}}) {
+        const StressCase judged = judge(parameters);
+        BOOST_TEST(name_of(judged.outcome) == "refused");
+        BOOST_TEST(judged.reason.find(words) != std::string::npos, judged.reason);
+    }
+}
+
 BOOST_AUTO_TEST_CASE(hermite_form_warns_where_round_off_may_exceed_its_error) {
     // In the paper's row with s = 160 round-off moves the second figure, by s = 320 it swamps the
     // error; a few steps of it suffice, because viscosity remembers ζ/Δt of them.
