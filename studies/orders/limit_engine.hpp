@@ -41,6 +41,10 @@ struct LimitTuning {
     /// Of so many units of the last digit printed, rounding makes 0.2 % of the finest step: less
     /// than no change of windows shows.
     double units_of_exact_steps = 200;
+    /// Below it, where the order of the steps falls over all windows, the intervals of 641 limits
+    /// of 738 missed (errors of 1/ln h, its square, h^¼, h + c h^¼, h² + c √h and h + c √h, of a
+    /// seed that this was not chosen by); of 5 more, of powers of 1 and more, none.
+    double slow_order = 1.0;
 };
 
 struct LimitEstimate {
@@ -57,7 +61,8 @@ struct LimitEstimate {
 };
 
 /// Rows that are not finite are passed over; rows of one width are averaged. Values whose steps
-/// grow up to the finest have no limit, and the status says so.
+/// grow up to the finest have no limit, nor have those the order of whose steps falls over finer
+/// windows below slow_order; the status says so.
 LimitEstimate estimate_limit(std::span<const ValueRow> rows, const LimitTuning& tuning = {});
 
 } // namespace tvbeam

@@ -423,8 +423,10 @@ std::vector<OrderInterval> OrderEnsemble::orders() const {
                            order.low > tuning_.narrowest && order.half_width() <= tuning_.widest &&
                            !motion_of(width).goes_on(order.value) && is_followed() &&
                            !is_ambiguous(width) && is_seen_as_a_power(width, order);
-        if (!order.determined)
+        if (!order.determined) {
             order.status = status_of(width, order);
+            order.falls_to = motion_of(width).falls_to();
+        }
     }
     return result;
 }

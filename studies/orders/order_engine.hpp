@@ -57,6 +57,7 @@ struct OrderInterval {
     /// Why it is not determined, as "it rises over finer windows, to 1.68"; empty where it
     /// is.
     std::string status = {};
+    std::optional<double> falls_to = {}; ///< that of the finest window, where it falls over all
 
     double half_width() const { return (high - low) / 2; }
 };

@@ -193,16 +193,28 @@ std::string OrderMotion::words() const {
     if (const auto greatest = greatest_of_a_rise())
         return fmt::format("it rises from level to level where the others are finest, to {:.2f}",
                            *greatest);
+    const double step = step_over_windows();
+    return step == 0 ? std::string()
+                     : fmt::format("it {} over finer windows, to {:.2f}",
+                                   step > 0 ? "rises" : "falls", windows_.back().value);
+}
+
+std::optional<double> OrderMotion::falls_to() const {
+    return step_over_windows() < 0 ? std::optional(windows_.back().value) : std::nullopt;
+}
+
+/// The last step of the order from window to window, where all go its way; else 0.
+double OrderMotion::step_over_windows() const {
     if (windows_.size() < 2 || !may_be_a_step())
-        return {};
+        return 0;
     const double last = windows_.back().value;
     const double step = last - windows_[windows_.size() - 2].value;
     if (std::abs(step) < tuning_.narrowest || std::abs(last) > 20)
-        return {};
+        return 0;
     for (std::size_t i = 1; i < windows_.size(); ++i)
         if ((windows_[i].value - windows_[i - 1].value) * step <= 0)
-            return {};
-    return fmt::format("it {} over finer windows, to {:.2f}", step > 0 ? "rises" : "falls", last);
+            return 0;
+    return step;
 }
 
 } // namespace tvbeam

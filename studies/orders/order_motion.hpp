@@ -29,8 +29,11 @@ public:
     }
     /// As "it rises over finer windows, to 1.68"; empty where it moves to and fro, or not at all.
     [[nodiscard]] std::string words() const;
+    /// The order of the finest window, where it falls from each to the next.
+    [[nodiscard]] std::optional<double> falls_to() const;
 
 private:
+    [[nodiscard]] double step_over_windows() const;
     [[nodiscard]] bool may_be_a_step() const;
     [[nodiscard]] bool is_explained() const;
     [[nodiscard]] bool runs_away() const;
