@@ -13,11 +13,16 @@ namespace tvbeam {
 
 namespace {
 
-/// Of a clock's step, as 0.01 or 1/60.
+/// Of a clock's step, as 0.01 or 1/60; 0.013 between two rows.
 std::string step_text(double step) {
     constexpr std::size_t most_digits = 8;
+    constexpr double rounding = 1e-9;
+    const double steps = 1.0 / step;
     const std::string text = shortest(step);
-    return text.size() <= most_digits ? text : fmt::format("1/{:.0f}", 1.0 / step);
+    return text.size() <= most_digits ? text
+           : steps > 1.5 && std::abs(steps - std::round(steps)) <= rounding * steps
+               ? fmt::format("1/{:.0f}", steps)
+               : significant(step, 2);
 }
 
 /// Two significant digits, more before the point.
@@ -161,7 +166,7 @@ Finding comparison(const SchemeComparison& pair, const ReachedError& error,
     const bool once = error.times[pair.faster]->runs == 1 || error.times[pair.slower]->runs == 1;
     const std::string clock =
         pair.times.clock_step > 0.0
-            ? fmt::format(", by a clock with steps of {} s", step_text(pair.times.clock_step))
+            ? fmt::format(", of times known to {} s", step_text(pair.times.clock_step))
             : "";
     const std::string range =
         std::isfinite(pair.times.highest)

@@ -287,6 +287,47 @@ BOOST_AUTO_TEST_CASE(long_runs_are_timed_less_often_and_over_the_same_time) {
     BOOST_TEST((std::set(last.begin(), last.end()).size()) == 5U); // 3 levels and 2
 }
 
+/// Two schemes of a program that says how long it took, beside one of 3e-03 s, and what follows for
+/// their times.
+struct OwnClock {
+    std::string a, b;       ///< the seconds that it prints
+    double lowest, highest; ///< of the slower over the faster
+    bool told_apart;
+};
+
+std::ostream& operator<<(std::ostream& stream, const OwnClock& clock) {
+    return stream << clock.a << " and " << clock.b;
+}
+
+constexpr double beyond = std::numeric_limits<double>::infinity();
+
+const std::vector<OwnClock> own_clocks{
+    {"1e-01", "2e-01", 0.1 / 0.2, beyond, false},     // 0.149 s and 0.151 s, in one digit
+    {"0.01", "0.0134", 0.0133 / 0.02, beyond, false}, // 0.0149 s, by another clock
+    {"0.0134", "0.04", 0.03 / 0.0135, 0.05 / 0.0133, true},
+    {"0.10", "0.20", 0.19 / 0.11, 0.21 / 0.09, true},              // no clock of tenths
+    {"0.10000000000000001", "0.15", 0.14 / 0.1, 0.16 / 0.1, true}, // to all digits of a double
+    {"1.00e-01", "3e-01", 0.2 / 0.101, 0.4 / 0.099, true}};
+
+BOOST_DATA_TEST_CASE(a_time_is_known_to_the_last_digit_that_its_program_prints,
+                     data::make(own_clocks), clock) {
+    const auto scheme = [](const std::string& seconds) {
+        return "[[work_precision.scheme]]\nname = '" + seconds +
+               "'\nelements = [4]\nparameters = { t = '" + seconds + "' }\n";
+    };
+    const Scene scene =
+        scene_of("[solver]\ncommand = ['sh', '-c', 'echo e = 1; echo s = {t}']\n"
+                 "errors = { e = 'e = (.*)' }\nseconds = 's = (.*)'\nparameters = { t = '0' }\n"
+                 "[work_precision]\nnorms = ['e']\nruns = 3\n" +
+                 scheme(clock.a) + scheme(clock.b) + scheme("3e-03"));
+    const StudyResult result = run_study(scene);
+    const auto& costs = result.get<WorkPrecisionResult>()->norms[0];
+    const Comparison& times = at(costs, 1.0).comparisons.at(0).times;
+    BOOST_TEST(times.lowest == clock.lowest, boost::test_tools::tolerance(1e-12));
+    BOOST_TEST(times.highest == clock.highest, boost::test_tools::tolerance(1e-12));
+    BOOST_TEST(times.distinguishable == clock.told_apart);
+}
+
 BOOST_AUTO_TEST_CASE(a_run_that_failed_stays_with_its_reason_and_without_a_time) {
     // At α = 5 the fixed point contracts for Δt = 1e-3 (factor 25e-3/0.1), not for Δt = 1 (factor
     // 25/1.1/10.9).
