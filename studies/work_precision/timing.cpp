@@ -55,7 +55,8 @@ Timing timing_of(std::vector<double> seconds, double clock_step) {
             .median = quantile(0.5),
             .q3 = quantile(0.75),
             .runs = static_cast<int>(seconds.size()),
-            .clock_step = clock_step};
+            .clock_step = clock_step,
+            .at_zero = static_cast<int>(std::ranges::count(seconds, 0.0))};
 }
 
 double clock_step_of(const std::vector<double>& seconds, double printed_unit) {

@@ -15,6 +15,7 @@ struct Timing {
     double q3 = 0.0;         ///< upper quartile
     int runs = 0;            ///< 1: there are no quartiles to speak of, all four are the same
     double clock_step = 0.0; ///< by which its clock may be off; see clock_step_of
+    int at_zero = 0;         ///< runs of which the clock shows 0 s
 };
 
 /// Of one run or more. Quartiles lie between the sorted values as GSL has it: at (n − 1)/4 and

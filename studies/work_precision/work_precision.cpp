@@ -212,11 +212,6 @@ private:
     std::vector<Contestant> contestants_;
 };
 
-/// A clock of a program's own may show nothing of a short run.
-bool has_time(const std::optional<Timing>& timing) {
-    return timing && timing->min > 0.0;
-}
-
 /// Norm k along the ladder of one scheme.
 std::vector<TimedError> rows_of(const SchemeRuns& scheme, std::size_t k) {
     std::vector<TimedError> rows;
@@ -311,13 +306,20 @@ void add_rises(std::vector<std::string>& remarks, const std::string& norm,
     }
 }
 
-/// A sentence for every row whose clock stood still.
+/// A sentence for every row whose clock stood still, in some runs or all.
 void add_standing_clocks(std::vector<std::string>& remarks, const TimedScheme& scheme,
                          const SchemeRuns& runs) {
     for (std::size_t i = 0; i < runs.runs.size(); ++i)
         if (runs.timings[i] && !has_time(runs.timings[i]))
-            remarks.push_back(scheme.name + ": the clock shows 0 s at " + text_of(scheme.rungs[i]) +
-                              "; it is too coarse for this run, which is compared with none.");
+            remarks.push_back(fmt::format(
+                "{}: the clock shows 0 s {}at {}; it is too coarse for this row, which is compared "
+                "with none.",
+                scheme.name,
+                runs.timings[i]->at_zero < runs.timings[i]->runs
+                    ? fmt::format("in {} of {} runs ", runs.timings[i]->at_zero,
+                                  runs.timings[i]->runs)
+                    : "",
+                text_of(scheme.rungs[i])));
 }
 
 } // namespace
@@ -328,6 +330,10 @@ std::vector<Series> series_of(const WorkPrecisionBlock& block) {
         all.push_back(
             {study_of(scheme), block.final_time, scheme.method, block.norms, scheme.rungs});
     return all;
+}
+
+bool has_time(const std::optional<Timing>& timing) {
+    return timing && timing->min > 0.0;
 }
 
 std::string busy_remark(double processor_seconds, double wall_clock_seconds) {

@@ -419,13 +419,18 @@ BOOST_AUTO_TEST_CASE(an_error_that_rises_along_its_ladder_is_remarked) {
 }
 
 BOOST_AUTO_TEST_CASE(what_a_clock_that_stands_still_has_timed_is_compared_with_nothing) {
-    std::vector<SchemeRuns> schemes{made_up({1e-1, 1e-3, 1e-5}, 1.0), made_up({1e-1, 1e-5}, 2.0)};
-    schemes[0].timings[0] = Timing{.min = 0.0, .q1 = 0.0, .median = 0.0, .q3 = 0.0, .runs = 3};
+    std::vector<SchemeRuns> schemes{made_up({1e-1, 1e-3, 1e-5}, 1.0), made_up({1e-1, 1e-5}, 2.0),
+                                    made_up({1e-1, 1e-5}, 2.0)};
+    schemes[0].timings[0] = timing_of({0.0, 0.0, 0.0});
+    schemes[2].timings[0] = timing_of({1.0, 0.0, 1.0, 0.0, 1.0});
     const auto norms = costs_of(block_for(schemes), schemes);
     BOOST_TEST(!at(norms[0], 1e-2).times[0].has_value());
+    BOOST_TEST(!at(norms[0], 1e-2).times[2].has_value());
     BOOST_TEST(std::isfinite(at(norms[0], 1e-4).comparisons.at(0).times.ratio));
-    BOOST_REQUIRE(norms[0].remarks.size() == 1u);
+    BOOST_REQUIRE(norms[0].remarks.size() == 2u);
     BOOST_TEST(norms[0].remarks[0].starts_with("scheme 0: the clock shows 0 s at s = 10"));
+    BOOST_TEST(
+        norms[0].remarks[1].starts_with("scheme 2: the clock shows 0 s in 2 of 5 runs at s = 10"));
 }
 
 BOOST_AUTO_TEST_CASE(a_busy_machine_is_remarked) {
