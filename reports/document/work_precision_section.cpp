@@ -31,7 +31,7 @@ std::string ratio_text(double ratio) {
     return ratio < 9.95 ? fixed(ratio, 1) : ratio < 1e5 ? fixed(ratio, 0) : scientific(ratio, 1);
 }
 
-/// Too long for more than one run.
+/// Too long for more than one run, or interrupted before.
 bool ran_once(const std::optional<Timing>& timing, const WorkPrecisionBlock& block) {
     return timing && timing->runs == 1 && block.runs > 1;
 }
@@ -335,7 +335,8 @@ Section work_precision_section(const WorkPrecisionResult& result, const WorkPrec
     for (std::size_t k = 0; k < block.schemes.size(); ++k)
         add(rows_blocks(result.schemes[k], block.schemes[k], block));
     if (some_ran_once(result, block))
-        add({Paragraph{"*: of one run, as a run takes long"}});
+        add({Paragraph{result.interrupted ? "*: of one run"
+                                          : "*: of one run, as a run takes long"}});
     bool introduced = false;
     for (const auto& costs : result.norms) {
         const Table table = costs_table(costs, block);

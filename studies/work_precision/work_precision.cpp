@@ -131,20 +131,29 @@ public:
             enter(k);
         for (int round = 0; round < block_.runs; ++round)
             for (auto& contestant : contestants_)
-                if (contestant.warm_up <= one_run_above_ &&
-                    contestant.takes_part(round, block_.runs))
+                if (!is_long(contestant) && contestant.takes_part(round, block_.runs))
                     time(contestant);
         set_clock_steps(contestants_);
         for (const auto& contestant : contestants_)
             if (result_[contestant.scheme].runs[contestant.run].status == RungStatus::ok)
-                result_[contestant.scheme].timings[contestant.run] =
-                    timing_of(contestant.seconds.empty() ? std::vector<double>{contestant.warm_up}
-                                                         : contestant.seconds,
-                              contestant.clock_step);
+                result_[contestant.scheme].timings[contestant.run] = timing(contestant);
         return std::move(result_);
     }
 
 private:
+    /// Its warm-up is the only run.
+    [[nodiscard]] bool is_long(const Contestant& contestant) const {
+        return contestant.warm_up > one_run_above_;
+    }
+
+    /// None of what was to be timed and was not, as an interruption came before.
+    [[nodiscard]] std::optional<Timing> timing(const Contestant& contestant) const {
+        const auto seconds =
+            is_long(contestant) ? std::vector{contestant.warm_up} : contestant.seconds;
+        return seconds.empty() ? std::nullopt
+                               : std::optional(timing_of(seconds, contestant.clock_step));
+    }
+
     /// A run whose time alone is wanted.
     RungResult run_unmeasured(Contestant& contestant) {
         const Series& series = all_[contestant.scheme];

@@ -14,7 +14,7 @@ namespace tvbeam {
 struct SchemeRuns {
     /// With the errors of an untimed run, and the counters of a timed one.
     std::vector<RungResult> runs;
-    /// One a run, without error norms; none where the run failed.
+    /// One a run, without error norms; none where the run failed, or an interruption came before.
     std::vector<std::optional<Timing>> timings;
 };
 

@@ -328,6 +328,30 @@ BOOST_DATA_TEST_CASE(a_time_is_known_to_the_last_digit_that_its_program_prints,
     BOOST_TEST(times.distinguishable == clock.told_apart);
 }
 
+// Three rows are measured and warm up, which is all that a long run does; the seventh run is the
+// first one timed.
+BOOST_AUTO_TEST_CASE(what_an_interruption_left_untimed_has_no_time_by_its_warm_up) {
+    const Scene scene =
+        scene_of(good, {"work_precision.scheme=[{elements=[4, 8, 16], dt=\"0.1/s\"}]"});
+    for (const int made : {7, 6}) {
+        int runs = 0;
+        const auto result =
+            run_work_precision(*scene.get<WorkPrecisionBlock>(), [&](const RunTask& task) {
+                RungResult run{.rung = task.rung, .seconds = task.rung.elements == 16 ? 9.0 : 0.1};
+                run.status = runs++ < made ? RungStatus::ok : RungStatus::interrupted;
+                run.errors.assign(task.measures.size(), 0.5);
+                return run;
+            });
+        const SchemeRuns& scheme = result.schemes[0];
+        BOOST_TEST(result.interrupted);
+        BOOST_TEST(scheme.timings[0].has_value() == (made == 7));
+        BOOST_TEST(!scheme.timings[1]);
+        BOOST_TEST((scheme.runs[1].status == RungStatus::ok)); // its error stands
+        BOOST_REQUIRE(scheme.timings[2]);
+        BOOST_TEST(scheme.timings[2]->median == 9.0);
+    }
+}
+
 BOOST_AUTO_TEST_CASE(a_run_that_failed_stays_with_its_reason_and_without_a_time) {
     // At α = 5 the fixed point contracts for Δt = 1e-3 (factor 25e-3/0.1), not for Δt = 1 (factor
     // 25/1.1/10.9).
