@@ -85,7 +85,9 @@ struct Cell {
     std::string heading;
     std::optional<double> value;
     bool is_error = false;
-    std::string words = {}; ///< of the norm
+    std::string words = {};   ///< of the norm
+    std::string without = {}; ///< what the table shows where there is no value
+    bool is_asked = true;     ///< for this value of the key
 };
 
 void add_ladder(const LadderResult& ladder, std::vector<Cell>& cells) {
@@ -93,7 +95,7 @@ void add_ladder(const LadderResult& ladder, std::vector<Cell>& cells) {
         const Measure& norm = ladder.norms[k].norm;
         const RungResult& finest = ladder.rungs.back();
         cells.push_back({norm.name, norm.is_value ? "value" : "error", error_of(finest, k),
-                         !norm.is_value, norm.words});
+                         !norm.is_value, norm.words, name_of(finest.status)});
         if (norm.is_value)
             continue;
         cells.push_back({norm.name, "ord.", ladder.norms[k].orders.back(), false});
@@ -121,7 +123,7 @@ std::vector<Cell> cells_of(const StudyResult& result) {
     return cells;
 }
 
-/// The cells of all results; those of a result that lacks some are matched by what they are.
+/// The cells of all results, matched by what they are; what one was not asked for is empty.
 std::vector<std::vector<Cell>> rows_of(const std::vector<StudyResult>& results) {
     std::vector<std::vector<Cell>> rows;
     std::vector<Cell> all;
@@ -133,14 +135,19 @@ std::vector<std::vector<Cell>> rows_of(const std::vector<StudyResult>& results) 
         for (const auto& cell : rows.back())
             if (std::none_of(all.begin(), all.end(),
                              [&](const Cell& known) { return same(known, cell); }))
-                all.push_back({cell.group, cell.heading, std::nullopt, cell.is_error, cell.words});
+                all.push_back({.group = cell.group,
+                               .heading = cell.heading,
+                               .value = {},
+                               .is_error = cell.is_error,
+                               .words = cell.words,
+                               .is_asked = false});
     }
     for (auto& row : rows) {
         auto filled = all;
         for (auto& cell : filled)
             for (const auto& given : row)
                 if (same(cell, given))
-                    cell.value = given.value;
+                    cell = given;
         row = std::move(filled);
     }
     return rows;
@@ -159,7 +166,7 @@ Table table_of(const Sweep& sweep, const std::vector<StudyResult>& results) {
         Table::Column column{head.heading, {}};
         for (const auto& row : rows) {
             const auto& value = row[c].value;
-            column.cells.push_back(!value          ? (head.is_error ? "failed" : "")
+            column.cells.push_back(!value          ? row[c].without
                                    : head.is_error ? scientific(value, 4)
                                                    : significant(*value, 4));
         }
@@ -271,6 +278,8 @@ std::string sweep_json(const Sweep& sweep, const std::vector<StudyResult>& resul
         if (const Ending ending = results[i].ending(); ending.failed)
             row["failed"] = ending.reason;
         for (const auto& cell : rows[i]) {
+            if (!cell.is_asked)
+                continue;
             auto& place = cell.group.empty() ? row[cell.heading] : row[cell.group][cell.heading];
             place = cell.value && std::isfinite(*cell.value) ? Json(*cell.value) : Json();
         }

@@ -158,6 +158,27 @@ BOOST_AUTO_TEST_CASE(a_sweep_gives_a_row_a_value) {
     BOOST_TEST(call(directory, "run sheared --set beam.zeta=1,2 --set beam.alpha=1,2").exit == 2);
 }
 
+// At α = 1e200 every run fails; the norm that a row has not got was not asked for.
+BOOST_AUTO_TEST_CASE(a_row_of_a_sweep_has_nothing_of_what_it_was_not_asked_for) {
+    const TemporaryDirectory directory;
+    const std::string run =
+        "run table1 --set ladder.printed={} --set ladder.elements=[4,8] --set "
+        "ladder.dt=[0.1,0.05] --set 'ladder.norms=[\"theta_L2L2\"],[\"u_L2H2\"]' --json " +
+        (directory.path() / "sweep.json").string();
+    const Called called = call(directory, run);
+    BOOST_TEST(called.exit == 0, called.errors);
+    BOOST_TEST(!has(called.output, "failed"), called.output);
+    const auto rows = nlohmann::json::parse(directory.read("sweep.json")).at("rows");
+    BOOST_TEST(rows.at(0).at("theta_L2L2").at("error").is_number());
+    BOOST_TEST(!rows.at(0).contains("u_L2H2"));
+    BOOST_TEST(!rows.at(1).contains("theta_L2L2"));
+    BOOST_TEST(rows.at(1).at("u_L2H2").at("error").is_number());
+    BOOST_TEST(has(call(directory, run + " --set beam.alpha=1e200").output, "failed"));
+    const auto failed = nlohmann::json::parse(directory.read("sweep.json")).at("rows");
+    BOOST_TEST(failed.at(0).at("theta_L2L2").at("error").is_null());
+    BOOST_TEST(!failed.at(0).contains("u_L2H2"));
+}
+
 // Errors alone, as in the tables of the ladder and the grid: an order of rounding is none.
 BOOST_AUTO_TEST_CASE(a_sweep_has_no_orders_of_rounding) {
     const TemporaryDirectory directory;
