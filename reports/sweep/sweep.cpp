@@ -10,6 +10,7 @@
 #include "studies/grid/grid.hpp"
 #include "studies/ladder/ladder.hpp"
 #include "studies/text/number_text.hpp"
+#include "studies/work_precision/work_precision.hpp"
 
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
@@ -111,12 +112,37 @@ void add_orders(const OrdersResult& orders, std::vector<Cell>& cells) {
                  fit.holds() && interval->determined ? std::optional(order) : std::nullopt, false});
 }
 
+/// Of each scheme the finest row, its error and its time; and who reaches a target after how long.
+void add_race(const WorkPrecisionResult& race, const WorkPrecisionBlock& block,
+              std::vector<Cell>& cells) {
+    const auto median = [](const std::optional<Timing>& timing) {
+        return timing ? std::optional(timing->median) : std::nullopt;
+    };
+    for (std::size_t j = 0; j < block.schemes.size(); ++j) {
+        const std::string& name = block.schemes[j].name;
+        const std::string group = "work_precision." + name;
+        const RungResult& finest = race.schemes[j].runs.back();
+        for (std::size_t k = 0; k < block.norms.size(); ++k)
+            cells.push_back({group, block.norms[k].name, error_of(finest, k), true,
+                             name + ": " + block.norms[k].words, name_of(finest.status)});
+        cells.push_back({group, "seconds", median(race.schemes[j].timings.back()), false});
+    }
+    for (const auto& costs : race.norms)
+        for (const auto& reached : costs.errors)
+            for (std::size_t j = 0; reached.target && j < block.schemes.size(); ++j)
+                cells.push_back(
+                    {fmt::format("seconds to {} = {}", costs.norm.name, shortest(reached.error)),
+                     block.schemes[j].name, median(reached.times[j]), false});
+}
+
 std::vector<Cell> cells_of(const StudyResult& result) {
     std::vector<Cell> cells;
     if (const auto* ladder = result.get<LadderResult>())
         add_ladder(*ladder, cells);
     if (const auto* orders = result.get<OrdersResult>())
         add_orders(*orders, cells);
+    if (const auto* race = result.get<WorkPrecisionResult>())
+        add_race(*race, *result.scene.get<WorkPrecisionBlock>(), cells);
     for (const auto& [kind, record] : result.records.entries())
         for (const auto& [name, figure] : kind->figures(record))
             cells.push_back({"", name, figure, false});
@@ -172,8 +198,8 @@ Table table_of(const Sweep& sweep, const std::vector<StudyResult>& results) {
         }
         groups.back().columns.push_back(std::move(column));
     }
-    return {"Of the finest level of each run: error and observed order; p and q of fits; figures "
-            "of other studies.",
+    return {"Of the finest level of each run: error and observed order, or seconds; p and q of "
+            "fits; figures of other studies.",
             key, groups};
 }
 
@@ -236,6 +262,9 @@ std::vector<std::string> cautions(const StudyResult& result) {
     if (const auto* ladder = result.get<LadderResult>();
         ladder != nullptr && !ladder->reference_remark.empty())
         all.push_back(ladder->reference_remark);
+    if (const auto* race = result.get<WorkPrecisionResult>();
+        race != nullptr && !race->busy_remark.empty())
+        all.push_back(race->busy_remark);
     if (result.law_distance > 0.0)
         all.emplace_back("The solution is one of rigid stops: errors at penalised ones do not fall "
                          "to zero.");
@@ -364,13 +393,11 @@ std::optional<Sweep> sweep_in(const std::vector<std::string>& overrides) {
 
 std::string sweep_csv(const Sweep& sweep, const std::vector<StudyResult>& results) {
     const auto rows = rows_of(results);
-    std::string text = sweep.key;
+    std::string text = quoted(sweep.key);
     const std::string comma = ",";
     for (std::size_t c = 0; !rows.empty() && c < rows.front().size(); ++c) {
-        std::string name = rows.front()[c].group + (rows.front()[c].group.empty() ? "" : " ") +
-                           rows.front()[c].heading;
-        std::replace(name.begin(), name.end(), ',', ';');
-        text += comma + name;
+        const std::string& group = rows.front()[c].group;
+        text += comma + quoted(group + (group.empty() ? "" : " ") + rows.front()[c].heading);
     }
     const bool has_failed = std::ranges::any_of(
         results, [](const StudyResult& result) { return result.ending().failed; });
