@@ -2,22 +2,28 @@
 
 #include "studies/text/number_text.hpp"
 
-#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <set>
 
 namespace tvbeam {
 
 namespace {
 
-/// Of a clock's step, as 0.01 or 1/60.
+/// Of a clock's step, as 0.01 or 1/60; 0.013 between two rows.
 std::string step_text(double step) {
     constexpr std::size_t most_digits = 8;
+    constexpr double rounding = 1e-9;
+    const double steps = 1.0 / step;
     const std::string text = shortest(step);
-    return text.size() <= most_digits ? text : fmt::format("1/{:.0f}", 1.0 / step);
+    return text.size() <= most_digits ? text
+           : steps > 1.5 && std::abs(steps - std::round(steps)) <= rounding * steps
+               ? fmt::format("1/{:.0f}", steps)
+               : significant(step, 2);
 }
 
 /// Two significant digits, more before the point.
@@ -25,7 +31,7 @@ std::string ratio_text(double ratio) {
     return ratio < 9.95 ? fixed(ratio, 1) : ratio < 1e5 ? fixed(ratio, 0) : scientific(ratio, 1);
 }
 
-/// Too long for more than one run.
+/// Too long for more than one run, or interrupted before.
 bool ran_once(const std::optional<Timing>& timing, const WorkPrecisionBlock& block) {
     return timing && timing->runs == 1 && block.runs > 1;
 }
@@ -161,7 +167,7 @@ Finding comparison(const SchemeComparison& pair, const ReachedError& error,
     const bool once = error.times[pair.faster]->runs == 1 || error.times[pair.slower]->runs == 1;
     const std::string clock =
         pair.times.clock_step > 0.0
-            ? fmt::format(", by a clock with steps of {} s", step_text(pair.times.clock_step))
+            ? fmt::format(", of times known to {} s", step_text(pair.times.clock_step))
             : "";
     const std::string range =
         std::isfinite(pair.times.highest)
@@ -192,30 +198,60 @@ std::size_t fastest_of(const ReachedError& error) {
     return static_cast<std::size_t>(least - error.times.begin());
 }
 
-/// Why a scheme has no time to reach an error, behind its name.
-std::string without_time(const SchemeRuns& scheme, std::size_t norm, double error) {
+/// What is said of a scheme that has no larger error, behind its name.
+std::string less_in_every_row(const SchemeRuns& scheme) {
     double soonest = std::numeric_limits<double>::infinity();
-    bool is_above = false;
+    bool all_timed = true;
     bool has_failed = false;
-    for (std::size_t i = 0; i < scheme.runs.size(); ++i) {
-        const RungResult& run = scheme.runs[i];
-        if (run.errors.empty())
+    for (std::size_t i = 0; i < scheme.runs.size(); ++i)
+        if (scheme.runs[i].errors.empty())
             has_failed = true;
-        else if (!scheme.timings[i])
-            continue; // not timed any more
-        else if (run.errors.at(norm) < error)
+        else if (has_time(scheme.timings[i]))
             soonest = std::min(soonest, scheme.timings[i]->median);
         else
-            is_above = true;
-    }
-    if (!std::isfinite(soonest))
+            all_timed = false;
+    return fmt::format(
+        " has less in every row{}{}", has_failed ? " that did not fail" : "",
+        all_timed ? fmt::format(", after {} s in the quickest", scientific(soonest, 2)) : "");
+}
+
+/// Why no time goes from a row to the next, or through it; empty where nothing is in the way.
+std::string hindrance(const RungResult& run, const std::optional<Timing>& timing,
+                      std::size_t norm) {
+    if (run.errors.empty())
+        return run.status == RungStatus::failed ? "one has failed" : "one was not run";
+    const double error = run.errors.at(norm);
+    if (!std::isfinite(error) || error == 0.0)
+        return "one has the error " + shortest(error);
+    return !timing ? "one was not timed" : !has_time(timing) ? "in one the clock shows 0 s" : "";
+}
+
+/// Why a scheme has no time to reach an error, behind its name.
+std::string without_time(const SchemeRuns& scheme, std::size_t norm, double error) {
+    const auto& runs = scheme.runs;
+    const auto has = [&](const auto& relation) {
+        return [&, relation](const RungResult& run) {
+            return !run.errors.empty() && relation(run.errors.at(norm), error);
+        };
+    };
+    const auto reaches = has(std::less_equal());
+    if (std::ranges::none_of(runs, reaches))
         return " does not, as far as measured";
-    if (is_above)
-        return " does, but not from one row to the next: one between has failed or has the error "
-               "0, or "
-               "a finer one is above it again";
-    return fmt::format(" has less in every row{}, after {} s in the quickest",
-                       has_failed ? " that did not fail" : "", scientific(soonest, 2));
+    const auto finest = std::find_if(runs.rbegin(), runs.rend(), has(std::greater()));
+    if (finest == runs.rend())
+        return less_in_every_row(scheme);
+    if (std::none_of(runs.rbegin(), finest, reaches))
+        return " does, but a finer row is above it again";
+    std::set<std::string> hindrances;
+    for (auto i = static_cast<std::size_t>(runs.rend() - finest) - 1; i < runs.size(); ++i) {
+        const std::string one = hindrance(runs[i], scheme.timings[i], norm);
+        if (!one.empty())
+            hindrances.insert(one);
+        else if (reaches(runs[i]))
+            break;
+    }
+    return fmt::format(" does, but not from one row to the next: {}",
+                       fmt::join(hindrances, ", and "));
 }
 
 /// Which scheme reaches an error sooner: of few, every two; of many, the fastest beside each.
@@ -236,7 +272,7 @@ std::vector<Block> comparisons(const ReachedError& error, const WorkPrecisionRes
     for (std::size_t k = 0; k < block.schemes.size(); ++k)
         if (error.times[k] && error.comparisons.empty())
             findings.emplace_back(
-                Finding{block.schemes[k].name + " alone has rows on both sides of it", 4});
+                Finding{block.schemes[k].name + " alone has a time to reach it", 4});
     std::vector<std::string> without;
     for (std::size_t k = 0; k < block.schemes.size(); ++k)
         if (!error.times[k])
@@ -299,7 +335,8 @@ Section work_precision_section(const WorkPrecisionResult& result, const WorkPrec
     for (std::size_t k = 0; k < block.schemes.size(); ++k)
         add(rows_blocks(result.schemes[k], block.schemes[k], block));
     if (some_ran_once(result, block))
-        add({Paragraph{"*: of one run, as a run takes long"}});
+        add({Paragraph{result.interrupted ? "*: of one run"
+                                          : "*: of one run, as a run takes long"}});
     bool introduced = false;
     for (const auto& costs : result.norms) {
         const Table table = costs_table(costs, block);

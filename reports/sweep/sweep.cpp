@@ -10,6 +10,7 @@
 #include "studies/grid/grid.hpp"
 #include "studies/ladder/ladder.hpp"
 #include "studies/text/number_text.hpp"
+#include "studies/work_precision/work_precision.hpp"
 
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
@@ -85,7 +86,9 @@ struct Cell {
     std::string heading;
     std::optional<double> value;
     bool is_error = false;
-    std::string words = {}; ///< of the norm
+    std::string words = {};   ///< of the norm
+    std::string without = {}; ///< what the table shows where there is no value
+    bool is_asked = true;     ///< for this value of the key
 };
 
 void add_ladder(const LadderResult& ladder, std::vector<Cell>& cells) {
@@ -93,7 +96,7 @@ void add_ladder(const LadderResult& ladder, std::vector<Cell>& cells) {
         const Measure& norm = ladder.norms[k].norm;
         const RungResult& finest = ladder.rungs.back();
         cells.push_back({norm.name, norm.is_value ? "value" : "error", error_of(finest, k),
-                         !norm.is_value, norm.words});
+                         !norm.is_value, norm.words, name_of(finest.status)});
         if (norm.is_value)
             continue;
         cells.push_back({norm.name, "ord.", ladder.norms[k].orders.back(), false});
@@ -109,19 +112,44 @@ void add_orders(const OrdersResult& orders, std::vector<Cell>& cells) {
                  fit.holds() && interval->determined ? std::optional(order) : std::nullopt, false});
 }
 
+/// Of each scheme the finest row, its error and its time; and who reaches a target after how long.
+void add_race(const WorkPrecisionResult& race, const WorkPrecisionBlock& block,
+              std::vector<Cell>& cells) {
+    const auto median = [](const std::optional<Timing>& timing) {
+        return timing ? std::optional(timing->median) : std::nullopt;
+    };
+    for (std::size_t j = 0; j < block.schemes.size(); ++j) {
+        const std::string& name = block.schemes[j].name;
+        const std::string group = "work_precision." + name;
+        const RungResult& finest = race.schemes[j].runs.back();
+        for (std::size_t k = 0; k < block.norms.size(); ++k)
+            cells.push_back({group, block.norms[k].name, error_of(finest, k), true,
+                             name + ": " + block.norms[k].words, name_of(finest.status)});
+        cells.push_back({group, "seconds", median(race.schemes[j].timings.back()), false});
+    }
+    for (const auto& costs : race.norms)
+        for (const auto& reached : costs.errors)
+            for (std::size_t j = 0; reached.target && j < block.schemes.size(); ++j)
+                cells.push_back(
+                    {fmt::format("seconds to {} = {}", costs.norm.name, shortest(reached.error)),
+                     block.schemes[j].name, median(reached.times[j]), false});
+}
+
 std::vector<Cell> cells_of(const StudyResult& result) {
     std::vector<Cell> cells;
     if (const auto* ladder = result.get<LadderResult>())
         add_ladder(*ladder, cells);
     if (const auto* orders = result.get<OrdersResult>())
         add_orders(*orders, cells);
+    if (const auto* race = result.get<WorkPrecisionResult>())
+        add_race(*race, *result.scene.get<WorkPrecisionBlock>(), cells);
     for (const auto& [kind, record] : result.records.entries())
         for (const auto& [name, figure] : kind->figures(record))
             cells.push_back({"", name, figure, false});
     return cells;
 }
 
-/// The cells of all results; those of a result that lacks some are matched by what they are.
+/// The cells of all results, matched by what they are; what one was not asked for is empty.
 std::vector<std::vector<Cell>> rows_of(const std::vector<StudyResult>& results) {
     std::vector<std::vector<Cell>> rows;
     std::vector<Cell> all;
@@ -133,14 +161,19 @@ std::vector<std::vector<Cell>> rows_of(const std::vector<StudyResult>& results) 
         for (const auto& cell : rows.back())
             if (std::none_of(all.begin(), all.end(),
                              [&](const Cell& known) { return same(known, cell); }))
-                all.push_back({cell.group, cell.heading, std::nullopt, cell.is_error, cell.words});
+                all.push_back({.group = cell.group,
+                               .heading = cell.heading,
+                               .value = {},
+                               .is_error = cell.is_error,
+                               .words = cell.words,
+                               .is_asked = false});
     }
     for (auto& row : rows) {
         auto filled = all;
         for (auto& cell : filled)
             for (const auto& given : row)
                 if (same(cell, given))
-                    cell.value = given.value;
+                    cell = given;
         row = std::move(filled);
     }
     return rows;
@@ -159,14 +192,14 @@ Table table_of(const Sweep& sweep, const std::vector<StudyResult>& results) {
         Table::Column column{head.heading, {}};
         for (const auto& row : rows) {
             const auto& value = row[c].value;
-            column.cells.push_back(!value          ? (head.is_error ? "failed" : "")
+            column.cells.push_back(!value          ? row[c].without
                                    : head.is_error ? scientific(value, 4)
                                                    : significant(*value, 4));
         }
         groups.back().columns.push_back(std::move(column));
     }
-    return {"Of the finest level of each run: error and observed order; p and q of fits; figures "
-            "of other studies.",
+    return {"Of the finest level of each run: error and observed order, or seconds; p and q of "
+            "fits; figures of other studies.",
             key, groups};
 }
 
@@ -229,6 +262,9 @@ std::vector<std::string> cautions(const StudyResult& result) {
     if (const auto* ladder = result.get<LadderResult>();
         ladder != nullptr && !ladder->reference_remark.empty())
         all.push_back(ladder->reference_remark);
+    if (const auto* race = result.get<WorkPrecisionResult>();
+        race != nullptr && !race->busy_remark.empty())
+        all.push_back(race->busy_remark);
     if (result.law_distance > 0.0)
         all.emplace_back("The solution is one of rigid stops: errors at penalised ones do not fall "
                          "to zero.");
@@ -271,6 +307,8 @@ std::string sweep_json(const Sweep& sweep, const std::vector<StudyResult>& resul
         if (const Ending ending = results[i].ending(); ending.failed)
             row["failed"] = ending.reason;
         for (const auto& cell : rows[i]) {
+            if (!cell.is_asked)
+                continue;
             auto& place = cell.group.empty() ? row[cell.heading] : row[cell.group][cell.heading];
             place = cell.value && std::isfinite(*cell.value) ? Json(*cell.value) : Json();
         }
@@ -355,13 +393,11 @@ std::optional<Sweep> sweep_in(const std::vector<std::string>& overrides) {
 
 std::string sweep_csv(const Sweep& sweep, const std::vector<StudyResult>& results) {
     const auto rows = rows_of(results);
-    std::string text = sweep.key;
+    std::string text = quoted(sweep.key);
     const std::string comma = ",";
     for (std::size_t c = 0; !rows.empty() && c < rows.front().size(); ++c) {
-        std::string name = rows.front()[c].group + (rows.front()[c].group.empty() ? "" : " ") +
-                           rows.front()[c].heading;
-        std::replace(name.begin(), name.end(), ',', ';');
-        text += comma + name;
+        const std::string& group = rows.front()[c].group;
+        text += comma + quoted(group + (group.empty() ? "" : " ") + rows.front()[c].heading);
     }
     const bool has_failed = std::ranges::any_of(
         results, [](const StudyResult& result) { return result.ending().failed; });

@@ -27,9 +27,10 @@ struct Sweep {
 std::optional<Sweep> sweep_in(const std::vector<std::string>& overrides);
 
 /// One table of all: a row a value, with the error of the finest level and its observed order for
-/// each norm of a ladder, p and q of each of [orders], and every figure of other studies; and a
-/// picture of the errors, or of the figures, over the values. results: one a value, in their order;
-/// fewer where it was interrupted.
+/// each norm of a ladder, p and q of each of [orders], of each scheme of [work_precision] the
+/// finest row and the times to its targets, and every figure of other studies; and a picture of the
+/// errors, or of the figures, over the values. results: one a value, in their order; fewer where it
+/// was interrupted.
 Reported reported(const Sweep& sweep, const std::vector<StudyResult>& results);
 
 /// The table as CSV.

@@ -244,6 +244,7 @@ private:
             const ReadFigure seconds = clock->figure();
             failure = seconds.failure;
             result.seconds = seconds.value.value_or(result.seconds);
+            result.printed_seconds = seconds.printed;
             if (failure.empty() && !(result.seconds >= 0.0))
                 failure = "seconds is " + shortest(result.seconds);
         }

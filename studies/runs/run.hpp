@@ -85,6 +85,7 @@ struct RungResult {
     std::vector<double> uncertainties = {};
     /// How finely each was printed, where a program wrote them; empty: they are the doubles found.
     std::vector<PrintedDigits> printed = {};
+    PrintedDigits printed_seconds = {}; ///< none where they are not by a clock of the program's own
 
     /// A counter by its name; 0 where the solver has none of it.
     [[nodiscard]] std::int64_t count(std::string_view name) const;

@@ -33,12 +33,14 @@ Timing between(const Timing& a, const Timing& b, double weight) {
     const auto at = [&](double Timing::*value) {
         return std::exp((1.0 - weight) * std::log(a.*value) + weight * std::log(b.*value));
     };
+    const double median = at(&Timing::median);
     return {.min = at(&Timing::min),
             .q1 = at(&Timing::q1),
-            .median = at(&Timing::median),
+            .median = median,
             .q3 = at(&Timing::q3),
             .runs = std::min(a.runs, b.runs),
-            .clock_step = std::max(a.clock_step, b.clock_step)};
+            .clock_step = median * ((1.0 - weight) * a.clock_step / a.median +
+                                    weight * b.clock_step / b.median)};
 }
 
 } // namespace
@@ -53,11 +55,13 @@ Timing timing_of(std::vector<double> seconds, double clock_step) {
             .median = quantile(0.5),
             .q3 = quantile(0.75),
             .runs = static_cast<int>(seconds.size()),
-            .clock_step = clock_step};
+            .clock_step = clock_step,
+            .at_zero = static_cast<int>(std::ranges::count(seconds, 0.0))};
 }
 
-double clock_step_of(const std::vector<double>& seconds) {
+double clock_step_of(const std::vector<double>& seconds, double printed_unit) {
     constexpr int most_decimals = 6;
+    constexpr double by_chance = 1e-3;
     constexpr double rounding = 1e-6; // of a step, in what was read
     const auto are_whole = [&](double steps_a_second, double slack) {
         return std::ranges::all_of(seconds, [&](double time) {
@@ -65,19 +69,25 @@ double clock_step_of(const std::vector<double>& seconds) {
             return std::abs(steps - std::round(steps)) <= slack;
         });
     };
-    double printed = 0.0;
-    for (int decimals = 0; decimals <= most_decimals && printed == 0.0; ++decimals)
-        if (are_whole(std::pow(10.0, decimals), rounding))
-            printed = 1.0 / std::pow(10.0, decimals);
-    // Ticks a second of operating systems' clocks. Printed, they are rounded, and other times may
-    // be whole ticks by chance, a part 2 slack of them.
-    constexpr double by_chance = 1e-3;
     std::set<double> shown(seconds.begin(), seconds.end());
     shown.erase(0.0);
+    const auto is_by_chance = [&](double part) {
+        return !(std::pow(part, static_cast<double>(shown.size())) <= by_chance);
+    };
+    double printed = printed_unit;
+    for (int decimals = 0; decimals <= most_decimals; ++decimals) {
+        const double steps_a_second = std::pow(10.0, decimals);
+        if (printed_unit * steps_a_second < 1.0 && are_whole(steps_a_second, rounding) &&
+            !is_by_chance(printed_unit * steps_a_second)) {
+            printed = 1.0 / steps_a_second;
+            break;
+        }
+    }
+    // Ticks a second of operating systems' clocks. Printed, they are rounded, and other times may
+    // be whole ticks by chance, a part 2 slack of them.
     for (const double ticks : {60.0, 64.0, 128.0, 250.0, 256.0, 300.0, 1024.0}) {
         const double slack = rounding + printed * ticks / 2.0;
-        if (!are_whole(ticks, slack) ||
-            !(std::pow(2.0 * slack, static_cast<double>(shown.size())) <= by_chance))
+        if (!are_whole(ticks, slack) || is_by_chance(2.0 * slack))
             continue;
         std::int64_t common = 0; // what has more ticks in each has a greater step
         for (const double time : shown)
@@ -123,8 +133,9 @@ Comparison compare(const Timing& first, const Timing& second) {
     if (std::abs(result.lowest - 1.0) < rounding)
         result.lowest = 1.0; // two steps of the clock apart: they touch
     result.highest = (slow.q3 + slow.clock_step) / std::max(fast.q1 - fast.clock_step, 0.0);
-    const double step = std::max(slow.clock_step, fast.clock_step);
-    result.clock_step = step > least_part_of_a_step * fast.q1 ? step : 0.0;
+    const Timing& coarse = slow.clock_step * fast.q1 > fast.clock_step * slow.q1 ? slow : fast;
+    if (coarse.clock_step > least_part_of_a_step * coarse.q1)
+        result.clock_step = coarse.clock_step;
     const bool once = first.runs == 1 || second.runs == 1;
     result.distinguishable =
         result.ratio > (once ? least_ratio_of_one_run : least_time_ratio) && result.lowest > 1.0;

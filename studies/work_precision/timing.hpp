@@ -14,7 +14,8 @@ struct Timing {
     double median = 0.0;
     double q3 = 0.0;         ///< upper quartile
     int runs = 0;            ///< 1: there are no quartiles to speak of, all four are the same
-    double clock_step = 0.0; ///< of the clock that showed it; see clock_step_of
+    double clock_step = 0.0; ///< by which its clock may be off; see clock_step_of
+    int at_zero = 0;         ///< runs of which the clock shows 0 s
 };
 
 /// Of one run or more. Quartiles lie between the sorted values as GSL has it: at (n − 1)/4 and
@@ -23,9 +24,9 @@ Timing timing_of(std::vector<double> seconds, double clock_step = 0.0);
 
 /// The step of the clock that showed these times: a tick of an operating system's clock (1/60 s to
 /// 1/1024 s) of which all are whole multiples, and that by no chance, as far as their decimals say;
-/// or the greatest power of ten, from 1 s to 1 µs: a program prints two decimals. 0 where they are
-/// neither. Unit: s.
-double clock_step_of(const std::vector<double>& seconds);
+/// or the greatest power of ten, from 1 s to 1 µs, again by no chance; but no less than the unit to
+/// which they were printed, 0 where that is not known. 0 where they are neither. Unit: s.
+double clock_step_of(const std::vector<double>& seconds, double printed_unit = 0.0);
 
 /// What one run of a ladder gave.
 struct TimedError {
@@ -39,7 +40,8 @@ inline constexpr double same_error = 0.01;
 
 /// The time that a scheme takes to reach an error, from the rows of its ladder, coarse to fine: on
 /// the straight line between two neighbours in ln error and ln seconds, each of min, q1, median, q3
-/// by itself; runs is the smaller of theirs. None outside the range of the measured errors
+/// by itself; runs is the smaller of theirs, and the step of the clock is, as a part of the time,
+/// the mean of theirs. None outside the range of the measured errors
 /// (same_error apart): nothing is extrapolated.
 ///
 /// Where the error rises along the ladder, it counts as reached only from where no finer row
@@ -53,7 +55,7 @@ struct Comparison {
     double ratio = 1.0;           ///< median of the slower / median of the faster
     double lowest = 1.0;          ///< lower quartile of the slower / upper quartile of the faster
     double highest = 1.0;         ///< upper quartile of the slower / lower quartile of the faster
-    double clock_step = 0.0;      ///< of the clock that showed them, where it counts for 1 %
+    double clock_step = 0.0;      ///< that of the two which is more of its time, from 1 % on
     bool first_is_faster = false; ///< by the medians
     /// The ratio is above 1.2 and the quartiles are disjoint; where one of the two is of one run,
     /// the ratio is above 2, as nothing says how that time scatters.

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <span>
 
 #include <sys/resource.h>
 
@@ -46,8 +48,11 @@ double processor_seconds() {
 struct Contestant {
     std::size_t scheme;
     std::size_t run;
-    double warm_up;
-    std::vector<double> seconds;
+    double warm_up = 0.0;
+    std::vector<double> seconds = {};
+    std::vector<double> shown = {}; ///< by the clock, of these runs and of those before
+    std::vector<PrintedDigits> printed = {};
+    double clock_step = 0.0;
 
     /// Of so many rounds, those that it takes part in lie evenly among them: a machine that slows
     /// down slows all alike.
@@ -59,6 +64,53 @@ struct Contestant {
     }
 };
 
+using Contestants = std::span<Contestant>;
+
+/// The greatest clock_step of contestants becomes that which all their times have in common, where
+/// it is more: of many, a tick is seen that those of one do not show. One value shows none.
+void raise_clock_steps(Contestants contestants) {
+    std::vector<double> shown;
+    double greatest = 0.0;
+    for (const auto& one : contestants) {
+        shown.insert(shown.end(), one.shown.begin(), one.shown.end());
+        greatest = std::max(greatest, one.clock_step);
+    }
+    if (std::ranges::adjacent_find(shown, std::not_equal_to()) == shown.end())
+        return;
+    if (const double step = clock_step_of(shown, greatest); step > greatest)
+        for (auto& one : contestants)
+            one.clock_step = step;
+}
+
+/// The clock_step of each becomes the unit of the last digit of its times, where they are printed:
+/// those of one scheme all alike.
+void take_printed_units(Contestants of_a_scheme) {
+    std::vector<double> shown;
+    std::vector<PrintedDigits> printed;
+    for (const auto& one : of_a_scheme) {
+        shown.insert(shown.end(), one.shown.begin(), one.shown.end());
+        printed.insert(printed.end(), one.printed.begin(), one.printed.end());
+    }
+    const auto units = printed_units(shown, printed);
+    auto unit = units.begin();
+    for (auto& one : of_a_scheme)
+        for (std::size_t i = 0; i < one.shown.size() && unit != units.end(); ++i)
+            one.clock_step = std::max(one.clock_step, *unit++);
+}
+
+/// By what they show. Schemes may be programs with clocks of their own.
+void set_clock_steps(std::vector<Contestant>& contestants) {
+    for (auto begin = contestants.begin(); begin != contestants.end();) {
+        const auto end = std::find_if(begin, contestants.end(), [&](const Contestant& other) {
+            return other.scheme != begin->scheme;
+        });
+        take_printed_units({begin, end});
+        raise_clock_steps({begin, end});
+        begin = end;
+    }
+    raise_clock_steps(contestants);
+}
+
 class Race {
 public:
     Race(const WorkPrecisionBlock& block, const RunCall& run, const Execution& execution,
@@ -67,8 +119,6 @@ public:
           one_run_above_(one_run_above) {
         run_ = [this, run](const RunTask& task) {
             RungResult result = run(task);
-            if (result.status == RungStatus::ok)
-                shown_.push_back(result.seconds);
             interrupted_ = interrupted_ || result.status == RungStatus::interrupted;
             return result;
         };
@@ -81,30 +131,44 @@ public:
             enter(k);
         for (int round = 0; round < block_.runs; ++round)
             for (auto& contestant : contestants_)
-                if (contestant.warm_up <= one_run_above_ &&
-                    contestant.takes_part(round, block_.runs))
+                if (!is_long(contestant) && contestant.takes_part(round, block_.runs))
                     time(contestant);
-        const double clock_step = clock_step_of(shown_);
+        set_clock_steps(contestants_);
         for (const auto& contestant : contestants_)
             if (result_[contestant.scheme].runs[contestant.run].status == RungStatus::ok)
-                result_[contestant.scheme].timings[contestant.run] =
-                    timing_of(contestant.seconds.empty() ? std::vector<double>{contestant.warm_up}
-                                                         : contestant.seconds,
-                              clock_step);
+                result_[contestant.scheme].timings[contestant.run] = timing(contestant);
         return std::move(result_);
     }
 
 private:
+    /// Its warm-up is the only run.
+    [[nodiscard]] bool is_long(const Contestant& contestant) const {
+        return contestant.warm_up > one_run_above_;
+    }
+
+    /// None of what was to be timed and was not, as an interruption came before.
+    [[nodiscard]] std::optional<Timing> timing(const Contestant& contestant) const {
+        const auto seconds =
+            is_long(contestant) ? std::vector{contestant.warm_up} : contestant.seconds;
+        return seconds.empty() ? std::nullopt
+                               : std::optional(timing_of(seconds, contestant.clock_step));
+    }
+
     /// A run whose time alone is wanted.
-    RungResult run_unmeasured(std::size_t scheme, std::size_t level) {
-        const Series& series = all_[scheme];
-        const Rung& rung = series.rungs[level];
-        return run_({level,
-                     rung,
-                     series.final_time,
-                     series.method,
-                     {},
-                     execution_.steps_of(series.method, rung)});
+    RungResult run_unmeasured(Contestant& contestant) {
+        const Series& series = all_[contestant.scheme];
+        const Rung& rung = series.rungs[contestant.run];
+        RungResult result = run_({contestant.run,
+                                  rung,
+                                  series.final_time,
+                                  series.method,
+                                  {},
+                                  execution_.steps_of(series.method, rung)});
+        if (result.status == RungStatus::ok) {
+            contestant.shown.push_back(result.seconds);
+            contestant.printed.push_back(result.printed_seconds);
+        }
+        return result;
     }
 
     void enter(std::size_t scheme) {
@@ -115,20 +179,22 @@ private:
             RungResult& measured = runs.runs.back();
             if (measured.status != RungStatus::ok)
                 continue;
-            const RungResult warm_up = run_unmeasured(scheme, level);
+            Contestant contestant{scheme, level};
+            const RungResult warm_up = run_unmeasured(contestant);
             if (warm_up.status != RungStatus::ok) {
                 fail(measured, warm_up);
                 continue;
             }
             measured.counters = warm_up.counters;
-            contestants_.push_back({scheme, level, warm_up.seconds, {}});
+            contestant.warm_up = warm_up.seconds;
+            contestants_.push_back(std::move(contestant));
         }
     }
 
     void time(Contestant& contestant) {
         if (contestant.warm_up < quick)
-            run_unmeasured(contestant.scheme, contestant.run);
-        const RungResult timed = run_unmeasured(contestant.scheme, contestant.run);
+            run_unmeasured(contestant);
+        const RungResult timed = run_unmeasured(contestant);
         if (timed.status == RungStatus::ok)
             contestant.seconds.push_back(timed.seconds);
         else
@@ -151,15 +217,9 @@ private:
     const Execution& execution_;
     double one_run_above_;
     bool interrupted_ = false;
-    std::vector<double> shown_; ///< by the clock, of all runs
     std::vector<SchemeRuns> result_;
     std::vector<Contestant> contestants_;
 };
-
-/// A clock of a program's own may show nothing of a short run.
-bool has_time(const std::optional<Timing>& timing) {
-    return timing && timing->min > 0.0;
-}
 
 /// Norm k along the ladder of one scheme.
 std::vector<TimedError> rows_of(const SchemeRuns& scheme, std::size_t k) {
@@ -255,13 +315,20 @@ void add_rises(std::vector<std::string>& remarks, const std::string& norm,
     }
 }
 
-/// A sentence for every row whose clock stood still.
+/// A sentence for every row whose clock stood still, in some runs or all.
 void add_standing_clocks(std::vector<std::string>& remarks, const TimedScheme& scheme,
                          const SchemeRuns& runs) {
     for (std::size_t i = 0; i < runs.runs.size(); ++i)
         if (runs.timings[i] && !has_time(runs.timings[i]))
-            remarks.push_back(scheme.name + ": the clock shows 0 s at " + text_of(scheme.rungs[i]) +
-                              "; it is too coarse for this run, which is compared with none.");
+            remarks.push_back(fmt::format(
+                "{}: the clock shows 0 s {}at {}; it is too coarse for this row, which is compared "
+                "with none.",
+                scheme.name,
+                runs.timings[i]->at_zero < runs.timings[i]->runs
+                    ? fmt::format("in {} of {} runs ", runs.timings[i]->at_zero,
+                                  runs.timings[i]->runs)
+                    : "",
+                text_of(scheme.rungs[i])));
 }
 
 } // namespace
@@ -272,6 +339,10 @@ std::vector<Series> series_of(const WorkPrecisionBlock& block) {
         all.push_back(
             {study_of(scheme), block.final_time, scheme.method, block.norms, scheme.rungs});
     return all;
+}
+
+bool has_time(const std::optional<Timing>& timing) {
+    return timing && timing->min > 0.0;
 }
 
 std::string busy_remark(double processor_seconds, double wall_clock_seconds) {

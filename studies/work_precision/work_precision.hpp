@@ -14,7 +14,7 @@ namespace tvbeam {
 struct SchemeRuns {
     /// With the errors of an untimed run, and the counters of a timed one.
     std::vector<RungResult> runs;
-    /// One a run, without error norms; none where the run failed.
+    /// One a run, without error norms; none where the run failed, or an interruption came before.
     std::vector<std::optional<Timing>> timings;
 };
 
@@ -51,6 +51,10 @@ struct WorkPrecisionResult {
 
 /// The runs that the block asks for, a series a scheme.
 std::vector<Series> series_of(const WorkPrecisionBlock& block);
+
+/// Whether a row was timed and can be compared: a clock of a program's own may show nothing of a
+/// short run.
+bool has_time(const std::optional<Timing>& timing);
 
 /// A sentence where the runs had less than nine tenths of a core: a run that is shorter than the
 /// turn that the system gives a program is then timed right, a longer one with the turns of others,

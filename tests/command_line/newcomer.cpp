@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <regex>
 #include <sstream>
@@ -156,6 +157,67 @@ BOOST_AUTO_TEST_CASE(a_sweep_gives_a_row_a_value) {
     BOOST_TEST(one.at("scene").at("beam").at("zeta") == 1);
     BOOST_TEST(std::filesystem::exists(directory.path() / "out" / "plots" / "sweep.svg"));
     BOOST_TEST(call(directory, "run sheared --set beam.zeta=1,2 --set beam.alpha=1,2").exit == 2);
+}
+
+// At α = 1e200 every run fails; the norm that a row has not got was not asked for.
+BOOST_AUTO_TEST_CASE(a_row_of_a_sweep_has_nothing_of_what_it_was_not_asked_for) {
+    const TemporaryDirectory directory;
+    const std::string run =
+        "run table1 --set ladder.printed={} --set ladder.elements=[4,8] --set "
+        "ladder.dt=[0.1,0.05] --set 'ladder.norms=[\"theta_L2L2\"],[\"u_L2H2\"]' --json " +
+        (directory.path() / "sweep.json").string();
+    const Called called = call(directory, run);
+    BOOST_TEST(called.exit == 0, called.errors);
+    BOOST_TEST(!has(called.output, "failed"), called.output);
+    const auto rows = nlohmann::json::parse(directory.read("sweep.json")).at("rows");
+    BOOST_TEST(rows.at(0).at("theta_L2L2").at("error").is_number());
+    BOOST_TEST(!rows.at(0).contains("u_L2H2"));
+    BOOST_TEST(!rows.at(1).contains("theta_L2L2"));
+    BOOST_TEST(rows.at(1).at("u_L2H2").at("error").is_number());
+    BOOST_TEST(has(call(directory, run + " --set beam.alpha=1e200").output, "failed"));
+    const auto failed = nlohmann::json::parse(directory.read("sweep.json")).at("rows");
+    BOOST_TEST(failed.at(0).at("theta_L2L2").at("error").is_null());
+    BOOST_TEST(!failed.at(0).contains("u_L2H2"));
+}
+
+// e = 1/s² after k s seconds by the program's own clock: at s = 10 0.01 after 10 k, and 0.02,
+// halfway from s = 5 in ln e, after √(5 · 10) k.
+BOOST_AUTO_TEST_CASE(a_sweep_of_times_has_those_of_the_finest_row_and_to_the_targets) {
+    const TemporaryDirectory directory;
+    const std::string scene = directory.write("race.toml", R"([solver]
+command    = ["awk", 'BEGIN { n = {elements}; print "e = " 1/(n*n); print "s = " {k}*n }']
+errors     = { e = 'e = (.*)' }
+seconds    = 's = (.*)'
+parameters = { k = 1 }
+[work_precision]
+norms   = ["e"]
+runs    = 2
+targets = { e = [0.02] }
+[[work_precision.scheme]]
+name     = 'a,"b'
+elements = [5, 10]
+)");
+    const Called called =
+        call(directory, "run " + scene + " --set solver.parameters.k=0.01,0.02 --csv - --json " +
+                            (directory.path() / "sweep.json").string());
+    BOOST_TEST(called.exit == 0, called.errors);
+    BOOST_TEST(called.output.starts_with(
+                   "solver.parameters.k,\"work_precision.a,\"\"b e\",\"work_precision.a,\"\"b "
+                   "seconds\",\"seconds to e = 0.02 a,\"\"b\"\n0.01,0.01,0.1,0.0707"),
+               called.output);
+    const auto rows = nlohmann::json::parse(directory.read("sweep.json")).at("rows");
+    BOOST_REQUIRE(rows.size() == 2U);
+    for (const auto& row : rows) {
+        const double k = row.at("value");
+        BOOST_TEST(row.at("work_precision.a,\"b").at("e") == 0.01);
+        BOOST_TEST(row.at("work_precision.a,\"b").at("seconds") == 10.0 * k);
+        BOOST_TEST(row.at("seconds to e = 0.02").at("a,\"b").get<double>() == std::sqrt(50.0) * k,
+                   boost::test_tools::tolerance(1e-12));
+    }
+    const Called shown =
+        call(directory, "run " + scene + " --set solver.parameters.k=0.01,0.02 </dev/null");
+    BOOST_TEST(has(shown.output, "1.0000e-2"), shown.output);
+    BOOST_TEST(has(shown.output, "0.2000"), shown.output);
 }
 
 // Errors alone, as in the tables of the ladder and the grid: an order of rounding is none.

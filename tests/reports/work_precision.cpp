@@ -127,7 +127,7 @@ BOOST_AUTO_TEST_CASE(what_is_not_reached_is_blank_and_said) {
     two.add("fine", {{1e-2, 1.0}, {1e-4, 8.0}});
     two.block.targets["theta_L2L2"] = {1e-4};
     const std::string text = two.text();
-    BOOST_TEST(has(text, "fine alone has rows on both sides of it\n"), text);
+    BOOST_TEST(has(text, "fine alone has a time to reach it\n"), text);
     BOOST_TEST(has(text, "coarse does not, as far as measured\n"), text);
     BOOST_TEST(has(text, "\n      1e-4        8.00\n"), text);
     BOOST_TEST(!has(text, "1e-5"), text); // reached by none, and no target
@@ -147,10 +147,35 @@ BOOST_AUTO_TEST_CASE(what_is_more_accurate_in_every_row_is_not_said_to_fall_shor
     torn.add("again", {{1e-1, 1.0}, {1e-3, 2.0}, {2e-2, 4.0}});
     torn.add("later", {{std::nullopt, 1.0}, {1e-3, 0.7}});
     torn.block.targets["theta_L2L2"] = {1e-2};
-    BOOST_TEST(has(torn.text(), "between does, but not from one row to the next: "), torn.text());
-    BOOST_TEST(has(torn.text(), "again does, but not from one row to the next: "), torn.text());
+    BOOST_TEST(has(torn.text(), "between does, but not from one row to the next: one has failed\n"),
+               torn.text());
+    BOOST_TEST(has(torn.text(), "again does, but a finer row is above it again\n"), torn.text());
     BOOST_TEST(has(torn.text(), "later has less in every row that did not fail, after 7.00e-1 s"),
                torn.text());
+}
+
+BOOST_AUTO_TEST_CASE(of_a_scheme_without_a_time_the_reason_is_the_one_there_is) {
+    Study made = study({"theta_L2L2"});
+    made.add("standing", {{1e-1, 1.0}, {1e-3, 0.0}});
+    made.add("coarse", {{1e-1, 0.0}, {1e-3, 1.0}});
+    made.add("exact", {{1e-1, 1.0}, {0.0, 2.0}});
+    made.add("quick", {{1e-3, 0.0}, {1e-4, 1.0}});
+    made.block.targets["theta_L2L2"] = {1e-2};
+    const std::string text = made.text();
+    for (const std::string name : {"standing", "coarse"})
+        BOOST_TEST(has(text, name + " does, but not from one row to the next: in one the clock "
+                                    "shows 0 s\n"),
+                   text);
+    BOOST_TEST(has(text, "exact does, but not from one row to the next: one has the error 0\n"),
+               text);
+    BOOST_TEST(has(text, "quick has less in every row\n"), text); // the quickest took who knows
+    // What was not timed, as an interruption came before, has not failed.
+    Study cut = study({"theta_L2L2"});
+    cut.add("cut", {{1e-1, 1.0}, {1e-3, 2.0}});
+    cut.block.targets["theta_L2L2"] = {1e-2};
+    cut.result.schemes[0].timings[1].reset();
+    BOOST_TEST(has(cut.text(), "cut does, but not from one row to the next: one was not timed\n"),
+               cut.text());
 }
 
 // Seven have 21 pairs, of which six are of the fastest; the first of all reaches nothing.
@@ -191,8 +216,10 @@ BOOST_AUTO_TEST_CASE(one_run_is_marked_and_has_no_quartiles) {
     const std::string text = one.text();
     BOOST_TEST(has(text, " 3.00* "), text);
     BOOST_TEST(!has(text, " 2.97 "), text);
-    BOOST_TEST(has(text, "*: of one run"), text);
+    BOOST_TEST(has(text, "*: of one run, as a run takes long\n"), text);
     BOOST_TEST(has(text, "faster than slow (of one run)"), text);
+    one.result.interrupted = true; // perhaps it was not that long
+    BOOST_TEST(has(one.text(), "*: of one run\n"), one.text());
     Study many = study({"theta_L2L2"});
     many.add("fast", {{1e-2, 0.1}, {1e-4, 0.3}});
     BOOST_TEST(!has(many.text(), "*"));

@@ -207,6 +207,30 @@ BOOST_AUTO_TEST_CASE(the_step_of_a_clock_is_the_greatest_that_divides_its_times)
     BOOST_TEST(clock_step_of({0.00333, 0.01333, 0.02}) == 1 / 300.0);
 }
 
+BOOST_AUTO_TEST_CASE(the_step_of_a_clock_is_no_less_than_the_last_digit_printed) {
+    BOOST_TEST(clock_step_of({0.1, 0.003}, 0.1) == 0.1); // 1e-01 and 3e-03
+    BOOST_TEST(clock_step_of({200.0}, 100.0) == 100.0);
+    // 0.10 is a multiple of 0.1 by chance, one in ten; so are two, one in a hundred.
+    BOOST_TEST(clock_step_of({0.1, 0.1, 0.1}, 0.01) == 0.01);
+    BOOST_TEST(clock_step_of({0.1, 0.2}, 0.01) == 0.01);
+    // 0.120000 and 0.130000 are by a clock of hundredths, but for one chance in 1e8.
+    BOOST_TEST(clock_step_of({0.12, 0.13}, 1e-6) == 0.01);
+    BOOST_TEST(clock_step_of({0.016, 0.047, 0.156}, 0.001) == 1 / 64.0);
+}
+
+// What both rows are off by in part, a time between them is off by in the same part.
+BOOST_AUTO_TEST_CASE(between_rows_a_time_is_known_as_well_as_in_them) {
+    const auto step = [](double coarse, double fine) {
+        std::vector<TimedError> rows{row(1e-2, 1.0), row(1e-4, 100.0)};
+        rows[0].timing.clock_step = coarse;
+        rows[1].timing.clock_step = fine;
+        return time_to_reach(rows, 1e-3)->clock_step; // after 10 s
+    };
+    BOOST_TEST(step(0.1, 10.0) == 1.0, tight);
+    BOOST_TEST(step(0.2, 0.0) == 1.0, tight); // 20 % and 0 %
+    BOOST_TEST(step(0.0, 0.0) == 0.0);
+}
+
 BOOST_AUTO_TEST_CASE(times_that_a_step_of_the_clock_may_have_made_are_not_distinguishable) {
     // 0.026 s and 0.024 s, to two decimals, as often as one likes.
     Timing fast = timing(0.02, 0.02, 0.02);
@@ -222,6 +246,10 @@ BOOST_AUTO_TEST_CASE(times_that_a_step_of_the_clock_may_have_made_are_not_distin
     fast = timing(0.01, 0.01, 0.01);
     fast.clock_step = 0.01;
     BOOST_TEST(compare(fast, slow).highest == std::numeric_limits<double>::infinity());
+    // Of two clocks that which tells less of its time is spoken of.
+    fast = {.q1 = 1, .median = 1, .q3 = 1, .runs = 5, .clock_step = 0.02};
+    slow = {.q1 = 100, .median = 100, .q3 = 100, .runs = 5, .clock_step = 0.5};
+    BOOST_TEST(compare(fast, slow).clock_step == 0.02);
     // A step that is small beside the times has no word.
     BOOST_TEST(compare(timing(2.0, 2.0, 2.0),
                        {.q1 = 4, .median = 4, .q3 = 4, .runs = 5, .clock_step = 0.01})

@@ -287,6 +287,71 @@ BOOST_AUTO_TEST_CASE(long_runs_are_timed_less_often_and_over_the_same_time) {
     BOOST_TEST((std::set(last.begin(), last.end()).size()) == 5U); // 3 levels and 2
 }
 
+/// Two schemes of a program that says how long it took, beside one of 3e-03 s, and what follows for
+/// their times.
+struct OwnClock {
+    std::string a, b;       ///< the seconds that it prints
+    double lowest, highest; ///< of the slower over the faster
+    bool told_apart;
+};
+
+std::ostream& operator<<(std::ostream& stream, const OwnClock& clock) {
+    return stream << clock.a << " and " << clock.b;
+}
+
+constexpr double beyond = std::numeric_limits<double>::infinity();
+
+const std::vector<OwnClock> own_clocks{
+    {"1e-01", "2e-01", 0.1 / 0.2, beyond, false},     // 0.149 s and 0.151 s, in one digit
+    {"0.01", "0.0134", 0.0133 / 0.02, beyond, false}, // 0.0149 s, by another clock
+    {"0.0134", "0.04", 0.03 / 0.0135, 0.05 / 0.0133, true},
+    {"0.10", "0.20", 0.19 / 0.11, 0.21 / 0.09, true},              // no clock of tenths
+    {"0.10000000000000001", "0.15", 0.14 / 0.1, 0.16 / 0.1, true}, // to all digits of a double
+    {"1.00e-01", "3e-01", 0.2 / 0.101, 0.4 / 0.099, true}};
+
+BOOST_DATA_TEST_CASE(a_time_is_known_to_the_last_digit_that_its_program_prints,
+                     data::make(own_clocks), clock) {
+    const auto scheme = [](const std::string& seconds) {
+        return "[[work_precision.scheme]]\nname = '" + seconds +
+               "'\nelements = [4]\nparameters = { t = '" + seconds + "' }\n";
+    };
+    const Scene scene =
+        scene_of("[solver]\ncommand = ['sh', '-c', 'echo e = 1; echo s = {t}']\n"
+                 "errors = { e = 'e = (.*)' }\nseconds = 's = (.*)'\nparameters = { t = '0' }\n"
+                 "[work_precision]\nnorms = ['e']\nruns = 3\n" +
+                 scheme(clock.a) + scheme(clock.b) + scheme("3e-03"));
+    const StudyResult result = run_study(scene);
+    const auto& costs = result.get<WorkPrecisionResult>()->norms[0];
+    const Comparison& times = at(costs, 1.0).comparisons.at(0).times;
+    BOOST_TEST(times.lowest == clock.lowest, boost::test_tools::tolerance(1e-12));
+    BOOST_TEST(times.highest == clock.highest, boost::test_tools::tolerance(1e-12));
+    BOOST_TEST(times.distinguishable == clock.told_apart);
+}
+
+// Three rows are measured and warm up, which is all that a long run does; the seventh run is the
+// first one timed.
+BOOST_AUTO_TEST_CASE(what_an_interruption_left_untimed_has_no_time_by_its_warm_up) {
+    const Scene scene =
+        scene_of(good, {"work_precision.scheme=[{elements=[4, 8, 16], dt=\"0.1/s\"}]"});
+    for (const int made : {7, 6}) {
+        int runs = 0;
+        const auto result =
+            run_work_precision(*scene.get<WorkPrecisionBlock>(), [&](const RunTask& task) {
+                RungResult run{.rung = task.rung, .seconds = task.rung.elements == 16 ? 9.0 : 0.1};
+                run.status = runs++ < made ? RungStatus::ok : RungStatus::interrupted;
+                run.errors.assign(task.measures.size(), 0.5);
+                return run;
+            });
+        const SchemeRuns& scheme = result.schemes[0];
+        BOOST_TEST(result.interrupted);
+        BOOST_TEST(scheme.timings[0].has_value() == (made == 7));
+        BOOST_TEST(!scheme.timings[1]);
+        BOOST_TEST((scheme.runs[1].status == RungStatus::ok)); // its error stands
+        BOOST_REQUIRE(scheme.timings[2]);
+        BOOST_TEST(scheme.timings[2]->median == 9.0);
+    }
+}
+
 BOOST_AUTO_TEST_CASE(a_run_that_failed_stays_with_its_reason_and_without_a_time) {
     // At α = 5 the fixed point contracts for Δt = 1e-3 (factor 25e-3/0.1), not for Δt = 1 (factor
     // 25/1.1/10.9).
@@ -378,13 +443,18 @@ BOOST_AUTO_TEST_CASE(an_error_that_rises_along_its_ladder_is_remarked) {
 }
 
 BOOST_AUTO_TEST_CASE(what_a_clock_that_stands_still_has_timed_is_compared_with_nothing) {
-    std::vector<SchemeRuns> schemes{made_up({1e-1, 1e-3, 1e-5}, 1.0), made_up({1e-1, 1e-5}, 2.0)};
-    schemes[0].timings[0] = Timing{.min = 0.0, .q1 = 0.0, .median = 0.0, .q3 = 0.0, .runs = 3};
+    std::vector<SchemeRuns> schemes{made_up({1e-1, 1e-3, 1e-5}, 1.0), made_up({1e-1, 1e-5}, 2.0),
+                                    made_up({1e-1, 1e-5}, 2.0)};
+    schemes[0].timings[0] = timing_of({0.0, 0.0, 0.0});
+    schemes[2].timings[0] = timing_of({1.0, 0.0, 1.0, 0.0, 1.0});
     const auto norms = costs_of(block_for(schemes), schemes);
     BOOST_TEST(!at(norms[0], 1e-2).times[0].has_value());
+    BOOST_TEST(!at(norms[0], 1e-2).times[2].has_value());
     BOOST_TEST(std::isfinite(at(norms[0], 1e-4).comparisons.at(0).times.ratio));
-    BOOST_REQUIRE(norms[0].remarks.size() == 1u);
+    BOOST_REQUIRE(norms[0].remarks.size() == 2u);
     BOOST_TEST(norms[0].remarks[0].starts_with("scheme 0: the clock shows 0 s at s = 10"));
+    BOOST_TEST(
+        norms[0].remarks[1].starts_with("scheme 2: the clock shows 0 s in 2 of 5 runs at s = 10"));
 }
 
 BOOST_AUTO_TEST_CASE(a_busy_machine_is_remarked) {
