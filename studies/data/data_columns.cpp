@@ -54,17 +54,18 @@ void choose_widths(const ColumnNames& names, const DataChoice& choice, DataFile&
                                               " is a width already; --dimension is for numbers of "
                                               "cells or unknowns");
         const bool counts = choice.dimension || is_count(size);
+        const std::string name = !counts ? size : sizes.size() == 1 ? "h" : "h_" + size;
         if (counts) {
             const double dimension = choice.dimension.value_or(1.0);
             use.power = -1.0 / dimension;
             data.remarks.push_back(
-                "h = " +
+                name + " = " +
                 (dimension == 1.0 ? "1/" + size : size + "^(-1/" + shortest(dimension) + ")") +
                 (choice.dimension || size == "elements"
                      ? ""
                      : ": dimension 1 was assumed; --dimension D says another"));
         }
-        data.widths.push_back({counts ? (sizes.size() == 1 ? "h" : "h_" + size) : size, {}});
+        data.widths.push_back({name, {}});
         uses.push_back(use);
     }
     const auto step =

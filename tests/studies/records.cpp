@@ -390,6 +390,11 @@ BOOST_AUTO_TEST_CASE(sizes_are_widths_or_numbers_of_things_and_what_is_assumed_i
     BOOST_TEST(plane.remarks.at(0) == "h = ndofs^(-1/2)");
     const auto line = data_of("ndofs,error\n400,1\n", {.sizes = {"ndofs"}});
     BOOST_TEST(line.remarks.at(0).find("dimension 1 was assumed") != std::string::npos);
+    // Two sizes are two widths, and each remark is of its own.
+    const auto two = data_of("nx,n,error\n4,8,1\n", {.sizes = {"nx", "n"}});
+    BOOST_REQUIRE(two.remarks.size() == 2U);
+    for (std::size_t i = 0; i < 2; ++i)
+        BOOST_TEST(two.remarks[i].starts_with(two.widths[i].name + " = 1/"), two.remarks[i]);
     BOOST_TEST(data_of("tau,error\n0.1,1\n", {.step = "tau"}).widths[0].name == "tau");
     const auto steps = data_of("nsteps,error\n8,1\n", {.step = "nsteps"});
     BOOST_TEST(steps.widths[0].name == "dt");
