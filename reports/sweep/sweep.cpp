@@ -353,6 +353,18 @@ std::optional<Sweep> sweep_in(const std::vector<std::string>& overrides) {
     return sweep;
 }
 
+void require_names_of_rows(const Sweep& sweep, const Scene& scene) {
+    const auto* ladder = scene.get<LadderBlock>();
+    if (ladder == nullptr)
+        return;
+    for (const auto& norm : ladder->norms)
+        for (const char* key : {"value", "failed"})
+            if (norm.name == key)
+                throw InputError({"--set " + sweep.key},
+                                 "the rows of a sweep have a " + norm.name +
+                                     " of their own; give the number of the solver another name");
+}
+
 std::string sweep_csv(const Sweep& sweep, const std::vector<StudyResult>& results) {
     const auto rows = rows_of(results);
     std::string text = sweep.key;
