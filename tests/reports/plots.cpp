@@ -20,6 +20,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -209,6 +210,32 @@ BOOST_AUTO_TEST_CASE(the_figure_of_a_table_has_the_order_that_is_determined) {
     BOOST_TEST(line[0][1] == 0.25, boost::test_tools::tolerance(1e-6));
     BOOST_TEST(line[1][1] == 0.015625);
     BOOST_TEST(blocks({0.5, 0.25}).count("e: its order") == 0U);
+}
+
+// Files and ids of a page are called by it: in letters, digits and _, each its own, whatever the
+// columns are called; one whose name is so already keeps it.
+BOOST_AUTO_TEST_CASE(every_figure_has_a_name_of_its_own) {
+    DataFile data;
+    data.widths = {{"h", {0.4, 0.2, 0.1}}};
+    for (const std::string name : {"C/d", "C_d", "C-d", "C_d_2", "α", "β"})
+        data.values.push_back({name, {1.16, 1.04, 1.01}});
+    StudyResult result = paper();
+    auto& norms = result.scene.get<OrdersBlock>()->norms;
+    norms[0].name = "a/b";
+    norms[1].name = "a b";
+    for (const auto& plots : {analysis_plots(analyse(data)), plots_of(result)}) {
+        std::set<std::string> names;
+        for (const auto& plot : plots) {
+            BOOST_TEST(names.insert(plot.name).second, plot.name);
+            BOOST_TEST(
+                std::ranges::all_of(
+                    plot.name, [](unsigned char c) { return std::isalnum(c) != 0 || c == '_'; }),
+                plot.name);
+        }
+    }
+    const auto plots = analysis_plots(analyse(data));
+    BOOST_REQUIRE(plots.size() == 6U);
+    BOOST_TEST((plots[1].name == "value_C_d" && plots[3].name == "value_C_d_2"));
 }
 
 // A letter is 0.62 of its font wide; 90 of the 540 pixels are samples and margins.
