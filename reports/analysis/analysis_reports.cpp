@@ -107,7 +107,7 @@ Axis width_axis(const DataColumn& width) {
     return {.title = width.name,
             .is_logarithmic = true,
             .range = range_of(width.numbers, 1.5),
-            .ticks = thinned(value_ticks(width.numbers), most_ticks)};
+            .ticks = value_ticks(width.numbers, most_ticks)};
 }
 
 Plot value_plot(const DataColumn& width, const ColumnAnalysis& column) {

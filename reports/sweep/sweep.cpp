@@ -210,7 +210,7 @@ std::vector<Plot> sweep_plots(const Sweep& sweep, const std::vector<StudyResult>
         drawing.x.range = range_of(abscissa, 1.5);
         constexpr std::size_t most_ticks = 6;
         if (abscissa.size() <= most_ticks)
-            drawing.x.ticks = thinned(value_ticks(abscissa), most_ticks);
+            drawing.x.ticks = value_ticks(abscissa, most_ticks);
     }
     drawing.y = {.title = has_errors ? "error of the finest level" : "figure",
                  .is_logarithmic = has_errors};

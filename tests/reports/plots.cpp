@@ -238,6 +238,31 @@ BOOST_AUTO_TEST_CASE(every_figure_has_a_name_of_its_own) {
     BOOST_TEST((plots[1].name == "value_C_d" && plots[3].name == "value_C_d_2"));
 }
 
+// In three digits, true to half of the last; as 1/n where that is what they are; as they are where
+// that is short.
+BOOST_AUTO_TEST_CASE(the_labels_of_widths_are_short_and_true) {
+    constexpr std::size_t most = 6;
+    const auto texts = [](const std::vector<double>& widths) {
+        std::string all;
+        for (const auto& tick : value_ticks(widths, most))
+            all += (all.empty() ? "" : " ") + tick.text;
+        return all;
+    };
+    BOOST_TEST(texts({0.25, 0.125, 0.0625}) == "0.0625 0.125 0.25");
+    BOOST_TEST(texts({1.0 / 3.0, 1.0 / 6.0, 1.0 / 12.0, 1.0}) == "1/12 1/6 1/3 1/1");
+    std::vector<double> widths;
+    for (const double unknowns : {20.0, 72.0, 272.0, 1056.0, 4160.0})
+        widths.push_back(1.0 / std::sqrt(unknowns));
+    const auto ticks = value_ticks(widths, most);
+    BOOST_TEST(ticks.size() == widths.size());
+    for (const auto& tick : ticks) {
+        BOOST_TEST(tick.text.size() <= 8U, tick.text);
+        BOOST_TEST(std::abs(number_in(tick.text) / tick.value - 1.0) <= 0.5e-2, tick.text);
+    }
+    // Where three digits are alike, as many as are not.
+    BOOST_TEST(texts({1.00011111111, 1.00022222222}) == "1.0001 1.0002");
+}
+
 // A letter is 0.62 of its font wide; 90 of the 540 pixels are samples and margins.
 BOOST_AUTO_TEST_CASE(a_legend_s_letters_are_as_large_as_its_longest_line_allows) {
     const auto font_of = [](std::size_t letters) {
