@@ -128,6 +128,7 @@ Plot value_plot(const DataColumn& width, const ColumnAnalysis& column) {
     drawing.add_curve({.block = drawing.add_block(column.name, points_of(width, column))},
                       look_of(series_style(0)), column.name);
     drawing.x = width_axis(width);
+    drawing.y.title = column.name;
     return {"value_" + column.name, column.name + " against " + width.name + ", with its limit.",
             drawing};
 }
