@@ -107,7 +107,7 @@ Axis width_axis(const DataColumn& width) {
     return {.title = width.name,
             .is_logarithmic = true,
             .range = range_of(width.numbers, 1.5),
-            .ticks = thinned(value_ticks(width.numbers), most_ticks)};
+            .ticks = value_ticks(width.numbers, most_ticks)};
 }
 
 Plot value_plot(const DataColumn& width, const ColumnAnalysis& column) {
@@ -128,10 +128,9 @@ Plot value_plot(const DataColumn& width, const ColumnAnalysis& column) {
     drawing.add_curve({.block = drawing.add_block(column.name, points_of(width, column))},
                       look_of(series_style(0)), column.name);
     drawing.x = width_axis(width);
-    std::string name = "value_";
-    for (const char c : column.name)
-        name += std::isalnum(static_cast<unsigned char>(c)) != 0 ? c : '_';
-    return {name, column.name + " against " + width.name + ", with its limit.", drawing};
+    drawing.y.title = column.name;
+    return {"value_" + column.name, column.name + " against " + width.name + ", with its limit.",
+            drawing};
 }
 
 } // namespace
@@ -216,14 +215,14 @@ std::vector<Plot> analysis_plots(const DataAnalysis& analysis) {
         add_order_line(width, column, column.by_width[along], style, drawing);
     }
     if (errors.empty())
-        return plots;
+        return with_file_names(std::move(plots));
     drawing.x = width_axis(width);
     drawing.y = {.title = "error", .is_logarithmic = true, .range = range_of(errors, 2.0)};
     plots.insert(plots.begin(), {"convergence",
                                  "Errors against " + width.name +
                                      ", on logarithmic axes; lines: orders that are determined.",
                                  drawing});
-    return plots;
+    return with_file_names(std::move(plots));
 }
 
 Reported reported(const DataAnalysis& analysis) {

@@ -308,11 +308,11 @@ private:
     void set_axes(const LogAxes& axes) {
         constexpr std::size_t most_ticks = 6;
         constexpr double many_decades = 5.0;
-        const auto ticks = widths_.in_time ? value_ticks(widths_.dt) : width_ticks(widths_.h);
         drawing_.x = {.title = widths_.axis_title(),
                       .is_logarithmic = true,
                       .range = {{std::pow(10.0, axes.left), std::pow(10.0, axes.right)}},
-                      .ticks = thinned(ticks, most_ticks)};
+                      .ticks = widths_.in_time ? value_ticks(widths_.dt, most_ticks)
+                                               : width_ticks(widths_.h, most_ticks)};
         drawing_.y = {.title = squares() ? "squared error" : "error",
                       .is_logarithmic = true,
                       .range = {{std::pow(10.0, axes.low), std::pow(10.0, axes.high)}},

@@ -64,6 +64,7 @@ struct Axis {
     /// Absent: as the data asks for, on a logarithmic axis at powers of ten.
     std::optional<std::vector<Tick>> ticks = {};
     bool are_minor_ticks_left_out = false;
+    double origin = 0.0; ///< taken off the data's numbers where they are drawn
 };
 
 /// Text in the middle of a place.

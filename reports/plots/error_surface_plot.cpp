@@ -126,11 +126,11 @@ public:
         drawing_.x = {.title = "mesh width h",
                       .is_logarithmic = true,
                       .range = {{box_.least.h, box_.greatest.h}},
-                      .ticks = thinned(width_ticks(box_.h), most_ticks)};
+                      .ticks = width_ticks(box_.h, most_ticks)};
         drawing_.y = {.title = "time step Δt",
                       .is_logarithmic = true,
                       .range = {{box_.least.dt, box_.greatest.dt}},
-                      .ticks = thinned(value_ticks(box_.dt), most_ticks)};
+                      .ticks = value_ticks(box_.dt, most_ticks)};
         drawing_.is_framed = true;
         return {"error_surface_" + norm_.name, caption(modelled), drawing_};
     }

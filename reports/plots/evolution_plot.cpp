@@ -5,8 +5,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cctype>
 #include <cmath>
 
 namespace tvbeam {
@@ -24,13 +22,6 @@ std::string quantity_words(const NamedProbe& named) {
     default:
         return "energy";
     }
-}
-
-/// The name of a probe in letters, digits and _, which gnuplot takes in names.
-std::string file_part(std::string name) {
-    std::replace_if(
-        name.begin(), name.end(), [](unsigned char c) { return std::isalnum(c) == 0; }, '_');
-    return name;
 }
 
 /// What part of the time a figure shows; all of it, or the last two periods.
@@ -81,7 +72,7 @@ Plot plot_of(const EvolutionResult& result, const Scene& scene, std::size_t k,
     const std::string words = quantity_words(named);
     drawing.x = {.title = "time", .range = {{window.begin, window.end}}};
     drawing.y = {.title = words, .room = 0.05};
-    return {"evolution_" + file_part(named.name) + window.name,
+    return {"evolution_" + named.name + window.name,
             fmt::format("Evolution in time: {}{}.", words, window.words), drawing};
 }
 

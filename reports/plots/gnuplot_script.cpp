@@ -1,5 +1,6 @@
 #include "reports/plots/gnuplot_script.hpp"
 
+#include "reports/plots/readable_axes.hpp"
 #include "reports/plots/readable_legend.hpp"
 
 #include <fmt/format.h>
@@ -35,15 +36,25 @@ std::size_t length_of(const std::string& text) {
     }));
 }
 
-std::string source_of(const CurveData& data) {
+std::string column_text(int column, double origin) {
+    return origin == 0.0 ? fmt::format("{}", column) : fmt::format("(${}-({}))", column, origin);
+}
+
+std::string source_of(const Drawing& drawing, const Curve& curve) {
+    const CurveData& data = curve.data;
     if (data.height)
         return fmt::format("{}", *data.height);
     if (!data.block)
         return "NaN";
-    std::string columns = fmt::format("{}:{}", data.x, data.y);
+    std::string columns =
+        column_text(data.x, drawing.x.origin) + ":" + column_text(data.y, drawing.y.origin);
+    using Kind = CurveLook::Kind;
+    const double origin = curve.look.kind == Kind::band   ? drawing.y.origin
+                          : curve.look.kind == Kind::bars ? drawing.x.origin
+                                                          : 0.0;
     for (const int more : {data.third, data.fourth})
         if (more > 0)
-            columns += fmt::format(":{}", more);
+            columns += ":" + column_text(more, origin);
     return fmt::format("data index {} using {}", *data.block, columns);
 }
 
@@ -74,7 +85,7 @@ std::string curves_text(const Drawing& drawing) {
     std::string text;
     for (const auto& curve : drawing.curves())
         text += fmt::format("{}{} with {} {}", text.empty() ? "" : ", \\\n     ",
-                            source_of(curve.data), style_of(curve.look),
+                            source_of(drawing, curve), style_of(curve.look),
                             curve.title ? "title " + gnuplot_title(*curve.title) : "notitle");
     return text;
 }
@@ -117,9 +128,6 @@ std::string label_text(const PlotLabel& label) {
 std::string settings_text(const Drawing& drawing) {
     std::string text = axis_text('x', drawing.x, drawing.has_fixed_axes()) +
                        axis_text('y', drawing.y, drawing.has_fixed_axes());
-    if (drawing.x.room > 0.0 || drawing.y.room > 0.0)
-        text += fmt::format("set offsets graph {0}, graph {0}, graph {1}, graph {1}\n",
-                            drawing.x.room, drawing.y.room);
     if (drawing.is_framed)
         text += "set clip two\nset border 15\nunset grid\n";
     if (!drawing.backdrop.empty())
@@ -147,7 +155,7 @@ std::string settings_text(const Drawing& drawing) {
 } // namespace
 
 std::string gnuplot_script(const Drawing& given, const std::string& name) {
-    const Drawing drawing = with_readable_legend(given);
+    const Drawing drawing = with_readable_axes(with_readable_legend(given));
     std::size_t legend = 0;
     std::size_t longest = 0;
     for (const auto& curve : drawing.curves())

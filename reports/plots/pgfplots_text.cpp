@@ -2,6 +2,7 @@
 
 #include "reports/document/visible_text.hpp"
 #include "reports/formats/latex_report.hpp"
+#include "reports/plots/readable_axes.hpp"
 #include "reports/plots/readable_legend.hpp"
 #include "studies/text/number_text.hpp"
 
@@ -10,9 +11,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <iterator>
-#include <limits>
-#include <sstream>
 
 namespace tvbeam {
 
@@ -117,30 +115,6 @@ std::string look_text(const CurveLook& look) {
     }
 }
 
-using Row = std::vector<std::string>;
-
-const std::string& field_of(const Row& row, int column) {
-    return row.at(static_cast<std::size_t>(column - 1));
-}
-
-double number_of(const Row& row, int column) {
-    return number_in(field_of(row, column));
-}
-
-/// The rows of a block in which the columns of a curve are finite.
-std::vector<Row> rows_of(const Drawing& drawing, const CurveData& data) {
-    std::vector<Row> rows;
-    std::istringstream lines(drawing.blocks()[*data.block].rows);
-    for (std::string line; std::getline(lines, line);) {
-        std::istringstream words(line);
-        Row row{std::istream_iterator<std::string>(words), {}};
-        if (!row.empty() && std::isfinite(number_of(row, data.x)) &&
-            std::isfinite(number_of(row, data.y)))
-            rows.push_back(std::move(row));
-    }
-    return rows;
-}
-
 /// Of a long line the least and the greatest of each stretch: TeX's memory ends at some 20 000
 /// points, and a column is no wider than half of these are dots.
 std::vector<Row> drawn_rows(std::vector<Row> rows, const Curve& curve) {
@@ -172,6 +146,12 @@ std::string bar_text(const Row& row, const CurveData& data) {
                        x - number_of(row, data.third));
 }
 
+/// As it stands in the data, less what is taken off.
+std::string coordinate(const Row& row, int column, const Axis& axis) {
+    return axis.origin == 0.0 ? field_of(row, column)
+                              : fmt::format("{}", number_of(row, column) - axis.origin);
+}
+
 std::string coordinates_of(const Drawing& drawing, const Curve& curve) {
     const auto all = rows_of(drawing, curve.data);
     auto rows = drawn_rows(all, curve);
@@ -180,8 +160,12 @@ std::string coordinates_of(const Drawing& drawing, const Curve& curve) {
     if (rows.size() < all.size())
         text += fmt::format("    % of {} points, the least and the greatest of each stretch\n",
                             all.size());
+    const auto point = [&drawing](const Row& row, int across, int up) {
+        return "    (" + coordinate(row, across, drawing.x) + "," + coordinate(row, up, drawing.y) +
+               ")";
+    };
     for (const auto& row : rows) {
-        text += "    (" + field_of(row, x) + "," + field_of(row, y) + ")";
+        text += point(row, x, y);
         if (curve.look.kind == CurveLook::Kind::shades)
             text += " [" + field_of(row, third) + "]";
         if (curve.look.kind == CurveLook::Kind::bars)
@@ -192,7 +176,7 @@ std::string coordinates_of(const Drawing& drawing, const Curve& curve) {
     if (curve.look.kind == CurveLook::Kind::band) {
         std::reverse(rows.begin(), rows.end());
         for (const auto& row : rows)
-            text += "    (" + field_of(row, x) + "," + field_of(row, third) + ")\n";
+            text += point(row, x, third) + "\n";
     }
     return text;
 }
@@ -204,32 +188,8 @@ std::string comment_text(const std::string& text) {
     return line;
 }
 
-/// From the least to the greatest, of an axis: as it is given, or of the data that it can show;
-/// turned round where there are none.
-using AxisRange = std::pair<double, double>;
-
-AxisRange axis_range(const Drawing& drawing, bool is_x) {
-    const Axis& axis = is_x ? drawing.x : drawing.y;
-    if (axis.range)
-        return *axis.range;
-    AxisRange range{std::numeric_limits<double>::infinity(),
-                    -std::numeric_limits<double>::infinity()};
-    const auto add = [&](double number) {
-        if (std::isfinite(number) && (!axis.is_logarithmic || number > 0.0))
-            range = {std::min(range.first, number), std::max(range.second, number)};
-    };
-    for (const auto& curve : drawing.curves()) {
-        if (curve.data.height && !is_x)
-            add(*curve.data.height);
-        if (!curve.data.block)
-            continue;
-        for (const auto& row : rows_of(drawing, curve.data))
-            add(number_of(row, is_x ? curve.data.x : curve.data.y));
-    }
-    return range;
-}
-
-/// On a logarithmic axis: powers of ten; where it holds fewer than two, also 2 and 5 times those.
+/// On a logarithmic axis: powers of ten; where it holds fewer than two, also 2 and 5 times those,
+/// or numbers evenly apart.
 std::vector<Tick> ticks_within(const AxisRange& range) {
     constexpr std::size_t most = 7;
     std::vector<Tick> powers;
@@ -246,7 +206,9 @@ std::vector<Tick> ticks_within(const AxisRange& range) {
             if (times == 1)
                 powers.push_back({value, "", power});
         }
-    return powers.size() > 1 ? thinned(powers, most) : more;
+    if (powers.size() > 1)
+        return thinned(powers, most);
+    return more.empty() ? linear_ticks(range) : more;
 }
 
 /// Of a number: 10^-3 rather than 1 x 10^-3, which is wider than what gnuplot writes.
@@ -261,8 +223,6 @@ std::string axis_text(char name, const Axis& axis, const AxisRange& range) {
         fmt::format("    {}mode={},\n", name, axis.is_logarithmic ? "log" : "normal");
     if (axis.range)
         text += fmt::format("    {0}min={1}, {0}max={2},\n", name, range.first, range.second);
-    else if (axis.room > 0.0)
-        text += fmt::format("    enlarge {} limits={},\n", name, axis.room);
     const auto ticks = axis.ticks            ? *axis.ticks
                        : axis.is_logarithmic ? ticks_within(range)
                                              : std::vector<Tick>();
@@ -277,14 +237,6 @@ std::string axis_text(char name, const Axis& axis, const AxisRange& range) {
     if (!ticks.empty())
         text +=
             fmt::format("    {0}tick={{{1}}},\n    {0}ticklabels={{{2}}},\n", name, places, labels);
-    constexpr double rough = 0.02;
-    constexpr double large = 1e4;
-    // 0.08, not 8 x 10^-2, where four digits behind the point say it.
-    if (ticks.empty() && range.second - range.first > rough && range.second < large &&
-        range.first > -large)
-        text += fmt::format("    scaled {0} ticks=false,\n    {0}ticklabel style={{/pgf/number "
-                            "format/fixed, /pgf/number format/precision=4}},\n",
-                            name);
     if (!axis.title.empty())
         text += fmt::format("    {}label={{{}}},\n", name, latex_text(axis.title));
     return text;
@@ -352,7 +304,7 @@ std::string options_text(const Drawing& drawing, const AxisRange& across, const 
 } // namespace
 
 std::string pgfplots_text(const Plot& plot) {
-    const Drawing drawing = with_readable_legend(plot.drawing);
+    const Drawing drawing = with_readable_axes(with_readable_legend(plot.drawing));
     const AxisRange across = axis_range(drawing, true);
     std::string text =
         fmt::format("% {0}.tex draws a figure in LaTeX: \\input{{{0}}}, where the preamble has\n"

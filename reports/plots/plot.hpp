@@ -15,6 +15,10 @@ struct Plot {
     Drawing drawing;
 };
 
+/// The same, each with a name of its own in letters, digits and _, which gnuplot, file systems and
+/// the ids of a page take; one whose name is of these already keeps it.
+std::vector<Plot> with_file_names(std::vector<Plot> plots);
+
 /// Every figure that a result has; each kind is a function in a file of its own.
 std::vector<Plot> plots_of(const StudyResult& result);
 

@@ -21,6 +21,52 @@ std::vector<double> sorted(std::vector<double> values) {
     return values;
 }
 
+std::vector<std::string> fractions(const std::vector<double>& values) {
+    std::vector<std::string> texts;
+    for (const double value : values)
+        texts.push_back(fmt::format("1/{}", std::llround(1.0 / value)));
+    return texts;
+}
+
+bool is_fraction(double value) {
+    const double of = std::round(1.0 / value);
+    return of >= 1.0 && of < 1e6 && std::abs(of * value - 1.0) < 1e-12;
+}
+
+/// Of ascending ones: as they are, where all are short; as fractions; or else in three digits, or
+/// as many as tell them apart.
+std::vector<std::string> short_texts(const std::vector<double>& values) {
+    constexpr std::size_t longest = 8;
+    const auto whole = alike(values);
+    if (std::ranges::all_of(whole, [](const auto& text) { return text.size() <= longest; }))
+        return whole;
+    if (std::ranges::all_of(values, is_fraction))
+        return fractions(values);
+    for (int decimals = 2;; ++decimals) {
+        std::vector<double> rounded;
+        for (const double value : values)
+            rounded.push_back(number_in(fmt::format("{:.{}e}", value, decimals)));
+        constexpr int most = 16;
+        if (decimals == most || std::ranges::adjacent_find(rounded) == rounded.end())
+            return alike(rounded);
+    }
+}
+
+std::vector<Tick> labelled(std::vector<double> values, std::size_t most,
+                           std::vector<std::string> (*texts_of)(const std::vector<double>&)) {
+    std::vector<Tick> ticks;
+    for (const double value : sorted(std::move(values)))
+        ticks.push_back({value, ""});
+    ticks = thinned(ticks, most);
+    std::vector<double> places;
+    for (const auto& tick : ticks)
+        places.push_back(tick.value);
+    const auto texts = texts_of(places);
+    for (std::size_t i = 0; i < ticks.size(); ++i)
+        ticks[i].text = texts[i];
+    return ticks;
+}
+
 } // namespace
 
 SeriesStyle series_style(std::size_t series) {
@@ -67,20 +113,12 @@ std::vector<Tick> thinned(const std::vector<Tick>& ticks, std::size_t most) {
     return left;
 }
 
-std::vector<Tick> width_ticks(std::vector<double> widths) {
-    std::vector<Tick> ticks;
-    for (const double h : sorted(std::move(widths)))
-        ticks.push_back({h, fmt::format("1/{}", std::llround(1.0 / h))});
-    return ticks;
+std::vector<Tick> width_ticks(std::vector<double> widths, std::size_t most) {
+    return labelled(std::move(widths), most, fractions);
 }
 
-std::vector<Tick> value_ticks(std::vector<double> values) {
-    std::vector<Tick> ticks;
-    const auto all = sorted(std::move(values));
-    const auto texts = alike(all);
-    for (std::size_t i = 0; i < all.size(); ++i)
-        ticks.push_back({all[i], texts[i]});
-    return ticks;
+std::vector<Tick> value_ticks(std::vector<double> values, std::size_t most) {
+    return labelled(std::move(values), most, short_texts);
 }
 
 std::pair<double, double> range_of(const std::vector<double>& values, double room) {

@@ -34,9 +34,10 @@ struct Tick {
 /// Of positive ones, in their order, at most `most`, none close to another on a logarithmic axis.
 std::vector<Tick> thinned(const std::vector<Tick>& ticks, std::size_t most);
 
-/// Ticks at mesh widths 1/s, as fractions; and at other values, as short numbers.
-std::vector<Tick> width_ticks(std::vector<double> widths);
-std::vector<Tick> value_ticks(std::vector<double> values);
+/// Ticks at mesh widths 1/s, as fractions; and at other positive values, as numbers or fractions
+/// that are short and, to the digits shown, true. Thinned to at most so many.
+std::vector<Tick> width_ticks(std::vector<double> widths, std::size_t most);
+std::vector<Tick> value_ticks(std::vector<double> values, std::size_t most);
 
 /// All values, and a factor's room on both sides.
 std::pair<double, double> range_of(const std::vector<double>& values, double room);

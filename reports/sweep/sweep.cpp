@@ -243,7 +243,7 @@ std::vector<Plot> sweep_plots(const Sweep& sweep, const std::vector<StudyResult>
         drawing.x.range = range_of(abscissa, 1.5);
         constexpr std::size_t most_ticks = 6;
         if (abscissa.size() <= most_ticks)
-            drawing.x.ticks = thinned(value_ticks(abscissa), most_ticks);
+            drawing.x.ticks = value_ticks(abscissa, most_ticks);
     }
     drawing.y = {.title = has_errors ? "error of the finest level" : "figure",
                  .is_logarithmic = has_errors};
@@ -389,6 +389,18 @@ std::optional<Sweep> sweep_in(const std::vector<std::string>& overrides) {
     if (sweep)
         sweep->others = std::move(others);
     return sweep;
+}
+
+void require_names_of_rows(const Sweep& sweep, const Scene& scene) {
+    const auto* ladder = scene.get<LadderBlock>();
+    if (ladder == nullptr)
+        return;
+    for (const auto& norm : ladder->norms)
+        for (const char* key : {"value", "failed"})
+            if (norm.name == key)
+                throw InputError({"--set " + sweep.key},
+                                 "the rows of a sweep have a " + norm.name +
+                                     " of their own; give the number of the solver another name");
 }
 
 std::string sweep_csv(const Sweep& sweep, const std::vector<StudyResult>& results) {

@@ -26,6 +26,10 @@ struct Sweep {
 /// there are two.
 std::optional<Sweep> sweep_in(const std::vector<std::string>& overrides);
 
+/// Throws InputError where a norm of the scene's ladder is called as rows of the sweep's JSON call
+/// what is their own.
+void require_names_of_rows(const Sweep& sweep, const Scene& scene);
+
 /// One table of all: a row a value, with the error of the finest level and its observed order for
 /// each norm of a ladder, p and q of each of [orders], of each scheme of [work_precision] the
 /// finest row and the times to its targets, and every figure of other studies; and a picture of the

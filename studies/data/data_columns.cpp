@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
+#include <set>
 #include <tuple>
 
 namespace tvbeam {
@@ -54,17 +55,18 @@ void choose_widths(const ColumnNames& names, const DataChoice& choice, DataFile&
                                               " is a width already; --dimension is for numbers of "
                                               "cells or unknowns");
         const bool counts = choice.dimension || is_count(size);
+        const std::string name = !counts ? size : sizes.size() == 1 ? "h" : "h_" + size;
         if (counts) {
             const double dimension = choice.dimension.value_or(1.0);
             use.power = -1.0 / dimension;
             data.remarks.push_back(
-                "h = " +
+                name + " = " +
                 (dimension == 1.0 ? "1/" + size : size + "^(-1/" + shortest(dimension) + ")") +
                 (choice.dimension || size == "elements"
                      ? ""
                      : ": dimension 1 was assumed; --dimension D says another"));
         }
-        data.widths.push_back({counts ? (sizes.size() == 1 ? "h" : "h_" + size) : size, {}});
+        data.widths.push_back({name, {}});
         uses.push_back(use);
     }
     const auto step =
@@ -135,6 +137,31 @@ void require_one_meaning_each(const ColumnNames& names, const std::vector<Column
                                                   "error, a value or a deviation, once");
 }
 
+/// In what is written of a result each width and each figure has a column by its name, beside an
+/// error those of its orders and verdicts; rows of JSON have keys by the names of widths.
+void require_one_column_each(const ColumnNames& names, const DataFile& data) {
+    std::set<std::string> columns;
+    const auto add = [&](const std::string& column) {
+        if (!columns.insert(column).second)
+            throw InputError(names.place, "two columns of the result would be called " + column +
+                                              "; give one of them another name, or analyse its "
+                                              "column by itself");
+    };
+    for (const auto& width : data.widths) {
+        for (const char* key : {"value", "error", "order", "verdict", "reason"})
+            if (width.name == key)
+                throw InputError(names.place, "a width cannot be called " + width.name +
+                                                  ", as rows of the result have one of their own; "
+                                                  "give the column another name");
+        add(width.name);
+    }
+    for (const auto& error : data.errors)
+        for (const char* ending : {"", "_order", "_verdict"})
+            add(error.name + ending);
+    for (const auto& value : data.values)
+        add(value.name);
+}
+
 /// Whether an error is less where the number is the greatest than where it is the least, of the
 /// rows that have one.
 bool falls_with(const DataColumn& errors, const std::vector<double>& numbers) {
@@ -181,6 +208,7 @@ std::vector<ColumnUse> choose_columns(const ColumnNames& names, const DataChoice
     choose_widths(names, choice, data, uses);
     choose_figures(names, choice, data, uses);
     require_one_meaning_each(names, uses);
+    require_one_column_each(names, data);
     return uses;
 }
 

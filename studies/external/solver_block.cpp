@@ -26,10 +26,6 @@ constexpr std::uintmax_t largest_template = std::uintmax_t{16} << 20U;
 constexpr std::array<const char*, 6> own_placeholders{"elements", "h",          "dt",
                                                       "steps",    "final_time", "level"};
 
-/// Columns that tables of runs have besides the numbers of the solver.
-constexpr std::array<const char*, 8> own_columns{"scheme", "elements", "h",       "dt",
-                                                 "steps",  "status",   "seconds", "reason"};
-
 bool is_name(const std::string& text) {
     return !text.empty() && !is_digit(text.front()) &&
            std::all_of(text.begin(), text.end(),
@@ -129,10 +125,8 @@ FigureSource read_source(TableReader& table, const std::string& key) {
                              "'" + name +
                                  "' is no name for a number; it must be of letters, "
                                  "digits and _, no digit first");
-        if (std::ranges::find(own_columns, name) != own_columns.end())
-            throw InputError(patterns->place_of_key(name), "tables have a column " + name +
-                                                               " of their own; give the number "
-                                                               "another name");
+        if (const auto taken = column_of_tables(name, {}))
+            throw InputError(patterns->place_of_key(name), *taken);
         source.patterns.emplace_back(name, *patterns->text(name), patterns->place(name));
     }
     if (source.patterns.empty())
@@ -140,17 +134,12 @@ FigureSource read_source(TableReader& table, const std::string& key) {
     return source;
 }
 
-/// Tables have the orders of a number beside it.
-void require_other_columns(TableReader& table, const SolverBlock& solver) {
-    for (const auto& [key, own] : {std::pair("errors", &solver.errors), {"values", &solver.values}})
-        for (const FigureSource* others : {&solver.errors, &solver.values})
-            for (const auto& one : own->patterns)
-                for (const auto& other : others->patterns)
-                    if (one.name == other.name + "_order")
-                        throw table.error(key, fmt::format(" name {0}, and tables have a column "
-                                                           "{0} with the orders of {1}; give the "
-                                                           "number another name",
-                                                           one.name, other.name));
+/// Tables have the orders of a number beside it, and what is predicted of it.
+void require_other_columns(TableReader& table, const std::vector<Measure>& measures) {
+    for (const auto& measure : measures)
+        if (const auto taken = column_of_tables(measure.name, measures))
+            throw table.error(measure.is_value ? "values" : "errors",
+                              " name " + measure.name + ", and " + *taken);
 }
 
 Parameters read_parameters(TableReader& table, const Parameters* known) {
@@ -264,7 +253,7 @@ SolverBlock read_solver(TableReader table, const std::filesystem::path& folder, 
     solver.files = read_files(table, folder);
     solver.errors = read_source(table, "errors");
     solver.values = read_source(table, "values");
-    require_other_columns(table, solver);
+    require_other_columns(table, solver_keys(solver).measures);
     for (const auto& pattern : solver.values.patterns)
         if (solver.errors.pattern(pattern.name) != nullptr)
             throw table.error("values", " has " + pattern.name +

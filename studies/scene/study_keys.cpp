@@ -10,6 +10,8 @@
 #include <cmath>
 #include <iterator>
 #include <set>
+#include <string_view>
+#include <utility>
 
 namespace tvbeam {
 
@@ -79,9 +81,35 @@ void add_measures(TableReader& table, const std::string& key, bool is_value, con
             throw table.error(key, " names '" + names[i] + "' twice; remove one", i);
         measures.push_back(known ? *measure : Measure{.name = names[i], .is_value = is_value});
     }
+    for (const auto& measure : measures)
+        if (const auto taken = any ? column_of_tables(measure.name, measures) : std::nullopt)
+            throw InputError(table.place(key), *taken);
 }
 
 } // namespace
+
+std::optional<std::string> column_of_tables(const std::string& name,
+                                            const std::vector<Measure>& others) {
+    for (const char* column :
+         {"scheme", "elements", "h", "dt", "steps", "status", "seconds", "reason", "seconds_min",
+          "seconds_q1", "seconds_median", "seconds_q3", "runs", "node_steps", "heat_solves",
+          "fixed_point_iterations"})
+        if (name == column)
+            return "tables have a column " + name + " of their own; give the number another name";
+    for (const auto& [ending, words] : {std::pair("_order", "orders"),
+                                        {"_printed", "published figures"},
+                                        {"_predicted", "predictions"},
+                                        {"_predicted_low", "predictions"},
+                                        {"_predicted_high", "predictions"}}) {
+        if (!name.ends_with(ending))
+            continue;
+        const std::string of = name.substr(0, name.size() - std::string_view(ending).size());
+        if (named(others, of) != nullptr)
+            return "tables have a column " + name + " with the " + words + " of " + of +
+                   "; give the number another name";
+    }
+    return std::nullopt;
+}
 
 double read_final_time(TableReader& table, const SolverKeys& keys) {
     const auto final_time = table.number("final_time");

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,10 @@ struct SolverKeys {
     /// scene's own.
     std::function<Method(TableReader&)> read_method;
 };
+
+/// Why a number of a solver cannot have this name beside others: tables have such a column already.
+std::optional<std::string> column_of_tables(const std::string& name,
+                                            const std::vector<Measure>& others);
 
 /// What a run may have.
 inline constexpr std::int64_t most_elements = 10'000'000;

@@ -457,6 +457,29 @@ dt       = "1/s"
     BOOST_TEST(commas[2] == commas[0], lines[2]);
 }
 
+// The rows of a sweep's JSON have a value, and where a run failed why: numbers by these names would
+// stand in their places.
+BOOST_AUTO_TEST_CASE(a_number_called_as_a_row_of_a_sweep_calls_its_own_cannot_be_swept) {
+    const TemporaryDirectory directory;
+    for (const std::string name : {"value", "failed"}) {
+        const std::string run = "run " + directory.write("s.toml", R"(
+[solver]
+command    = ["awk", "BEGIN { print {k}/{elements}^2 }"]
+parameters = { k = 1 }
+errors     = { )" + name + R"( = '(\S+)' }
+[ladder]
+elements = [4, 8]
+norms    = [")" + name + R"("]
+)");
+        BOOST_TEST(call(directory, run).exit == 0);
+        const Called swept = call(directory, run + " --set solver.parameters.k=1,2 --json -");
+        BOOST_TEST(swept.exit == 2);
+        BOOST_TEST(has(swept.errors, "--set solver.parameters.k"), swept.errors);
+        BOOST_TEST(has(swept.errors, "of a sweep have a " + name + " of their own"), swept.errors);
+        BOOST_TEST(swept.output.empty(), swept.output);
+    }
+}
+
 BOOST_AUTO_TEST_CASE(a_work_precision_study_has_json_csv_and_a_baseline_of_its_errors) {
     const TemporaryDirectory directory;
     const std::string scene =

@@ -94,6 +94,18 @@ BOOST_AUTO_TEST_CASE(what_a_logarithmic_axis_cannot_show_takes_no_part_in_its_ti
     BOOST_TEST(text_of("0 0\n").find("tick={") == std::string::npos);
 }
 
+// Between 2 and 5 there is no power of ten, nor 2 or 5 times one; LaTeX would write 10^0.48 at
+// several.
+BOOST_AUTO_TEST_CASE(a_logarithmic_axis_without_a_power_of_ten_has_labels_evenly_apart) {
+    Drawing drawing;
+    drawing.y.is_logarithmic = true;
+    drawing.add_curve({.block = drawing.add_block("h, error", "0.1 2.98\n0.05 3.02\n")}, {}, "a");
+    const std::string text = pgfplots_text({"narrow", "", drawing});
+    BOOST_TEST(text.find("ytick={2.98,2.99,3,3.01,3.02},") != std::string::npos, text);
+    BOOST_TEST(text.find("yticklabels={{2.98},{2.99},{3},{3.01},{3.02}},") != std::string::npos,
+               text);
+}
+
 // What TeX has no room for is thinned; what stands out is kept.
 BOOST_AUTO_TEST_CASE(a_long_line_keeps_its_ends_and_its_extremes) {
     std::string rows;

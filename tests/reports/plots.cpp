@@ -4,6 +4,7 @@
 #include "reports/analysis/analysis_reports.hpp"
 #include "reports/formats/html_report.hpp"
 #include "reports/plots/gnuplot_script.hpp"
+#include "reports/plots/pgfplots_text.hpp"
 #include "reports/plots/plot.hpp"
 #include "reports/plots/plot_style.hpp"
 #include "reports/sweep/sweep.hpp"
@@ -20,9 +21,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <limits>
 #include <map>
+#include <regex>
 #include <set>
 #include <sstream>
 #include <tuple>
@@ -209,6 +212,117 @@ BOOST_AUTO_TEST_CASE(the_figure_of_a_table_has_the_order_that_is_determined) {
     BOOST_TEST(line[0][1] == 0.25, boost::test_tools::tolerance(1e-6));
     BOOST_TEST(line[1][1] == 0.015625);
     BOOST_TEST(blocks({0.5, 0.25}).count("e: its order") == 0U);
+}
+
+// Files and ids of a page are called by it: in letters, digits and _, each its own, whatever the
+// columns are called; one whose name is so already keeps it.
+BOOST_AUTO_TEST_CASE(every_figure_has_a_name_of_its_own) {
+    DataFile data;
+    data.widths = {{"h", {0.4, 0.2, 0.1}}};
+    for (const std::string name : {"C/d", "C_d", "C-d", "C_d_2", "α", "β"})
+        data.values.push_back({name, {1.16, 1.04, 1.01}});
+    StudyResult result = paper();
+    auto& norms = result.scene.get<OrdersBlock>()->norms;
+    norms[0].name = "a/b";
+    norms[1].name = "a b";
+    for (const auto& plots : {analysis_plots(analyse(data)), plots_of(result)}) {
+        std::set<std::string> names;
+        for (const auto& plot : plots) {
+            BOOST_TEST(names.insert(plot.name).second, plot.name);
+            BOOST_TEST(
+                std::ranges::all_of(
+                    plot.name, [](unsigned char c) { return std::isalnum(c) != 0 || c == '_'; }),
+                plot.name);
+        }
+    }
+    const auto plots = analysis_plots(analyse(data));
+    BOOST_REQUIRE(plots.size() == 6U);
+    BOOST_TEST((plots[1].name == "value_C_d" && plots[3].name == "value_C_d_2"));
+}
+
+namespace {
+
+/// Where the labels of an axis stand, and what they say: '0.5' 0.5, …
+std::vector<std::pair<double, std::string>> ticks_of(const std::string& script, char axis) {
+    const std::string begin = fmt::format("set {}tics (", axis);
+    const auto at = script.find(begin);
+    BOOST_REQUIRE_MESSAGE(at != std::string::npos, script);
+    const auto from = at + begin.size();
+    const std::string list = script.substr(from, script.find(")\n", from) - from);
+    static const std::regex tick("'([^']*)' ([^,]+)");
+    std::vector<std::pair<double, std::string>> ticks;
+    for (std::sregex_iterator found(list.begin(), list.end(), tick), end; found != end; ++found)
+        ticks.emplace_back(std::stod((*found)[2]), (*found)[1]);
+    return ticks;
+}
+
+} // namespace
+
+// Wherever the numbers lie and however near each other, a label is the number of its place, in not
+// many signs; and what is taken off all numbers, as the title says, is taken off those drawn.
+BOOST_AUTO_TEST_CASE(the_labels_of_a_linear_axis_are_the_numbers_of_their_places) {
+    for (const auto& [coarse, fine, title] : std::vector<std::tuple<double, double, std::string>>{
+             {101325.033, 101325.0005, "p − 101325"},
+             {3.22e-6, 3.0034e-6, "p"},
+             {-2.00001, -2.00002, "p + 2"},
+             {0.95, 1.2, "p"},
+             {1.2345e-9, -3.1e-9, "p"},
+             {123456.0, 789012.0, "p"},
+             {1.0 + 4e-12, 1.0, "p − 1"},
+             {1.0 + 4e-16, 1.0, "p"}, // rounding, which is not shown
+             {7.5, 7.5, "p"}}) {
+        DataFile data;
+        data.widths = {{"h", {0.2, 0.1}}};
+        data.values = {{"p", {coarse, fine}}};
+        const Plot plot = analysis_plots(analyse(data)).at(0);
+        const std::string script = script_of(plot);
+        BOOST_TEST(has(script, "set ylabel '" + title + "' noenhanced"), script);
+        const double off = title == "p" ? 0.0 : std::round(fine);
+        const auto ticks = ticks_of(script, 'y');
+        BOOST_TEST((ticks.size() >= 2U && ticks.size() <= 8U));
+        std::set<double> places;
+        for (const auto& [place, text] : ticks) {
+            BOOST_TEST(number_in(text) == place, text);
+            BOOST_TEST(text.size() <= 8U, text);
+            places.insert(place);
+        }
+        BOOST_TEST(places.size() == ticks.size());
+        const double rounding = 1e-6 * (*places.rbegin() - *places.begin());
+        BOOST_TEST(*places.begin() <= std::min(coarse, fine) - off + rounding);
+        BOOST_TEST(*places.rbegin() >= std::max(coarse, fine) - off - rounding);
+        const std::string column = off == 0.0 ? "1:2" : fmt::format("1:(${}-({}))", 2, off);
+        BOOST_TEST(has(script, "using " + column + " with linespoints"), script);
+        const std::string latex = pgfplots_text(plot);
+        BOOST_TEST(has(latex, fmt::format("(0.2,{})", coarse - off)), latex);
+        for (const auto& [place, text] : ticks)
+            BOOST_TEST(has(latex, fmt::format("{}", place)), latex);
+        BOOST_TEST(has(latex, "yticklabels={"), latex);
+    }
+}
+
+// In three digits, true to half of the last; as 1/n where that is what they are; as they are where
+// that is short.
+BOOST_AUTO_TEST_CASE(the_labels_of_widths_are_short_and_true) {
+    constexpr std::size_t most = 6;
+    const auto texts = [](const std::vector<double>& widths) {
+        std::string all;
+        for (const auto& tick : value_ticks(widths, most))
+            all += (all.empty() ? "" : " ") + tick.text;
+        return all;
+    };
+    BOOST_TEST(texts({0.25, 0.125, 0.0625}) == "0.0625 0.125 0.25");
+    BOOST_TEST(texts({1.0 / 3.0, 1.0 / 6.0, 1.0 / 12.0, 1.0}) == "1/12 1/6 1/3 1/1");
+    std::vector<double> widths;
+    for (const double unknowns : {20.0, 72.0, 272.0, 1056.0, 4160.0})
+        widths.push_back(1.0 / std::sqrt(unknowns));
+    const auto ticks = value_ticks(widths, most);
+    BOOST_TEST(ticks.size() == widths.size());
+    for (const auto& tick : ticks) {
+        BOOST_TEST(tick.text.size() <= 8U, tick.text);
+        BOOST_TEST(std::abs(number_in(tick.text) / tick.value - 1.0) <= 0.5e-2, tick.text);
+    }
+    // Where three digits are alike, as many as are not.
+    BOOST_TEST(texts({1.00011111111, 1.00022222222}) == "1.0001 1.0002");
 }
 
 // A letter is 0.62 of its font wide; 90 of the 540 pixels are samples and margins.

@@ -614,4 +614,64 @@ BOOST_AUTO_TEST_CASE(a_file_beside_the_scene_that_no_run_would_find_is_refused_b
 
 BOOST_AUTO_TEST_SUITE_END()
 
+BOOST_AUTO_TEST_SUITE(names)
+
+namespace {
+
+std::string refusal(const std::string& sources, const std::string& lists) {
+    const TemporaryDirectory directory;
+    try {
+        read_scene(directory.write("s.toml", "[solver]\ncommand = [\"true\"]\n" + sources +
+                                                 "[ladder]\nelements = [2, 4]\n" + lists));
+        return "";
+    } catch (const InputError& error) {
+        return error.what();
+    }
+}
+
+std::string list_of(const std::string& key, const std::vector<std::string>& names) {
+    std::string list;
+    for (const auto& name : names)
+        list += (list.empty() ? "'" : ", '") + name + "'";
+    return key + " = [" + list + "]\n";
+}
+
+} // namespace
+
+// The columns of a ladder's, a grid's and a timed CSV, besides the numbers: a number by the name of
+// one would be a second column of it, wherever the number is read.
+BOOST_AUTO_TEST_CASE(a_number_that_would_be_a_second_column_of_its_name_is_refused) {
+    std::vector<std::pair<std::string, std::vector<std::string>>> names;
+    for (const std::string column :
+         {"scheme", "elements", "h", "dt", "steps", "status", "seconds", "reason", "seconds_min",
+          "seconds_q1", "seconds_median", "seconds_q3", "runs", "node_steps", "heat_solves",
+          "fixed_point_iterations"})
+        names.emplace_back(column, std::vector{column});
+    for (const std::string ending :
+         {"_order", "_printed", "_predicted", "_predicted_low", "_predicted_high"}) {
+        names.emplace_back("L2" + ending, std::vector<std::string>{"L2", "L2" + ending});
+        names.emplace_back("L2" + ending, std::vector<std::string>{"L2" + ending, "L2"});
+    }
+    for (const auto& [column, numbers] : names) {
+        std::string patterns;
+        for (const auto& name : numbers)
+            patterns += (patterns.empty() ? "" : ", ") + name + " = '(\\S+)'";
+        const std::string norms = list_of("norms", numbers);
+        const std::string what = "tables have a column " + column;
+        for (const auto& message :
+             {refusal("errors = { " + patterns + " }\n", norms),
+              refusal("errors = \"errors.json\"\n", norms),
+              refusal("errors = { e = 'e (\\S+)' }\nvalues = \"values.csv\"\n",
+                      "norms = ['e']\n" + list_of("values", numbers))})
+            BOOST_TEST((message.find("s.toml:") != std::string::npos &&
+                        message.find(what) != std::string::npos),
+                       column << ": " << message);
+    }
+    // Without the number that it would be said of, the ending is a part of the name.
+    BOOST_TEST(refusal("errors = \"errors.json\"\n", "norms = ['L2_order', 'order', 'H1']\n") ==
+               "");
+}
+
+BOOST_AUTO_TEST_SUITE_END()
+
 BOOST_AUTO_TEST_SUITE_END()

@@ -85,6 +85,12 @@ Malformed bad_width(const std::string& field) {
             "e.csv:2:1: '" + field + "' in column h must be a positive number"};
 }
 
+Malformed bad_width_name(const std::string& name) {
+    return {name + ",L2\n0.2,4\n0.1,1\n",
+            "e.csv:1:1: a width cannot be called " + name,
+            {.sizes = {name}, .errors = {"L2"}}};
+}
+
 const std::vector<Malformed> malformed{
     {"", "e.csv: is empty"},
     {" \n\t\n\n", "e.csv: is empty"},
@@ -156,6 +162,20 @@ const std::vector<Malformed> malformed{
     {"n,h,error\n4,1,1\n",
      "e.csv:1:1: two widths would be called h: those of the columns n and h",
      {.sizes = {"n"}, .step = "h"}},
+    {"h,L2,L2_order\n1,1,1\n",
+     "e.csv:1:1: two columns of the result would be called L2_order",
+     {.errors = {"L2", "L2_order"}}},
+    {"h,L2,L2_verdict\n1,1,1\n",
+     "e.csv:1:1: two columns of the result would be called L2_verdict",
+     {.errors = {"L2"}, .values = {"L2_verdict"}}},
+    {"n,h\n4,1\n",
+     "e.csv:1:1: two columns of the result would be called h",
+     {.sizes = {"n"}, .errors = {"h"}}},
+    bad_width_name("value"),
+    bad_width_name("error"),
+    bad_width_name("order"),
+    bad_width_name("verdict"),
+    bad_width_name("reason"),
     {"h,value,s\n0.2,1,1\n0.1,1,1e101\n",
      "e.csv: has a deviation of 1e101 in record 2; it must be from 1e-100 to 1e100",
      {.sigma = "s"}},
@@ -390,6 +410,11 @@ BOOST_AUTO_TEST_CASE(sizes_are_widths_or_numbers_of_things_and_what_is_assumed_i
     BOOST_TEST(plane.remarks.at(0) == "h = ndofs^(-1/2)");
     const auto line = data_of("ndofs,error\n400,1\n", {.sizes = {"ndofs"}});
     BOOST_TEST(line.remarks.at(0).find("dimension 1 was assumed") != std::string::npos);
+    // Two sizes are two widths, and each remark is of its own.
+    const auto two = data_of("nx,n,error\n4,8,1\n", {.sizes = {"nx", "n"}});
+    BOOST_REQUIRE(two.remarks.size() == 2U);
+    for (std::size_t i = 0; i < 2; ++i)
+        BOOST_TEST(two.remarks[i].starts_with(two.widths[i].name + " = 1/"), two.remarks[i]);
     BOOST_TEST(data_of("tau,error\n0.1,1\n", {.step = "tau"}).widths[0].name == "tau");
     const auto steps = data_of("nsteps,error\n8,1\n", {.step = "nsteps"});
     BOOST_TEST(steps.widths[0].name == "dt");

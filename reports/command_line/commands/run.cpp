@@ -183,6 +183,7 @@ int sweep_command(const RunOptions& options, const Sweep& sweep) {
     for (const auto& value : sweep.values) {
         scenes.push_back(read_scene(options.scene, sweep.overrides(value),
                                     {.report_files = report_format_names()}));
+        require_names_of_rows(sweep, scenes.back());
         predict(scenes.back(), options.quiet, options.really_long);
         require_runnable(scenes.back());
     }
