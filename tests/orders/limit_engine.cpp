@@ -2,6 +2,7 @@
 // answer owes its users.
 
 #include "studies/orders/limit_engine.hpp"
+#include "tests/this_build.hpp"
 
 #include <boost/test/unit_test.hpp>
 
@@ -202,7 +203,7 @@ BOOST_AUTO_TEST_CASE(values_whose_steps_grow_further_than_two_powers_can_run_apa
     BOOST_TEST(limit_of(apart, 2.0).status == "the values run apart");
     for (const auto& [p, q] : {std::pair{1.0, 2.0}, {0.5, 1.0}, {1.0, 3.0}})
         for (const double ratio : {1.5, 2.0, 3.0, 4.0, 10.0})
-            for (double turn = 0.95; turn > 0.05; turn *= 0.93) {
+            for (double turn = 0.95; turn > 0.05; turn *= short_tests ? 0.8 : 0.93) {
                 std::vector<double> values;
                 for (int k = 0; k < 8; ++k) {
                     const double h = std::pow(ratio, -k);

@@ -3,6 +3,8 @@
 
 #include "studies/orders/order_engine.hpp"
 
+#include "tests/sweep.hpp"
+
 #include <boost/test/data/monomorphic.hpp>
 #include <boost/test/data/test_case.hpp>
 #include <boost/test/unit_test.hpp>
@@ -469,7 +471,8 @@ BOOST_DATA_TEST_CASE(no_exponential_has_an_order_on_grids_drawn_at_random,
                 const double dt = 0.1 * std::pow(ratio, -j);
                 rows.push_back({{h, dt}, std::exp(-1 / (a * h)) + b * std::pow(dt, q)});
             }
-        given_one += estimate_orders(rows)[0].determined ? 1 : 0;
+        if (is_swept(static_cast<std::size_t>(k), 4))
+            given_one += estimate_orders(rows)[0].determined ? 1 : 0;
     }
     BOOST_TEST(given_one <= 1);
 }
