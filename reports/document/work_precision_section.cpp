@@ -23,7 +23,7 @@ std::string step_text(double step) {
     return text.size() <= most_digits ? text
            : steps > 1.5 && std::abs(steps - std::round(steps)) <= rounding * steps
                ? fmt::format("1/{:.0f}", steps)
-               : significant(step, 2);
+               : fmt::format("{:.2g}", step);
 }
 
 /// Two significant digits, more before the point.

@@ -156,24 +156,35 @@ void leave_open(const DataAnalysis& data, const DataColumn& errors,
     }
 }
 
-/// Whether a width that coarser rows refine stands still where the finest refine another.
-bool stands_still(const DataColumn& width, const DataColumn& along) {
-    const auto& own = along.numbers;
-    std::size_t before = own.size() - 1;
-    while (before > 0 && own[before] == own.back())
-        --before;
-    return varies(width.numbers) && own[before] != own.back() &&
-           width.numbers[before] == width.numbers.back();
+/// The width at which one that coarser rows refine stands still where the finest refine another;
+/// none where it does not. Of the rows that have a number.
+std::optional<double> standing_still(const DataColumn& width, const DataColumn& along,
+                                     const std::vector<double>& numbers) {
+    std::vector<std::size_t> rows;
+    for (std::size_t r = 0; r < numbers.size(); ++r)
+        if (std::isfinite(numbers[r]))
+            rows.push_back(r);
+    if (rows.empty() || width.numbers[rows.front()] == width.numbers[rows.back()])
+        return std::nullopt;
+    const auto at_the_end = [&](const DataColumn& column, std::size_t r) {
+        return column.numbers[r] == column.numbers[rows.back()];
+    };
+    const auto before = std::find_if(rows.rbegin(), rows.rend(),
+                                     [&](std::size_t r) { return !at_the_end(along, r); });
+    return before != rows.rend() && at_the_end(width, *before)
+               ? std::optional(width.numbers[rows.back()])
+               : std::nullopt;
 }
 
 /// How a width changes with the one that rows are refined along.
-std::string path_words(const DataColumn& width, const DataColumn& along) {
+std::string path_words(const DataColumn& width, const DataColumn& along,
+                       const std::vector<double>& numbers) {
     if (!varies(width.numbers))
         return "it is the same in all rows";
-    return stands_still(width, along)
-               ? fmt::format("it stands still at {:.4g} where the finest rows refine {}",
-                             width.numbers.back(), along.name)
-               : "it is refined with " + along.name;
+    const auto still = standing_still(width, along, numbers);
+    return still ? fmt::format("it stands still at {:.4g} where the finest rows refine {}", *still,
+                               along.name)
+                 : "it is refined with " + along.name;
 }
 
 /// Errors of one or two widths.
@@ -212,7 +223,7 @@ void analyse_records(const DataAnalysis& data, const std::vector<std::size_t>& u
                 "; three of each in all pairs would show both orders";
     } else if (used.size() > 1)
         column.by_width[used.back()].status =
-            path_words(data.widths[used.back()], data.widths[used.front()]);
+            path_words(data.widths[used.back()], data.widths[used.front()], column.numbers);
     if (found.along.has_logarithm)
         column.findings.push_back(fmt::format("{}: a factor ln {} stands beside the power",
                                               column.name, data.widths[used.front()].name));
@@ -397,16 +408,17 @@ ColumnAnalysis analyse_values(const DataAnalysis& data, const DataColumn& values
             rows[r].unit = values.units[r];
     }
     const bool on_one_path = is_one_path(data.widths, along);
-    const auto still = std::ranges::find_if(data.widths, [&](const DataColumn& width) {
-        return stands_still(width, data.widths[along]);
-    });
-    if (on_one_path && still != data.widths.end()) {
+    std::string still;
+    for (const auto& width : data.widths)
+        if (const auto at = standing_still(width, data.widths[along], column.numbers))
+            still = fmt::format(
+                "{0} stands still at {1:.4g} in the finest rows and is refined in coarser ones, so "
+                "that the values go to no one limit; refine it to the end, leave out what is finer "
+                "in {2} alone, or all rows with another {0}",
+                width.name, *at, data.widths[along].name);
+    if (on_one_path && !still.empty()) {
         column.limit.emplace();
-        column.limit->limit.status = column.limit->order.status = fmt::format(
-            "{0} stands still at {1:.4g} in the finest rows and is refined in coarser ones, so "
-            "that the values go to no one limit; refine it to the end, or leave out the rows with "
-            "another {0}",
-            still->name, still->numbers.back());
+        column.limit->limit.status = column.limit->order.status = still;
     } else if (on_one_path) {
         column.limit = estimate_limit(rows);
     } else {
@@ -419,9 +431,10 @@ ColumnAnalysis analyse_values(const DataAnalysis& data, const DataColumn& values
     column.by_width[along] = order;
     for (std::size_t i = 0; i < data.widths.size(); ++i)
         if (i != along)
-            column.by_width[i].status = on_one_path || !varies(data.widths[i].numbers)
-                                            ? path_words(data.widths[i], data.widths[along])
-                                            : column.limit->order.status;
+            column.by_width[i].status =
+                on_one_path || !varies(data.widths[i].numbers)
+                    ? path_words(data.widths[i], data.widths[along], column.numbers)
+                    : column.limit->order.status;
     std::string held; // its error is in the limit
     for (const auto& width : data.widths)
         if (on_one_path && !varies(width.numbers))

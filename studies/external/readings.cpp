@@ -283,14 +283,16 @@ struct NamedBeside {
     bool counts_itself = false;  ///< as (.{11})
 };
 
-/// Whether an atom of a pattern names what it takes: a character that stands for itself, a digit,
-/// a sign.
+/// Whether an atom of a pattern names what it takes: a character that stands for itself, also in
+/// brackets, a digit, a sign.
 bool names_what_it_takes(const std::string& atom) {
     static const std::set<std::string> classes{"\\d", "[0-9]", "[[:digit:]]", "[-+]", "[+-]"};
     if (atom.size() == 1)
         return std::string_view(".^$|()").find(atom) == std::string_view::npos;
-    return classes.contains(atom) || (atom.size() == 2 && atom[0] == '\\' &&
-                                      std::ispunct(static_cast<unsigned char>(atom[1])) != 0);
+    const bool is_escaped = atom.size() == 2 && atom[0] == '\\' &&
+                            std::ispunct(static_cast<unsigned char>(atom[1])) != 0;
+    const bool is_class_of_one = atom.size() == 3 && atom[0] == '[' && atom[1] != '^';
+    return is_escaped || is_class_of_one || classes.contains(atom);
 }
 
 /// The end of *, +, ? or {…}, with the ? that may follow.
@@ -304,9 +306,17 @@ std::size_t end_of_repetition(const std::string& pattern, std::size_t at) {
     return at < pattern.size() && pattern[at] == '?' ? at + 1 : at;
 }
 
+/// What is counted off is one atom so many times, as (.{11}).
+bool counts_off(const std::string& group) {
+    static const std::regex counted(R"(^\((?:\\?.|\[[^\]]*\])\{\d+\}\)$)");
+    return std::regex_match(group, counted);
+}
+
 NamedBeside named_beside_the_group(const std::string& pattern) {
+    static const std::regex so_many(R"(^\{\d+\})");
     NamedBeside named;
     bool is_behind = false;
+    bool has_choice = false;
     for (std::size_t at = 0; at < pattern.size();) {
         const std::size_t begin = at;
         const bool is_group = pattern[at] == '(' && pattern.substr(at + 1, 1) != "?";
@@ -318,11 +328,15 @@ NamedBeside named_beside_the_group(const std::string& pattern) {
         const std::size_t repetition = at;
         at = end_of_repetition(pattern, at);
         if (is_group) {
-            named.counts_itself =
-                std::regex_search(atom, std::regex(R"((^|[^\\])\{\d)")); // \{ is itself
+            named.counts_itself = counts_off(atom);
             is_behind = true;
             continue;
         }
+        if (atom == ")" && has_choice)
+            named.before.clear(); // which of them it took is not known
+        has_choice = atom == "|" || (has_choice && atom != ")");
+        if (atom == "(?:" || atom == "(?=" || atom == ")")
+            continue; // what stands in it counts
         // Behind the group also one of a few, as [dh]; before it [-=] may take a minus unmeant.
         const bool is_one_of_few =
             is_behind && atom.starts_with('[') && !atom.starts_with("[^") && at == repetition;
@@ -332,7 +346,7 @@ NamedBeside named_beside_the_group(const std::string& pattern) {
             break;
         else {
             named.before.clear();
-            named.is_counted_off = pattern.substr(repetition, 1) == "{";
+            named.is_counted_off = std::regex_search(pattern.substr(repetition), so_many);
         }
     }
     return named;
@@ -353,7 +367,8 @@ constexpr std::size_t longest_number = 40;
 std::string rest_behind(const std::string& pattern, const std::string& number,
                         const std::string& behind) {
     static const std::regex rest(R"(^(\d|\.\d|\.?[eEdD][+-]?\d))");
-    static const std::regex exponent_of_three(R"(^[+-]\d{3}(?!\d))"); // Fortran's, as 0.12-100
+    static const std::regex exponent_of_three(
+        R"(^[+-]\d{3}(?![\d.ijIJ]))"); // Fortran's, as 0.12-100
     const bool ends_as_one =
         !number.empty() &&
         (std::isdigit(static_cast<unsigned char>(number.back())) != 0 || number.back() == '.');

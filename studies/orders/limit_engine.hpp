@@ -41,10 +41,10 @@ struct LimitTuning {
     /// Of so many units of the last digit printed, rounding makes 0.2 % of the finest step: less
     /// than no change of windows shows.
     double units_of_exact_steps = 200;
-    /// Below it, where the order of the steps falls over all windows, the intervals of 641 limits
-    /// of 738 missed (errors of 1/ln h, its square, h^¼, h + c h^¼, h² + c √h and h + c √h, of a
-    /// seed that this was not chosen by); of 5 more, of powers of 1 and more, none.
-    double slow_order = 1.0;
+    /// Below it, where the order of the steps falls over all windows, the intervals of 423 limits
+    /// of 433 missed whose error is 1/ln h, its square, h^¼, h + c h^¼ or h + c √h, of a seed that
+    /// this was not chosen by; with 3 more, of powers of 1 and more, none was.
+    double slow_order = 0.5;
 };
 
 struct LimitEstimate {

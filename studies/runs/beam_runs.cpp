@@ -92,9 +92,11 @@ namespace {
 
 bool starts_with_jump(const Beam& beam, const ProblemData& data) {
     constexpr double rounding = 1e-9;
-    const double start = values(data, data.theta_initial, Eigen::ArrayXd::Zero(1), 0.0)(0);
-    return std::abs(start - beam.theta_A) >
-           rounding * std::max(std::abs(start), std::abs(beam.theta_A));
+    constexpr Eigen::Index points = 33;
+    const Eigen::ArrayXd theta =
+        values(data, data.theta_initial, Eigen::ArrayXd::LinSpaced(points, 0.0, 1.0), 0.0);
+    return std::abs(theta(0) - beam.theta_A) >
+           rounding * std::max(theta.abs().maxCoeff(), std::abs(beam.theta_A));
 }
 
 } // namespace

@@ -72,14 +72,20 @@ void check_meshes(const Scene& scene, const TableReader& root) {
     if (scene.mesh.is_uniform() || finest == 0)
         return;
     // Of graded meshes the finest has the greatest factor, of the others all have the same.
-    const auto lengths = scene.mesh.with(finest).lengths;
+    const std::string repair =
+        intervals > 0 ? "give mesh.nodes that are further apart" : "grade less";
+    Eigen::ArrayXd lengths;
+    try {
+        lengths = scene.mesh.with(finest).lengths;
+    } catch (const std::invalid_argument& error) {
+        throw InputError(root.place("mesh"), std::string(error.what()) + ": " + repair);
+    }
     if (!(lengths.minCoeff() >= least_ratio * lengths.maxCoeff()))
-        throw InputError(
-            root.place("mesh"),
-            "with " + std::to_string(finest) + " elements the shortest is " +
-                message_text(lengths.minCoeff()) + " and the longest " +
-                message_text(lengths.maxCoeff()) + "; they must be within a factor of 1e8: " +
-                (intervals > 0 ? "give mesh.nodes that are further apart" : "grade less"));
+        throw InputError(root.place("mesh"),
+                         "with " + std::to_string(finest) + " elements the shortest is " +
+                             message_text(lengths.minCoeff()) + " and the longest " +
+                             message_text(lengths.maxCoeff()) +
+                             "; they must be within a factor of 1e8: " + repair);
 }
 
 std::string json_of(const toml::table& table) {

@@ -91,9 +91,7 @@ void add_measures(TableReader& table, const std::string& key, bool is_value, con
 std::optional<std::string> column_of_tables(const std::string& name,
                                             const std::vector<Measure>& others) {
     for (const char* column :
-         {"scheme", "elements", "h", "dt", "steps", "status", "seconds", "reason", "seconds_min",
-          "seconds_q1", "seconds_median", "seconds_q3", "runs", "node_steps", "heat_solves",
-          "fixed_point_iterations"})
+         {"scheme", "elements", "h", "dt", "steps", "status", "seconds", "reason"})
         if (name == column)
             return "tables have a column " + name + " of their own; give the number another name";
     for (const auto& [ending, words] : {std::pair("_order", "orders"),

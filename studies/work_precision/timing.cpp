@@ -66,7 +66,9 @@ double clock_step_of(const std::vector<double>& seconds, double printed_unit) {
     const auto are_whole = [&](double steps_a_second, double slack) {
         return std::ranges::all_of(seconds, [&](double time) {
             const double steps = time * steps_a_second;
-            return std::abs(steps - std::round(steps)) <= slack;
+            // What is shorter than a step is no whole one, however far it may be rounded.
+            return std::abs(steps - std::round(steps)) <= slack &&
+                   (time == 0.0 || std::round(steps) >= 1.0);
         });
     };
     std::set<double> shown(seconds.begin(), seconds.end());

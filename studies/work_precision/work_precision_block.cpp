@@ -80,6 +80,13 @@ WorkPrecisionBlock read_work_precision(TableReader& table, const SolverKeys& key
     if (block.norms.empty())
         throw table.error("norms",
                           " is missing or empty; name the norms that the schemes are timed for");
+    for (const auto& norm : block.norms)
+        for (const char* column : {"seconds_min", "seconds_q1", "seconds_median", "seconds_q3",
+                                   "runs", "node_steps", "heat_solves", "fixed_point_iterations"})
+            if (norm.name == column)
+                throw table.error("norms", std::string(" name ") + column +
+                                               ", and tables of times have a column of this name; "
+                                               "give the number another");
     const std::int64_t runs = table.integer("runs").value_or(block.runs);
     if (runs < 1 || runs > most_timed_runs)
         throw table.error("runs", " is " + std::to_string(runs) + "; it must be 1 to " +

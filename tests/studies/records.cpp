@@ -784,6 +784,11 @@ BOOST_AUTO_TEST_CASE(a_width_that_stands_still_in_the_finest_rows_leaves_no_limi
     const auto held = column_of(analysed(still), true);
     BOOST_TEST((held.limit->limit.low <= 1.025 && 1.025 <= held.limit->limit.high));
     BOOST_TEST(held.findings.front().find("at dt = 0.025") != std::string::npos);
+    // A run that was not made takes nothing away.
+    const std::string diagonal = "0.2,0.2,1.2,0.2\n0.1,0.1,1.1,0.1\n0.05,0.05,1.05,0.05\n"
+                                 "0.025,0.025,1.025,0.025\n0.0125,0.025,NA,NA\n";
+    const auto made = column_of(analysed(diagonal), true);
+    BOOST_TEST((made.limit->limit.low <= 1 && 1 <= made.limit->limit.high));
     // Refined to the end, though by other steps.
     const auto to_the_end =
         column_of(analysed("0.2,0.16,1.2,0.2\n0.1,0.04,1.05,0.05\n0.05,0.01,1.0125,0.0125\n"

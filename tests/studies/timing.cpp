@@ -216,6 +216,8 @@ BOOST_AUTO_TEST_CASE(the_step_of_a_clock_is_no_less_than_the_last_digit_printed)
     // 0.120000 and 0.130000 are by a clock of hundredths, but for one chance in 1e8.
     BOOST_TEST(clock_step_of({0.12, 0.13}, 1e-6) == 0.01);
     BOOST_TEST(clock_step_of({0.016, 0.047, 0.156}, 0.001) == 1 / 64.0);
+    // Milliseconds are no whole sixtieths, though 2.00 and 4.02 are, to a hundredth.
+    BOOST_TEST(clock_step_of({0.0012, 0.0041, 0.0023, 0.0017, 2.0, 4.02}, 0.01) == 0.01);
 }
 
 // What both rows are off by in part, a time between them is off by in the same part.
