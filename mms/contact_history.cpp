@@ -61,9 +61,11 @@ public:
         for (const Interval& phase : phases_)
             contacts_.push_back(contact_of(phase));
         for (std::size_t i = 0; i < phases_.size(); ++i) {
-            if (contacts_[i] == Contact::force)
+            if (contacts_[i] == Contact::force) {
                 result_.pressed_until = phases_[i].end;
-            else
+                if (!result_.within)
+                    result_.within = change_within(phases_[i]);
+            } else
                 seek_touch(i);
             if (i > 0 && contacts_[i] == Contact::force && contacts_[i - 1] != Contact::force)
                 result_.onsets.push_back(
@@ -178,6 +180,18 @@ private:
             (is_on_stop(phase, middle) ? on : away) = middle;
         }
         return on;
+    }
+
+    /// Where the tip comes to a stop, or leaves it.
+    [[nodiscard]] std::optional<double> change_within(const Interval& phase) const {
+        const ArrayXd times = samples(phase);
+        for (Index k = 0; k + 1 < times.size(); ++k) {
+            const bool comes_to_it = is_on_stop(phase, times(k + 1));
+            if (is_on_stop(phase, times(k)) != comes_to_it)
+                return comes_to_it ? last_on_stop(phase, times(k + 1), times(k))
+                                   : last_on_stop(phase, times(k), times(k + 1));
+        }
+        return std::nullopt;
     }
 
     /// Where the gap has a minimum that is nothing; next to an end on a stop it belongs to that

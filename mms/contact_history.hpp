@@ -23,6 +23,9 @@ struct ContactHistory {
     std::optional<double> pressed_until; ///< the end of the last phase with a force; none: no force
     /// The first time at which the tip is on a stop without a force while none begins or ends.
     std::optional<double> touch;
+    /// About where the tip first comes to a stop, or leaves it, within a phase that has a force:
+    /// no onset tells of that contact.
+    std::optional<double> within;
 };
 
 /// Sampled at 257 times a phase, and between them where the tip is nearest to a stop; what is 1e-9

@@ -379,7 +379,7 @@ private:
     [[nodiscard]] Forecast of_stress(const Forecast& pressed, const AtOnset& at) const {
         if (is_penalised())
             return known_.is_in_stops ? pressed : known_.contact.touch ? unknown : no_error;
-        if (known_.contact.touch)
+        if (known_.contact.touch || known_.contact.within)
             return unknown;
         if (!known_.contact.pressed_until)
             return no_error;
@@ -441,6 +441,10 @@ void add_contact_reasons(const ExpectedOrders& known, const Beam& beam,
         text.push_back("at t = " + number_text(*known.contact.touch) +
                        " the tip is on a stop without a force. What is computed may press there, "
                        "or stay clear of it: the order of sigma_L2 is not known.");
+    else if (known.contact.within)
+        text.push_back("about t = " + number_text(*known.contact.within, 3) +
+                       " a contact begins or ends within a phase: the order of sigma_L2 is not "
+                       "known. Where a phase begins there, it is.");
     else if (beam.stops.exist() && !known.is_in_stops && !known.contact.pressed_until)
         text.emplace_back("The tip never reaches a stop: sigma is zero, and so is its error once "
                           "the error of u(1,t) is less than the distance.");

@@ -280,6 +280,9 @@ std::string why_not(const ExpectedOrders& expected, const DerivedSolution& deriv
         return "the tip passes penalised stops";
     if (expected.contact.touch)
         return "the tip touches a stop at t = " + number_text(*expected.contact.touch);
+    if (expected.contact.within)
+        return "a contact begins or ends within a phase, about t = " +
+               number_text(*expected.contact.within, 3);
     if (!expected.contact.onsets.empty())
         return "a contact begins at t = " + number_text(expected.contact.onsets.front().t);
     if (expected.kink)

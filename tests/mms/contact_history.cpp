@@ -1,12 +1,14 @@
 // What an exact solution does at the stops: touches, onsets and their powers.
 
 #include "mms/contact_history.hpp"
+#include "mms/expected_orders.hpp"
 #include "mms/solution.hpp"
 
 #include <boost/test/data/monomorphic.hpp>
 #include <boost/test/data/test_case.hpp>
 #include <boost/test/unit_test.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -38,6 +40,33 @@ ContactHistory onset(const std::string& gap, const std::string& force) {
 }
 
 } // namespace
+
+// Free until t = c, and pressed from then on, in one formula each.
+BOOST_AUTO_TEST_CASE(a_contact_that_begins_within_a_phase_is_not_one_from_the_start) {
+    const auto history_of = [](const std::string& u, const std::string& sigma) {
+        return expected_orders(
+            parse_solution("theta = 'sin(pi*x)*exp(-t)'\nu = 'g2*(3*x^2 - x^3)/2" + u +
+                               "'\nsigma = '" + sigma + "'\n[parameters]\nc = 1.037\n",
+                           "within.toml"),
+            {0.4, 0.15, 0.0, {-0.1, 0.1}}, 2.0);
+    };
+    const auto begins = history_of("*(1 - ((c - t) + sqrt((c - t)^2))^3/8/c^3)",
+                                   "-((t - c) + sqrt((t - c)^2))^2/4");
+    BOOST_REQUIRE(begins.contact.within);
+    BOOST_TEST(std::abs(*begins.contact.within - 1.037) < 1e-2); // the gap is flat there
+    const auto ends = history_of("*(1 - ((t - c) + sqrt((t - c)^2))^3/8/c^3)",
+                                 "-((c - t) + sqrt((c - t)^2))^2/4");
+    BOOST_REQUIRE(ends.contact.within);
+    for (const auto& known : {begins, ends}) {
+        const ExpectedOrder& stress = known.orders.back();
+        BOOST_REQUIRE(stress.norm == "sigma_L2");
+        BOOST_TEST((stress.bdf2.kind == Forecast::Kind::unknown));
+        BOOST_TEST(std::ranges::any_of(known.reasons, [](const std::string& reason) {
+            return reason.starts_with("about t = 1.0");
+        }));
+    }
+    BOOST_TEST(!history_of("", "-1 - t").contact.within);
+}
 
 BOOST_DATA_TEST_CASE(a_touch_without_a_force_is_seen_wherever_it_is,
                      data::make({"0", "0.003", "0.0075", "0.3", "1.2345", "1.995", "1.998", "2"}),
