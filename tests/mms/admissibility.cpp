@@ -148,6 +148,11 @@ const std::vector<Case> cases = {
      between_stops,
      "1:10",
      {"theta_x jumps by", "x = 0.3137"}},
+    // Beside a curvature that takes most of it off on the first grid.
+    {solution("sin(pi*x) + 0.002*sqrt((x - 0.3137)^2)*x*(1 - x)", "0"),
+     between_stops,
+     "1:10",
+     {"theta_x jumps by", "x = 0.3137"}},
     // The jump is at a time after the last one.
     {sine + "[[phase]]\nuntil = 2\nu = 0\n[[phase]]\nu = \"x^2\"\n", between_stops, "", {}},
     {sine + "[[phase]]\nuntil = 5\nu = 0\n[[phase]]\nu = \"x\"\n", between_stops, "", {}},
