@@ -23,6 +23,7 @@ std::vector<double> sorted(std::vector<double> values) {
 
 std::vector<std::string> fractions(const std::vector<double>& values) {
     std::vector<std::string> texts;
+    texts.reserve(values.size());
     for (const double value : values)
         texts.push_back(fmt::format("1/{}", std::llround(1.0 / value)));
     return texts;
@@ -37,13 +38,14 @@ bool is_fraction(double value) {
 /// as many as tell them apart.
 std::vector<std::string> short_texts(const std::vector<double>& values) {
     constexpr std::size_t longest = 8;
-    const auto whole = alike(values);
+    auto whole = alike(values);
     if (std::ranges::all_of(whole, [](const auto& text) { return text.size() <= longest; }))
         return whole;
     if (std::ranges::all_of(values, is_fraction))
         return fractions(values);
     for (int decimals = 2;; ++decimals) {
         std::vector<double> rounded;
+        rounded.reserve(values.size());
         for (const double value : values)
             rounded.push_back(number_in(fmt::format("{:.{}e}", value, decimals)));
         constexpr int most = 16;
@@ -59,6 +61,7 @@ std::vector<Tick> labelled(std::vector<double> values, std::size_t most,
         ticks.push_back({value, ""});
     ticks = thinned(ticks, most);
     std::vector<double> places;
+    places.reserve(ticks.size());
     for (const auto& tick : ticks)
         places.push_back(tick.value);
     const auto texts = texts_of(places);

@@ -409,7 +409,9 @@ std::string sweep_csv(const Sweep& sweep, const std::vector<StudyResult>& result
     const std::string comma = ",";
     for (std::size_t c = 0; !rows.empty() && c < rows.front().size(); ++c) {
         const std::string& group = rows.front()[c].group;
-        text += comma + quoted(group + (group.empty() ? "" : " ") + rows.front()[c].heading);
+        text += comma;
+        text += quoted(group.empty() ? rows.front()[c].heading
+                                     : fmt::format("{} {}", group, rows.front()[c].heading));
     }
     const bool has_failed = std::ranges::any_of(
         results, [](const StudyResult& result) { return result.ending().failed; });
