@@ -5,6 +5,7 @@
 #include "mms/text/toml_reader.hpp"
 
 #include <boost/algorithm/string/join.hpp>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -103,8 +104,9 @@ std::optional<std::string> column_of_tables(const std::string& name,
             continue;
         const std::string of = name.substr(0, name.size() - std::string_view(ending).size());
         if (named(others, of) != nullptr)
-            return "tables have a column " + name + " with the " + words + " of " + of +
-                   "; give the number another name";
+            return fmt::format("tables have a column {} with the {} of {}; give the number another "
+                               "name",
+                               name, words, of);
     }
     return std::nullopt;
 }
