@@ -184,6 +184,29 @@ const std::vector<Case> cases = {
      {"theta ", " x = 0.707107, t = 0 (it is "}},
     {solution("sin(pi*x)*t/(t^2 - 2)", "0"), between_stops, "1:10", {"theta ", "t = 1.41421 ("}},
     {solution("sin(pi*x)/(x - t - 1/7)^3", "0"), between_stops, "1:10", {"theta ", "(it is "}},
+    // On them: the double next to a pole of tan has a value.
+    {solution("x*(1-x)*tan(pi*x)", "0"),
+     between_stops,
+     "1:10",
+     {"theta grows without bound towards x = 0.5, t = "}},
+    {solution("x*(1-x)*tan(pi*(x + t))", "0"),
+     between_stops,
+     "1:10",
+     {"theta grows without bound"}},
+    {solution("x*(1-x)/cos(pi*t)", "0"),
+     between_stops,
+     "1:10",
+     {"theta grows without bound towards x = 0.5, t = ", ".5 (it is "}},
+    {solution("x*(1-x)*tan(pi*t/4)", "0"), // at the final time
+     between_stops,
+     "1:10",
+     {"theta grows without bound towards x = 0.5, t = 2 (it is "}},
+    {solution("0", "x^2*(1-x)^2*tan(pi*x)"),
+     without_stops,
+     "2:6",
+     {"u grows without bound towards x = 0.5, t = 0 (it is "}},
+    // Halfway between two of them.
+    {solution("x*(1-x)*tan(32*pi*x)", "0"), between_stops, "1:10", {" grows without bound"}},
     // Of log, derivatives alone.
     {solution("sin(pi*x)", "x^2*1e-9*log((x - 0.7)^2)"),
      without_stops,
@@ -192,6 +215,8 @@ const std::vector<Case> cases = {
     // Narrow, steep and nearly singular, but bounded.
     {solution("sin(pi*x)*exp(-((x - 0.7)*1e5)^2)", "0"), between_stops, "", {}},
     {solution("sin(pi*x)*tanh(1e7*(x - 0.7))", "0"), between_stops, "", {}},
+    {solution("sin(pi*x)*exp(-((x - 0.5)*1e7)^2)", "0"), between_stops, "", {}},
+    {solution("sin(pi*x)/((x - 0.5)^2 + 1e-12)", "0"), between_stops, "", {}},
     {solution("sin(pi*x)/(x + 1e-9)", "0"), between_stops, "", {}},
     {solution("sin(pi*x)/((t - 0.7)^2 + 1e-12)", "0"), between_stops, "", {}},
     {solution("sin(pi*x)*1e400", "0"), between_stops, "1:10", {"beyond the range"}},
