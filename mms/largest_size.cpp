@@ -12,7 +12,8 @@ using Eigen::Index;
 namespace {
 
 struct Sample {
-    double x, t, size;
+    double x = 0.0, t = 0.0, size = 0.0;
+    double distance_x = 0.0, distance_t = 0.0; ///< up to which a larger one is looked for
 };
 
 /// Points in space and time.
@@ -72,18 +73,14 @@ public:
         std::ranges::sort(samples, std::greater{}, &Sample::size);
         samples.resize(std::min(samples.size(), looked_at));
         double largest = 0.0;
-        double distance_x = spacing(x_);
-        double distance_t = spacing(t_);
         bool grows = true;
         for (int look = 0; look < fewest_looks || (grows && look < most_looks); ++look) {
             const double before = largest;
             for (Sample& sample : samples) {
-                look_closer(sample, distance_x, distance_t);
+                look_closer(sample);
                 largest = std::max(largest, sample.size);
             }
             grows = largest > (1.0 + least_growth) * before;
-            distance_x *= 0.25;
-            distance_t *= 0.25;
         }
         return largest;
     }
@@ -97,8 +94,9 @@ private:
     /// In each of several parts of the region the point that has the largest |g|, if it is not
     /// zero.
     [[nodiscard]] std::vector<Sample> largest_of_parts() const {
-        constexpr std::size_t parts = 8; // in space and in time
-        const auto part = [](const CloseLook& span, double at) {
+        constexpr std::size_t parts_x = 16; // none has two peaks of what the grid resolves
+        constexpr std::size_t parts_t = 8;
+        const auto part = [](const CloseLook& span, std::size_t parts, double at) {
             const double length = span.end - span.begin;
             return length > 0.0
                        ? std::min(parts - 1, static_cast<std::size_t>(static_cast<double>(parts) *
@@ -109,11 +107,12 @@ private:
         const auto count = static_cast<Index>(points.x.size());
         const ArrayXd found = sizes(Eigen::Map<const ArrayXd>(points.x.data(), count),
                                     Eigen::Map<const ArrayXd>(points.t.data(), count));
-        std::vector<Sample> largest(parts * parts, {0.0, 0.0, 0.0});
+        std::vector<Sample> largest(parts_x * parts_t);
         for (std::size_t k = 0; k < points.x.size(); ++k) {
-            Sample& known = largest[parts * part(x_, points.x[k]) + part(t_, points.t[k])];
+            Sample& known =
+                largest[parts_t * part(x_, parts_x, points.x[k]) + part(t_, parts_t, points.t[k])];
             if (const double size = found(static_cast<Index>(k)); size > known.size)
-                known = {points.x[k], points.t[k], size};
+                known = {points.x[k], points.t[k], size, spacing(x_), spacing(t_)};
         }
         std::erase_if(largest, [](const Sample& sample) { return sample.size == 0.0; });
         return largest;
@@ -123,15 +122,33 @@ private:
         return (span.end - span.begin) / static_cast<double>(grid_points - 1);
     }
 
-    /// Moves to the largest |g| no further away than that.
-    void look_closer(Sample& best, double distance_x, double distance_t) const {
-        const ArrayXd x = x_.next_to(best.x, distance_x).samples();
-        const ArrayXd t = t_.next_to(best.t, distance_t).samples();
+    /// Whether the largest of these samples is their first or last, and the span goes on there.
+    static bool is_at_edge(const CloseLook& span, const ArrayXd& samples, Index k) {
+        return (k == 0 && samples(k) > span.begin) ||
+               (k == samples.size() - 1 && samples(k) < span.end);
+    }
+
+    /// Moves to the largest |g| no further away than its distances, and halves these twice where
+    /// that is within them: beyond their edge there may be larger ones.
+    void look_closer(Sample& best) const {
+        const ArrayXd x = x_.next_to(best.x, best.distance_x).samples();
+        const ArrayXd t = t_.next_to(best.t, best.distance_t).samples();
         const ArrayXd found =
             sizes(x.replicate(t.size(), 1), t.transpose().replicate(x.size(), 1).reshaped());
         Index at = 0;
-        if (const double size = found.maxCoeff(&at); size > best.size)
-            best = {x(at % x.size()), t(at / x.size()), size};
+        const double size = found.maxCoeff(&at);
+        const bool moves = size > best.size;
+        const Index in_x = at % x.size();
+        const Index in_t = at / x.size();
+        if (!moves || !is_at_edge(x_, x, in_x))
+            best.distance_x *= 0.25;
+        if (!moves || !is_at_edge(t_, t, in_t))
+            best.distance_t *= 0.25;
+        if (moves) {
+            best.x = x(in_x);
+            best.t = t(in_t);
+            best.size = size;
+        }
     }
 
     const PointFunction& g_;

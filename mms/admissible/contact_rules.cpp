@@ -41,12 +41,18 @@ ContactRules::ContactRules(const Beam& beam, std::vector<ContactPhase> phases, d
       law_tolerance_(relative_tolerance * (u_scale + stops_.epsilon * sigma_scale)) {
     if (stops_.epsilon == 0.0)
         return;
+    double beyond = 0.0; // by how much the tip passes a stop
     for (const ContactPhase& phase : phases_) {
         const Eigen::ArrayXXd values = phase.ends(phase.times);
-        for (Index k = 0; k < phase.times.size(); ++k)
+        for (Index k = 0; k < phase.times.size(); ++k) {
             law_distance_ = std::max(law_distance_, law_distance(values(0, k), values(1, k)));
+            beyond = std::max({beyond, values(0, k) - stops_.upper, stops_.lower - values(0, k)});
+        }
     }
-    rigid_ = law_distance_ > law_tolerance_ && is_of_rigid_stops();
+    // Where ε is so small that rounding hides the law, a tip that stays at the stop tells them
+    // apart: one that obeys the law passes it by ε|σ̃|, and misses the law by less than that.
+    rigid_ = law_distance_ > std::max(2.0 * beyond, stops_.epsilon * stress_tolerance_) &&
+             is_of_rigid_stops();
 }
 
 /// In lengths: by how much the tip is off the place that the stress gives it, and the stop that
@@ -117,8 +123,12 @@ void ContactRules::require_law(const ContactPhase& phase) const {
     for (Index k = 0; k < phase.times.size(); ++k) {
         const double tip = values(0, k);
         const double stress = values(1, k);
-        if (law_distance(tip, stress) <= law_tolerance_)
+        if (law_distance(tip, stress) <= law_tolerance_) {
+            // However small ε is, the law has no force away from a stop, and none that pulls.
+            if (phase.sigma)
+                require_stress(phase, phase.times(k), tip, stress);
             continue;
+        }
         const bool above = tip > stops_.upper;
         const bool below = tip < stops_.lower;
         const double law = contact_stress(stops_, tip, 0.0);

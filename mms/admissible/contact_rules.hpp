@@ -39,7 +39,8 @@ struct ContactPhase {
 ///
 ///     ε σ̃(1,t) = −((u(1,t) − g2)⁺ − (g1 − u(1,t))⁺)
 ///
-/// or the rules above at all times: a solution of rigid stops, which penalised ones approach.
+/// and (7)(8), of which it is seen more where ε σ̃ is lost beside u; or the rules above at all
+/// times: a solution of rigid stops, which penalised ones approach.
 class ContactRules {
 public:
     /// The scales are the largest |u| and |σ̃|; what is relative_tolerance of σ̃, or of the tip and

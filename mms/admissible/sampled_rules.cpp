@@ -17,10 +17,19 @@ using Eigen::Index;
 
 namespace {
 
+/// The size of sample k, a greatest one, or where that stands far above those beside it, theirs: it
+/// is a pole then but for rounding, and as large from afar as from near.
+double size_off_pole(const ArrayXd& sizes, Index k) {
+    constexpr double far_above = 1e2;
+    const double before = k > 0 ? sizes(k - 1) : 0.0;
+    const double beside = k + 1 < sizes.size() ? std::max(before, sizes(k + 1)) : before;
+    return sizes(k) > far_above * beside ? beside : sizes(k);
+}
+
 /// Where |g| grows towards a point between two, however near it is looked at, as at a pole; without
 /// value where it does not.
 ///
-/// @param largest |g| at a point between them
+/// @param largest |g| at a point between them, or next to it
 std::optional<double> unbounded_between(const std::function<ArrayXd(const ArrayXd&)>& g,
                                         double begin, double end, double largest) {
     constexpr double level = 1.4;    // |s - a|^(-1/4) grows as much in a fourth of the width
@@ -39,11 +48,12 @@ std::optional<double> unbounded_between(const std::function<ArrayXd(const ArrayX
                 return s(k);
         Index at = 0;
         const double greatest = sizes.maxCoeff(&at);
-        const bool grows = greatest > level * largest;
+        const double off_pole = size_off_pole(sizes, at);
+        const bool grows = off_pole > level * largest;
         if (!grows && greatest <= level * sizes.minCoeff())
             return std::nullopt;
         growths += grows ? 1 : 0;
-        largest = std::max(largest, greatest);
+        largest = std::max(largest, off_pole);
         look = look.next_to(s(at), look.spacing());
     }
     const bool is_bounded = growths < least_growths || largest < least_growth * first;
@@ -68,7 +78,8 @@ std::optional<double> unbounded_on(const ArrayXd& grid, const ArrayXd& values,
         const bool rises = k == 0 || sizes(before) < sizes(k);
         if (!rises || sizes(behind) > sizes(k))
             continue;
-        if (const auto a = unbounded_between(g, grid(before), grid(behind), sizes(k)))
+        if (const auto a =
+                unbounded_between(g, grid(before), grid(behind), size_off_pole(sizes, k)))
             return a;
     }
     return std::nullopt;

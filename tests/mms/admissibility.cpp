@@ -189,6 +189,29 @@ const std::vector<Case> cases = {
      {"theta ", " x = 0.707107, t = 0 (it is "}},
     {solution("sin(pi*x)*t/(t^2 - 2)", "0"), between_stops, "1:10", {"theta ", "t = 1.41421 ("}},
     {solution("sin(pi*x)/(x - t - 1/7)^3", "0"), between_stops, "1:10", {"theta ", "(it is "}},
+    // On them: the double next to a pole of tan has a value.
+    {solution("x*(1-x)*tan(pi*x)", "0"),
+     between_stops,
+     "1:10",
+     {"theta grows without bound towards x = 0.5, t = "}},
+    {solution("x*(1-x)*tan(pi*(x + t))", "0"),
+     between_stops,
+     "1:10",
+     {"theta grows without bound"}},
+    {solution("x*(1-x)/cos(pi*t)", "0"),
+     between_stops,
+     "1:10",
+     {"theta grows without bound towards x = 0.5, t = ", ".5 (it is "}},
+    {solution("x*(1-x)*tan(pi*t/4)", "0"), // at the final time
+     between_stops,
+     "1:10",
+     {"theta grows without bound towards x = 0.5, t = 2 (it is "}},
+    {solution("0", "x^2*(1-x)^2*tan(pi*x)"),
+     without_stops,
+     "2:6",
+     {"u grows without bound towards x = 0.5, t = 0 (it is "}},
+    // Halfway between two of them.
+    {solution("x*(1-x)*tan(32*pi*x)", "0"), between_stops, "1:10", {" grows without bound"}},
     // Of log, derivatives alone.
     {solution("sin(pi*x)", "x^2*1e-9*log((x - 0.7)^2)"),
      without_stops,
@@ -197,6 +220,8 @@ const std::vector<Case> cases = {
     // Narrow, steep and nearly singular, but bounded.
     {solution("sin(pi*x)*exp(-((x - 0.7)*1e5)^2)", "0"), between_stops, "", {}},
     {solution("sin(pi*x)*tanh(1e7*(x - 0.7))", "0"), between_stops, "", {}},
+    {solution("sin(pi*x)*exp(-((x - 0.5)*1e7)^2)", "0"), between_stops, "", {}},
+    {solution("sin(pi*x)/((x - 0.5)^2 + 1e-12)", "0"), between_stops, "", {}},
     {solution("sin(pi*x)/(x + 1e-9)", "0"), between_stops, "", {}},
     {solution("sin(pi*x)/((t - 0.7)^2 + 1e-12)", "0"), between_stops, "", {}},
     {solution("sin(pi*x)*1e400", "0"), between_stops, "1:10", {"beyond the range"}},
@@ -442,6 +467,38 @@ BOOST_AUTO_TEST_CASE(a_penalised_solution_obeys_the_law_of_its_stops) {
                boost::test_tools::tolerance(1e-12));
     // Neither the one nor the other.
     BOOST_CHECK_THROW(require("theta = 0\nu = 'x^2*g2'\nsigma = 't'\n"), InputError);
+}
+
+// ε|σ̃| ≤ 2e-14 is less than 1e-12 |u|, and less than the rounding of u(1,t) from 1e-17 on.
+BOOST_DATA_TEST_CASE(a_stop_that_yields_unseen_neither_pulls_nor_pushes_a_free_tip,
+                     data::make({1e-14, 1e-15, 1e-17, 1e-20}), epsilon) {
+    const Beam beam{0.4, 0.15, 0.0, {-infinite, 0.1, epsilon}};
+    const auto distance = [&](const std::string& u, const std::string& sigma) {
+        return law_distance(parse_solution(solution("sin(pi*x)", u, sigma), "my.toml"), beam, 1.0);
+    };
+    const auto refused = [&](const std::string& u, const std::string& sigma,
+                             const std::string& rule) {
+        BOOST_CHECK_EXCEPTION(distance(u, sigma), InputError, [&](const InputError& error) {
+            const std::string what = error.what();
+            return what.starts_with("my.toml:3:10: " + rule);
+        });
+    };
+    const std::string at_stop = "g2*(3*x^2 - x^3)/2 + x^2*(1 - x)^2*sin(t)";
+    refused("x^2*(3 - x)*sin(t)/100", "1 + t", "(7): sigma(1,t) is 1 at t = 0");
+    refused("x^2*(3 - x)*sin(t)/100", "-1 - t", "(7): sigma(1,t) is -1 at t = 0");
+    refused(at_stop, "1 + t", "(8): sigma(1,t) is 1 at t = 0");
+    // Of rigid stops: the penalised one would yield by 2ε.
+    BOOST_TEST(distance(at_stop, "-1 - t") / epsilon == 2.0, boost::test_tools::tolerance(1e-12));
+    BOOST_TEST(distance(at_stop, "0") == 0.0);
+    BOOST_TEST(distance("x^2*(3 - x)*sin(t)/100", "0") == 0.0);
+}
+
+// A tip that passes its stop by ε|σ̃|, to a rounding of 2e-17, is one of penalised stops.
+BOOST_AUTO_TEST_CASE(a_stop_that_yields_little_yields) {
+    const Beam beam{0.4, 0.15, 0.0, {-infinite, 0.1, 1e-14}};
+    const Solution parsed =
+        parse_solution(solution("0", "(g2 + 1e-14*(1 + t))*x^2", "-1 - t"), "my.toml");
+    BOOST_TEST(law_distance(parsed, beam, 1.0) == 0.0);
 }
 
 BOOST_DATA_TEST_CASE(a_broken_rule_is_named_with_equation_time_and_place, data::make(cases)) {

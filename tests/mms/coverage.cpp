@@ -130,6 +130,23 @@ BOOST_AUTO_TEST_CASE(a_smooth_touch_is_one_without_a_force) {
     }
 }
 
+// The largest |θ_xx| is at t = 1. Of a hump e^(−((x−c)/w)²) it is all but at c, where its second
+// derivative is −2/w²; of a wave x(1 − x) sin 40x all but at the peak next to x = 1/2, 40x = 13π/2.
+BOOST_AUTO_TEST_CASE(a_size_is_followed_to_where_it_is_largest) {
+    const Beam beam{0.4, 0.15, 0.0, {-0.1, 0.1}};
+    const auto largest = [&](const std::string& theta) {
+        const Solution solution = parse_solution("theta = '" + theta + "'\nu = '0'\n", "my.toml");
+        return use(coverage(solution, beam, 1.0), "(1)", "theta_xx").largest;
+    };
+    const auto close = boost::test_tools::tolerance(1e-4);
+    const double pi = std::acos(-1.0);
+    const double c = 0.4567;
+    const double hump = 2.0 * pi * pi * std::sin(pi * c) + 2.0 + 2.0 * c * (1.0 - c) / 1e-4;
+    BOOST_TEST(largest("sin(pi*x)*(1+t) + x*(1-x)*exp(-((x-0.4567)/0.01)^2)*t") == hump, close);
+    const double x = 6.5 * pi / 40.0;
+    BOOST_TEST(largest("x*(1-x)*sin(40*x)*exp(-50*(1-t))") == 1600.0 * x * (1.0 - x) + 2.0, close);
+}
+
 // One hundredth of the run, in which everything happens.
 BOOST_AUTO_TEST_CASE(a_phase_is_seen_however_short_it_is) {
     const std::string shape = "(t - 10.05)^3*(10.25 - t)^3*1e6";

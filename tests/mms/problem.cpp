@@ -454,8 +454,8 @@ BOOST_AUTO_TEST_CASE(a_given_initial_temperature_has_the_end_values) {
     BOOST_CHECK_NO_THROW(given_problem(GivenData(), heated, 1.0));
 }
 
-// Between the points of the grid, none of which a pole need hit.
-BOOST_AUTO_TEST_CASE(given_data_with_a_pole_between_samples_are_refused) {
+// Between the points of the grid, none of which a pole need hit, and on one.
+BOOST_AUTO_TEST_CASE(given_data_with_a_pole_are_refused) {
     const auto refusal = [](const GivenData& data) -> std::string {
         try {
             given_problem(data, papers_beam, 1.0);
@@ -475,6 +475,8 @@ BOOST_AUTO_TEST_CASE(given_data_with_a_pole_between_samples_are_refused) {
                        .starts_with("scene.toml:4:16: heat_source" + unbounded + "0.3127, t = "),
                    refusal(heated(pole)));
     BOOST_TEST(refusal(heated("1/(t-0.505)")).find("t = 0.505 ") != std::string::npos);
+    BOOST_TEST(refusal(given("tan(pi*x)"))
+                   .starts_with("scene.toml:5:15: body_force" + unbounded + "0.5, t = "));
     BOOST_TEST(refusal(given("sin(pi*x)/(t-0.505)"))
                    .starts_with("scene.toml:5:15: body_force" + unbounded));
     GivenData start;
