@@ -74,14 +74,13 @@ bool bends_at_an_end(const DerivedSolution& derived, double final_time) {
     });
 }
 
-/// Whether the tip is other than linear in t, by one formula in all phases.
-bool tip_moves_unevenly(const DerivedSolution& derived, double final_time) {
+/// Whether u(1,t) is linear in t in every phase.
+bool tip_is_linear(const DerivedSolution& derived, double final_time) {
     const ModelSymbols& s = model_symbols();
-    return !is_one_formula(derived, final_time) ||
-           !in_all(derived, final_time, [&](const DerivedPhase& phase) {
-               const ex tip = substituted(phase.u, {{s.x, 1}});
-               return is_identically_zero(derivative(derivative(tip, s.t), s.t));
-           });
+    return in_all(derived, final_time, [&](const DerivedPhase& phase) {
+        const ex tip = substituted(phase.u, {{s.x, 1}});
+        return is_identically_zero(derivative(derivative(tip, s.t), s.t));
+    });
 }
 
 /// θ̃_t and u_xxt in every phase, over x.
@@ -360,7 +359,8 @@ private:
         const double pressed = known_.contact.pressed_until
                                    ? std::nextafter(*known_.contact.pressed_until, 0.0)
                                    : always;
-        if (method == Method::sdirk2 && is_penalised() && known_.is_in_stops && beam_.zeta > 0.0)
+        if (method == Method::sdirk2 && is_penalised() && known_.is_in_stops &&
+            !known_.tip_is_linear && beam_.zeta > 0.0)
             return slower(u_in_time(method, pressed), between(1.0, 2.0));
         return of_stress(u_in_time(method, pressed), [&](const ContactOnset& onset) {
             const Forecast p = u_in_time(method, onset.t);
@@ -451,9 +451,11 @@ void add_contact_reasons(const ExpectedOrders& known, const Beam& beam,
         text.push_back("The penalised stops answer to u(1,t) at once, and sigma has its order, for "
                        "steps below 3*zeta*epsilon = " +
                        number_text(3.0 * beam.zeta * beam.stops.epsilon) +
-                       "; with greater ones sigma_L2 behaves as at rigid stops, but for SDIRK2: "
-                       "where the tip moves within a stop its order is 1, and rises to 2 only "
-                       "below.");
+                       "; with greater ones sigma_L2 behaves as at rigid stops" +
+                       (known.tip_is_linear
+                            ? "."
+                            : ", but for SDIRK2: where the tip moves within a stop other than "
+                              "linearly in t its order is 1, and rises to 2 only below."));
     for (const ContactOnset& onset : known.contact.onsets)
         text.push_back(
             "at t = " + number_text(onset.t) + " a contact begins: the tip comes up " +
@@ -605,11 +607,12 @@ ExpectedOrders expected_orders(const Solution& solution, const Beam& beam, doubl
         result.theta_has_time_error = !theta_is_linear || (coupled && !u_is_linear);
         result.u_has_time_error =
             coupled ? result.theta_has_time_error : beam.zeta != 0.0 && !u_is_linear;
+        const bool is_one = is_one_formula(derived, final_time);
+        result.tip_is_linear = tip_is_linear(derived, final_time);
         result.tip_has_time_error =
-            result.u_has_time_error && (coupled || tip_moves_unevenly(derived, final_time) ||
+            result.u_has_time_error && (coupled || !is_one || !result.tip_is_linear ||
                                         jumps(result.switches, &Switch::u_xxt_jump));
-        const bool goes_on = is_one_formula(derived, final_time) &&
-                             !jumps(result.switches, &Switch::theta_t_jump) &&
+        const bool goes_on = is_one && !jumps(result.switches, &Switch::theta_t_jump) &&
                              !jumps(result.switches, &Switch::u_xxt_jump);
         const auto quadratic = [&](bool has_time_error, ex DerivedPhase::*field) {
             return goes_on && has_time_error && vanishes(derived, final_time, field, s.t, 3);

@@ -72,6 +72,7 @@ struct ExpectedOrders {
     bool u_is_exact = false;     ///< u is cubic in x: the C¹ cubics hold it
     bool theta_has_time_error = true;
     bool u_has_time_error = true;
+    bool tip_is_linear = false;     ///< u(1,t), in t, in every phase
     bool tip_has_time_error = true; ///< in u(1,t), which without coupling answers to itself alone
     /// Of degree 2 at most in t, so that BDF2 has no error but that of its first step: both
     /// fields, where they are coupled; else each by itself.
@@ -131,8 +132,9 @@ struct ExpectedOrders {
 ///   a stop without a force leaves the order open; one that touches none has no error.
 /// - of the stress at penalised stops: that of u, as it is a Lipschitz function of u(1,t), once Δt
 ///   is below 3ζε; with greater steps as at rigid stops, but for SDIRK2 where the tip moves within
-///   a stop: its stages are of order 1, which the stiff stop lets through, and it has 1 to 2. The
-///   errors of a solution of rigid stops stall, in an unknown way, at the distance of the two laws.
+///   a stop, other than linearly in t: its stages are of order 1, which the stiff stop lets
+///   through, and it has 1 to 2. The errors of a solution of rigid stops stall, in an unknown way,
+///   at the distance of the two laws.
 ///
 /// Throws InputError as manufactured_problem does.
 ExpectedOrders expected_orders(const Solution& solution, const Beam& beam, double final_time);

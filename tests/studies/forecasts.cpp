@@ -237,4 +237,31 @@ BOOST_AUTO_TEST_CASE(a_jump_at_the_time_of_an_onset_lowers_the_order_that_it_lea
     }
 }
 
+// Stages of SDIRK2 are of order 2 for a tip that is linear in t, of 1 for any other. The steps are
+// far above 3ζε = 4.5e-5.
+BOOST_AUTO_TEST_CASE(only_an_uneven_tip_in_a_penalised_stop_costs_sdirk2_an_order) {
+    const auto problem = [](const std::string& tip) {
+        return Problem{parse_solution("theta = 'sin(pi*x)*exp(-t)'\nu = 'g2*(5 + " + tip +
+                                          ")/4*(3*x^2 - x^3)/2 + g2*x^2*(1 - x)^2*exp(-t)'\n",
+                                      "tip.toml"),
+                       {0.4, 0.15, 0.0, {-1.0, 0.1, 1e-4}},
+                       1.0};
+    };
+    const auto stress = [](const Problem& one) {
+        const ExpectedOrders expected = expected_orders(one.solution, one.beam, one.final_time);
+        bool loses = false;
+        for (const std::string& reason : expected.reasons)
+            loses = loses || reason.find("but for SDIRK2") != std::string::npos;
+        BOOST_REQUIRE(expected.orders.back().norm == "sigma_L2");
+        return std::pair{expected.orders.back().sdirk2, loses};
+    };
+    for (const auto& [tip, least] : {std::pair{"t", 2.0}, {"0", 2.0}, {"sin(t)", 1.0}}) {
+        const auto [forecast, loses] = stress(problem(tip));
+        BOOST_TEST(forecast.least == least, tip);
+        BOOST_TEST(forecast.greatest == 2.0, tip);
+        BOOST_TEST(loses == (least < 2.0), tip);
+        check_forecast(problem(tip), "sdirk2", {16, 23, 32, 45, 64}, tip);
+    }
+}
+
 BOOST_AUTO_TEST_SUITE_END()
