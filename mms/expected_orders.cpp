@@ -333,11 +333,12 @@ private:
         return known_.u_has_time_error ? in_time(method, &Switch::u_xxt_jump, until) : no_error;
     }
 
-    /// j of the header: the least and the greatest, infinite where a function is flat.
+    /// j of the header: the least and the greatest. What is flatter than all powers looked for may
+    /// have the next one, or be flat.
     static std::pair<double, double> powers(const ContactOnset& onset) {
         const double early = onset.approach.value_or(always) - 1.0;
         const double late = onset.force.value_or(always);
-        return std::minmax(early, late);
+        return {std::min({early, late, highest_power - 1.0}), std::max(early, late)};
     }
     static double share(double j) {
         return std::isinf(j) ? 1.0 : (2.0 * j + 1.0) / (2.0 * j + 2.0);
@@ -423,7 +424,7 @@ std::optional<Kink> kink_in(const DerivedSolution& derived, double final_time) {
 
 std::string power_text(const std::string& base, std::optional<double> power) {
     if (!power)
-        return "flatter than any power of " + base;
+        return fmt::format("flatter than {}^{}", base, highest_power);
     return *power == 0 ? std::string("with a jump")
                        : "like " + base + (*power == 1 ? "" : fmt::format("^{:.3g}", *power));
 }

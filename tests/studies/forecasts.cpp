@@ -264,4 +264,27 @@ BOOST_AUTO_TEST_CASE(only_an_uneven_tip_in_a_penalised_stop_costs_sdirk2_an_orde
     }
 }
 
+// A tip that comes up like s^m and a force that begins like s^k, of which no power up to 6 is seen:
+// the orders p(2j + 1)/(2j + 2), with j = m − 1 and j = k, are in the range that is forecast.
+BOOST_AUTO_TEST_CASE(a_high_power_of_an_onset_leaves_less_than_a_flat_one) {
+    for (const int j : {6, 7}) {
+        const Problem problem = onset(j + 1, j, 0.4, 0.15);
+        const ExpectedOrders expected =
+            expected_orders(problem.solution, problem.beam, problem.final_time);
+        const ExpectedOrder& stress = expected.orders.back();
+        BOOST_REQUIRE(stress.norm == "sigma_L2");
+        const double share = (2.0 * j + 1.0) / (2.0 * j + 2.0);
+        for (const auto& [forecast, of_u] : {std::pair{stress.in_h, 2.0},
+                                             {stress.euler, 1.0},
+                                             {stress.bdf2, 2.0},
+                                             {stress.sdirk2, 2.0}}) {
+            BOOST_TEST(forecast.least <= of_u * share);
+            BOOST_TEST(forecast.least > of_u * 0.9);
+            BOOST_TEST(forecast.greatest >= of_u * share);
+        }
+        for (const std::string& reason : expected.reasons)
+            BOOST_TEST(reason.find("any power") == std::string::npos, reason);
+    }
+}
+
 BOOST_AUTO_TEST_SUITE_END()
