@@ -287,4 +287,35 @@ BOOST_AUTO_TEST_CASE(a_high_power_of_an_onset_leaves_less_than_a_flat_one) {
     }
 }
 
+// u_xxt goes to its value at t = 0 like s^β, however small β is: u has the order 1 + β. With a
+// large ζ what the first steps leave does not decay, and the order shows early.
+BOOST_AUTO_TEST_CASE(a_steep_cusp_lowers_the_order_too) {
+    for (const double beta : {0.02, 0.04, 0.3}) {
+        const std::string power = std::to_string(1.0 + beta);
+        const Problem problem{
+            parse_solution("theta = 't*sin(pi*x)'\nu = 'x^2*(1 - x)^2*t^" + power + "'\n",
+                           "cusp.toml"),
+            {0.0, 5.0, 0.0, {}},
+            1.0};
+        const ExpectedOrders expected =
+            expected_orders(problem.solution, problem.beam, problem.final_time);
+        BOOST_REQUIRE(expected.cusps.size() == 1);
+        BOOST_TEST(std::abs(expected.cusps[0].u_xxt_power - beta) < 1e-6);
+        for (const std::string scheme : {"bdf2", "sdirk2"})
+            check_forecast(problem, scheme, of_sixteenths, "u ~ t^" + power);
+    }
+}
+
+// A layer has a finite slope, however thin it is: nothing of it is a cusp.
+BOOST_AUTO_TEST_CASE(a_thin_layer_is_no_cusp) {
+    for (const std::string rate : {"1e10", "1e12", "2e12", "4e12", "1e13", "1e15"})
+        BOOST_TEST(expected_orders(parse_solution("theta = 't*sin(pi*x)'\n"
+                                                  "u = 'x^2*(1 - x)^2*(t + exp(-" +
+                                                      rate + "*t)/" + rate + ")'\n",
+                                                  "layer.toml"),
+                                   {0.0, 0.15, 0.0, {}}, 1.0)
+                       .cusps.empty(),
+                   rate);
+}
+
 BOOST_AUTO_TEST_SUITE_END()
