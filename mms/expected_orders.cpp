@@ -225,7 +225,7 @@ Forecast exactly(double order) {
     return between(order, order);
 }
 Forecast doubled(const Forecast& order) {
-    return {order.kind, 2.0 * order.least, 2.0 * order.greatest};
+    return {order.kind, 2.0 * order.least, 2.0 * order.greatest, order.none_at_levels};
 }
 
 /// Of the sum of two errors.
@@ -234,7 +234,9 @@ Forecast slower(const Forecast& a, const Forecast& b) {
         return a.has_error() ? a : b;
     if (!a.is_known() || !b.is_known())
         return unknown;
-    return between(std::min(a.least, b.least), std::min(a.greatest, b.greatest));
+    Forecast result = between(std::min(a.least, b.least), std::min(a.greatest, b.greatest));
+    result.none_at_levels = a.none_at_levels && b.none_at_levels;
+    return result;
 }
 
 enum class Method { euler, bdf2, sdirk2 };
@@ -299,6 +301,14 @@ private:
 
     /// Of what has jumps of its own, `own`, or through the coupling, up to the time `until`.
     [[nodiscard]] Forecast in_time(Method method, double Switch::*own, double until) const {
+        Forecast result = order_in_time(method, own, until);
+        result.none_at_levels = method != Method::bdf2 &&
+                                (own == &Switch::theta_t_jump ? known_.theta_is_linear_in_pieces
+                                                              : known_.u_is_linear_in_pieces);
+        return result;
+    }
+
+    [[nodiscard]] Forecast order_in_time(Method method, double Switch::*own, double until) const {
         if (method == Method::euler)
             return exactly(1.0);
         const bool of_theta = own == &Switch::theta_t_jump;
@@ -369,7 +379,9 @@ private:
                 return std::max(of_u - 0.5, of_u * share(j));
             };
             const auto [least, greatest] = powers(onset);
-            return between(order(p.least, least), order(p.greatest, greatest));
+            Forecast result = between(order(p.least, least), order(p.greatest, greatest));
+            result.none_at_levels = p.none_at_levels;
+            return result;
         });
     }
 
@@ -466,6 +478,26 @@ void add_contact_reasons(const ExpectedOrders& known, const Beam& beam,
             "loses a part of the order to that; its orders scatter from row to row.");
 }
 
+void add_switch_reasons(const ExpectedOrders& known, std::vector<std::string>& text) {
+    const auto is_linear_beside = [&](const Switch& change) {
+        return change.theta_t_jump > 0.0 ? known.theta_is_linear_in_pieces
+                                         : known.u_is_linear_in_pieces;
+    };
+    for (const Switch& change : known.switches)
+        if (change.theta_t_jump > 0.0 || change.u_xxt_jump > 0.0)
+            text.push_back("at t = " + number_text(change.t) + " " +
+                           (change.theta_t_jump > 0.0
+                                ? "theta_t jumps by up to " + number_text(change.theta_t_jump)
+                                : "u_xxt jumps by up to " + number_text(change.u_xxt_jump)) +
+                           ": BDF2 has the order 1 in dt, and more only where the time is the "
+                           "middle of a step; " +
+                           (is_linear_beside(change)
+                                ? "Euler and SDIRK2 have it, too, unless the time is a time level, "
+                                  "where they are exact: all is linear in t on both sides"
+                                : "SDIRK2 has 1 unless the time is a time level, where it has 2") +
+                           ". Norms with a maximum over time show it late.");
+}
+
 std::vector<std::string> reasons(const ExpectedOrders& known, const Beam& beam) {
     const bool coupled = beam.alpha != 0.0;
     std::vector<std::string> text;
@@ -512,15 +544,7 @@ std::vector<std::string> reasons(const ExpectedOrders& known, const Beam& beam) 
         text.emplace_back("zeta = 0, and u_xxtt is not zero at an end of the beam, where the "
                           "temperature is fixed: stages of SDIRK2 leave a layer there, and "
                           "theta_x has its order 1.75 to 2 in dt.");
-    for (const Switch& change : known.switches)
-        if (change.theta_t_jump > 0.0 || change.u_xxt_jump > 0.0)
-            text.push_back("at t = " + number_text(change.t) + " " +
-                           (change.theta_t_jump > 0.0
-                                ? "theta_t jumps by up to " + number_text(change.theta_t_jump)
-                                : "u_xxt jumps by up to " + number_text(change.u_xxt_jump)) +
-                           ": BDF2 has the order 1 in dt, and more only where the time is the "
-                           "middle of a step; SDIRK2 has 1 unless the time is a time level, where "
-                           "it has 2. Norms with a maximum over time show it late.");
+    add_switch_reasons(known, text);
     for (const Cusp& cusp : known.cusps)
         for (const bool of_theta : {true, false}) {
             const double power = of_theta ? cusp.theta_t_power : cusp.u_xxt_power;
@@ -600,11 +624,14 @@ ExpectedOrders expected_orders(const Solution& solution, const Beam& beam, doubl
             seek_farthest_tip(derived, beam.stops, final_time, result);
         else if (beam.stops.exist())
             result.contact = contact_history(derived, beam.stops, final_time);
-        const bool theta_is_linear = vanishes(derived, final_time, &DerivedPhase::theta, s.t, 2) &&
-                                     !jumps(result.switches, &Switch::theta_t_jump);
-        const bool u_is_linear = vanishes(derived, final_time, &DerivedPhase::u_xx, s.t, 2) &&
-                                 !jumps(result.switches, &Switch::u_xxt_jump);
         const bool coupled = beam.alpha != 0.0;
+        const bool theta_in_pieces = vanishes(derived, final_time, &DerivedPhase::theta, s.t, 2);
+        const bool u_in_pieces = vanishes(derived, final_time, &DerivedPhase::u_xx, s.t, 2);
+        result.theta_is_linear_in_pieces = theta_in_pieces && (u_in_pieces || !coupled);
+        result.u_is_linear_in_pieces = u_in_pieces && (theta_in_pieces || !coupled);
+        const bool theta_is_linear =
+            theta_in_pieces && !jumps(result.switches, &Switch::theta_t_jump);
+        const bool u_is_linear = u_in_pieces && !jumps(result.switches, &Switch::u_xxt_jump);
         result.theta_has_time_error = !theta_is_linear || (coupled && !u_is_linear);
         result.u_has_time_error =
             coupled ? result.theta_has_time_error : beam.zeta != 0.0 && !u_is_linear;
