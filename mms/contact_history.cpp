@@ -20,7 +20,6 @@ using GiNaC::ex;
 namespace {
 
 constexpr double nothing = 1e-9; ///< of the greatest size of a thing
-constexpr int highest_power = 6;
 
 /// A formula in t and its derivatives up to an order.
 void append_with_derivatives(std::vector<ex>& rows, ex formula, int highest) {

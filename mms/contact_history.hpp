@@ -8,10 +8,13 @@
 
 namespace tvbeam {
 
+/// No higher power is looked for at an onset.
+inline constexpr int highest_power = 6;
+
 /// A time at which an exact solution begins to press on a stop.
 struct ContactOnset {
     double t = 0.0;
-    /// m: the tip comes up like (t_onset − t)^m; none: flatter than any power looked for
+    /// m: the tip comes up like (t_onset − t)^m; none: flatter than highest_power
     std::optional<double> approach;
     /// k ≥ 0: the force begins like (t − t_onset)^k, with k = 0 by a jump; none: as above
     std::optional<double> force;

@@ -74,14 +74,13 @@ bool bends_at_an_end(const DerivedSolution& derived, double final_time) {
     });
 }
 
-/// Whether the tip is other than linear in t, by one formula in all phases.
-bool tip_moves_unevenly(const DerivedSolution& derived, double final_time) {
+/// Whether u(1,t) is linear in t in every phase.
+bool tip_is_linear(const DerivedSolution& derived, double final_time) {
     const ModelSymbols& s = model_symbols();
-    return !is_one_formula(derived, final_time) ||
-           !in_all(derived, final_time, [&](const DerivedPhase& phase) {
-               const ex tip = substituted(phase.u, {{s.x, 1}});
-               return is_identically_zero(derivative(derivative(tip, s.t), s.t));
-           });
+    return in_all(derived, final_time, [&](const DerivedPhase& phase) {
+        const ex tip = substituted(phase.u, {{s.x, 1}});
+        return is_identically_zero(derivative(derivative(tip, s.t), s.t));
+    });
 }
 
 /// θ̃_t and u_xxt in every phase, over x.
@@ -226,7 +225,7 @@ Forecast exactly(double order) {
     return between(order, order);
 }
 Forecast doubled(const Forecast& order) {
-    return {order.kind, 2.0 * order.least, 2.0 * order.greatest};
+    return {order.kind, 2.0 * order.least, 2.0 * order.greatest, order.none_at_levels};
 }
 
 /// Of the sum of two errors.
@@ -235,7 +234,9 @@ Forecast slower(const Forecast& a, const Forecast& b) {
         return a.has_error() ? a : b;
     if (!a.is_known() || !b.is_known())
         return unknown;
-    return between(std::min(a.least, b.least), std::min(a.greatest, b.greatest));
+    Forecast result = between(std::min(a.least, b.least), std::min(a.greatest, b.greatest));
+    result.none_at_levels = a.none_at_levels && b.none_at_levels;
+    return result;
 }
 
 enum class Method { euler, bdf2, sdirk2 };
@@ -300,6 +301,14 @@ private:
 
     /// Of what has jumps of its own, `own`, or through the coupling, up to the time `until`.
     [[nodiscard]] Forecast in_time(Method method, double Switch::*own, double until) const {
+        Forecast result = order_in_time(method, own, until);
+        result.none_at_levels = method != Method::bdf2 &&
+                                (own == &Switch::theta_t_jump ? known_.theta_is_linear_in_pieces
+                                                              : known_.u_is_linear_in_pieces);
+        return result;
+    }
+
+    [[nodiscard]] Forecast order_in_time(Method method, double Switch::*own, double until) const {
         if (method == Method::euler)
             return exactly(1.0);
         const bool of_theta = own == &Switch::theta_t_jump;
@@ -334,11 +343,12 @@ private:
         return known_.u_has_time_error ? in_time(method, &Switch::u_xxt_jump, until) : no_error;
     }
 
-    /// j of the header: the least and the greatest, infinite where a function is flat.
+    /// j of the header: the least and the greatest. What is flatter than all powers looked for may
+    /// have the next one, or be flat.
     static std::pair<double, double> powers(const ContactOnset& onset) {
         const double early = onset.approach.value_or(always) - 1.0;
         const double late = onset.force.value_or(always);
-        return std::minmax(early, late);
+        return {std::min({early, late, highest_power - 1.0}), std::max(early, late)};
     }
     static double share(double j) {
         return std::isinf(j) ? 1.0 : (2.0 * j + 1.0) / (2.0 * j + 2.0);
@@ -360,7 +370,8 @@ private:
         const double pressed = known_.contact.pressed_until
                                    ? std::nextafter(*known_.contact.pressed_until, 0.0)
                                    : always;
-        if (method == Method::sdirk2 && is_penalised() && known_.is_in_stops && beam_.zeta > 0.0)
+        if (method == Method::sdirk2 && is_penalised() && known_.is_in_stops &&
+            !known_.tip_is_linear && beam_.zeta > 0.0)
             return slower(u_in_time(method, pressed), between(1.0, 2.0));
         return of_stress(u_in_time(method, pressed), [&](const ContactOnset& onset) {
             const Forecast p = u_in_time(method, onset.t);
@@ -368,7 +379,9 @@ private:
                 return std::max(of_u - 0.5, of_u * share(j));
             };
             const auto [least, greatest] = powers(onset);
-            return between(order(p.least, least), order(p.greatest, greatest));
+            Forecast result = between(order(p.least, least), order(p.greatest, greatest));
+            result.none_at_levels = p.none_at_levels;
+            return result;
         });
     }
 
@@ -423,7 +436,7 @@ std::optional<Kink> kink_in(const DerivedSolution& derived, double final_time) {
 
 std::string power_text(const std::string& base, std::optional<double> power) {
     if (!power)
-        return "flatter than any power of " + base;
+        return fmt::format("flatter than {}^{}", base, highest_power);
     return *power == 0 ? std::string("with a jump")
                        : "like " + base + (*power == 1 ? "" : fmt::format("^{:.3g}", *power));
 }
@@ -455,9 +468,11 @@ void add_contact_reasons(const ExpectedOrders& known, const Beam& beam,
         text.push_back("The penalised stops answer to u(1,t) at once, and sigma has its order, for "
                        "steps below 3*zeta*epsilon = " +
                        number_text(3.0 * beam.zeta * beam.stops.epsilon) +
-                       "; with greater ones sigma_L2 behaves as at rigid stops, but for SDIRK2: "
-                       "where the tip moves within a stop its order is 1, and rises to 2 only "
-                       "below.");
+                       "; with greater ones sigma_L2 behaves as at rigid stops" +
+                       (known.tip_is_linear
+                            ? "."
+                            : ", but for SDIRK2: where the tip moves within a stop other than "
+                              "linearly in t its order is 1, and rises to 2 only below."));
     for (const ContactOnset& onset : known.contact.onsets)
         text.push_back(
             "at t = " + number_text(onset.t) + " a contact begins: the tip comes up " +
@@ -465,6 +480,26 @@ void add_contact_reasons(const ExpectedOrders& known, const Beam& beam,
             power_text("s", onset.force) +
             ". A run is there too early or too late by its error of u(1,t), and sigma_L2 "
             "loses a part of the order to that; its orders scatter from row to row.");
+}
+
+void add_switch_reasons(const ExpectedOrders& known, std::vector<std::string>& text) {
+    const auto is_linear_beside = [&](const Switch& change) {
+        return change.theta_t_jump > 0.0 ? known.theta_is_linear_in_pieces
+                                         : known.u_is_linear_in_pieces;
+    };
+    for (const Switch& change : known.switches)
+        if (change.theta_t_jump > 0.0 || change.u_xxt_jump > 0.0)
+            text.push_back("at t = " + number_text(change.t) + " " +
+                           (change.theta_t_jump > 0.0
+                                ? "theta_t jumps by up to " + number_text(change.theta_t_jump)
+                                : "u_xxt jumps by up to " + number_text(change.u_xxt_jump)) +
+                           ": BDF2 has the order 1 in dt, and more only where the time is the "
+                           "middle of a step; " +
+                           (is_linear_beside(change)
+                                ? "Euler and SDIRK2 have it, too, unless the time is a time level, "
+                                  "where they are exact: all is linear in t on both sides"
+                                : "SDIRK2 has 1 unless the time is a time level, where it has 2") +
+                           ". Norms with a maximum over time show it late.");
 }
 
 std::vector<std::string> reasons(const ExpectedOrders& known, const Beam& beam) {
@@ -513,15 +548,7 @@ std::vector<std::string> reasons(const ExpectedOrders& known, const Beam& beam) 
         text.emplace_back("zeta = 0, and u_xxtt is not zero at an end of the beam, where the "
                           "temperature is fixed: stages of SDIRK2 leave a layer there, and "
                           "theta_x has its order 1.75 to 2 in dt.");
-    for (const Switch& change : known.switches)
-        if (change.theta_t_jump > 0.0 || change.u_xxt_jump > 0.0)
-            text.push_back("at t = " + number_text(change.t) + " " +
-                           (change.theta_t_jump > 0.0
-                                ? "theta_t jumps by up to " + number_text(change.theta_t_jump)
-                                : "u_xxt jumps by up to " + number_text(change.u_xxt_jump)) +
-                           ": BDF2 has the order 1 in dt, and more only where the time is the "
-                           "middle of a step; SDIRK2 has 1 unless the time is a time level, where "
-                           "it has 2. Norms with a maximum over time show it late.");
+    add_switch_reasons(known, text);
     for (const Cusp& cusp : known.cusps)
         for (const bool of_theta : {true, false}) {
             const double power = of_theta ? cusp.theta_t_power : cusp.u_xxt_power;
@@ -601,19 +628,23 @@ ExpectedOrders expected_orders(const Solution& solution, const Beam& beam, doubl
             seek_farthest_tip(derived, beam.stops, final_time, result);
         else if (beam.stops.exist())
             result.contact = contact_history(derived, beam.stops, final_time);
-        const bool theta_is_linear = vanishes(derived, final_time, &DerivedPhase::theta, s.t, 2) &&
-                                     !jumps(result.switches, &Switch::theta_t_jump);
-        const bool u_is_linear = vanishes(derived, final_time, &DerivedPhase::u_xx, s.t, 2) &&
-                                 !jumps(result.switches, &Switch::u_xxt_jump);
         const bool coupled = beam.alpha != 0.0;
+        const bool theta_in_pieces = vanishes(derived, final_time, &DerivedPhase::theta, s.t, 2);
+        const bool u_in_pieces = vanishes(derived, final_time, &DerivedPhase::u_xx, s.t, 2);
+        result.theta_is_linear_in_pieces = theta_in_pieces && (u_in_pieces || !coupled);
+        result.u_is_linear_in_pieces = u_in_pieces && (theta_in_pieces || !coupled);
+        const bool theta_is_linear =
+            theta_in_pieces && !jumps(result.switches, &Switch::theta_t_jump);
+        const bool u_is_linear = u_in_pieces && !jumps(result.switches, &Switch::u_xxt_jump);
         result.theta_has_time_error = !theta_is_linear || (coupled && !u_is_linear);
         result.u_has_time_error =
             coupled ? result.theta_has_time_error : beam.zeta != 0.0 && !u_is_linear;
+        const bool is_one = is_one_formula(derived, final_time);
+        result.tip_is_linear = tip_is_linear(derived, final_time);
         result.tip_has_time_error =
-            result.u_has_time_error && (coupled || tip_moves_unevenly(derived, final_time) ||
+            result.u_has_time_error && (coupled || !is_one || !result.tip_is_linear ||
                                         jumps(result.switches, &Switch::u_xxt_jump));
-        const bool goes_on = is_one_formula(derived, final_time) &&
-                             !jumps(result.switches, &Switch::theta_t_jump) &&
+        const bool goes_on = is_one && !jumps(result.switches, &Switch::theta_t_jump) &&
                              !jumps(result.switches, &Switch::u_xxt_jump);
         const auto quadratic = [&](bool has_time_error, ex DerivedPhase::*field) {
             return goes_on && has_time_error && vanishes(derived, final_time, field, s.t, 3);

@@ -48,6 +48,8 @@ struct Forecast {
     Kind kind = Kind::no_error;
     double least = 0.0;
     double greatest = 0.0;
+    /// In dt: no error where each switch is at a time level.
+    bool none_at_levels = false;
 
     [[nodiscard]] bool has_error() const { return kind != Kind::no_error; }
     [[nodiscard]] bool is_known() const { return kind == Kind::between; }
@@ -72,6 +74,11 @@ struct ExpectedOrders {
     bool u_is_exact = false;     ///< u is cubic in x: the C¹ cubics hold it
     bool theta_has_time_error = true;
     bool u_has_time_error = true;
+    /// In t between its switches, with what is coupled to it: Euler and SDIRK2 are exact for that
+    /// if those are time levels.
+    bool theta_is_linear_in_pieces = false;
+    bool u_is_linear_in_pieces = false;
+    bool tip_is_linear = false;     ///< u(1,t), in t, in every phase
     bool tip_has_time_error = true; ///< in u(1,t), which without coupling answers to itself alone
     /// Of degree 2 at most in t, so that BDF2 has no error but that of its first step: both
     /// fields, where they are coupled; else each by itself.
@@ -104,16 +111,17 @@ struct ExpectedOrders {
 ///   in L² at most.
 /// - in dt: that of the scheme; none where what is differenced is linear in time, for every scheme
 ///   is exact then: θ̃ and u_xx in the heat equation, where α = 0 θ̃ alone; in the beam equation
-///   u_xx, and where ζ = 0 nothing. The coupling passes the errors on. Where θ̃_t or u_xxt jumps
-///   at the part s of a step, the defect is of order 1: for BDF2, which looks one step behind, the
-///   sum over the steps is (s − 1/2)Δt times the jump; SDIRK2 has none at a level. What of the jump
-///   is along 1 − x a stop may take away. So the order is 1 to 2. Where one goes to its value like
-///   s^β, β < 1, the defect of the steps beside it is of order β, over a time Δt: 1 + β to 2. Where
-///   what is differenced is quadratic in time BDF2 is exact but for its first step, of SDIRK2,
-///   whose error O(Δt³) stays: 3. Without viscosity u_xx answers to the load at once, and the
-///   stages of SDIRK2, which are of order 1, leave Δt² u_xxtt in the heat equation: where that is
-///   not zero at an end, its part in the mode k is 1/k, of modes up to Δt^(-1/2). So SDIRK2 has
-///   7/4 to 2 in the norm of θ̃_x, and 2 in the others; its single step in BDF2 leaves 9/4 to 3.
+///   u_xx, and where ζ = 0 nothing. The coupling passes the errors on. Where θ̃_t or u_xxt jumps at
+///   the part s of a step, the defect is of order 1: for BDF2, which looks one step behind, the sum
+///   over the steps is (s − 1/2)Δt times the jump; SDIRK2 has none at a level, and neither it nor
+///   Euler's scheme any error if all is linear on both sides. What of the jump is along 1 − x a
+///   stop may take away. So the order is 1 to 2. Where one goes to its value like s^β, β < 1, the
+///   defect of the steps beside it is of order β, over a time Δt: 1 + β to 2. Where what is
+///   differenced is quadratic in time BDF2 is exact but for its first step, of SDIRK2, whose error
+///   O(Δt³) stays: 3. Without viscosity u_xx answers to the load at once, and the stages of SDIRK2,
+///   which are of order 1, leave Δt² u_xxtt in the heat equation: where that is not zero at an end,
+///   its part in the mode k is 1/k, of modes up to Δt^(-1/2). So SDIRK2 has 7/4 to 2 in the norm of
+///   θ̃_x, and 2 in the others; its single step in BDF2 leaves 9/4 to 3.
 /// - of the stress without coupling: (1 − x, ·) of the beam equation has u(1,t) and its rate alone.
 ///   A tip that has been held from t = 0 on, or that is linear in t by one formula, has no time
 ///   error, and neither has σ.
@@ -131,8 +139,9 @@ struct ExpectedOrders {
 ///   a stop without a force leaves the order open; one that touches none has no error.
 /// - of the stress at penalised stops: that of u, as it is a Lipschitz function of u(1,t), once Δt
 ///   is below 3ζε; with greater steps as at rigid stops, but for SDIRK2 where the tip moves within
-///   a stop: its stages are of order 1, which the stiff stop lets through, and it has 1 to 2. The
-///   errors of a solution of rigid stops stall, in an unknown way, at the distance of the two laws.
+///   a stop, other than linearly in t: its stages are of order 1, which the stiff stop lets
+///   through, and it has 1 to 2. The errors of a solution of rigid stops stall, in an unknown way,
+///   at the distance of the two laws.
 ///
 /// Throws InputError as manufactured_problem does.
 ExpectedOrders expected_orders(const Solution& solution, const Beam& beam, double final_time);

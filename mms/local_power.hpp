@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -17,13 +18,14 @@ double power_below_one(const Difference& difference, double length, double size)
         1e-12; // of the size; what is smooth is nearest · length · its slope
     constexpr double nearly_one = 0.95;
     constexpr double same = 0.05;
+    constexpr double nearly_zero = 1e-3; // where the value at zero is another one than the limit
     const double near = difference(nearest * length);
     const double further = difference(nearest * ratio * length);
     const double far = difference(nearest * ratio * ratio * length);
     const double beta = std::log(further / near) / std::log(ratio);
     const double beta_further = std::log(far / further) / std::log(ratio);
-    const bool is_power =
-        near > rounding * size && beta > same && beta < nearly_one && beta_further > beta - same;
+    const bool is_power = near > rounding * size && beta > nearly_zero && beta < nearly_one &&
+                          beta_further > beta - std::min(same, 0.5 * beta);
     return is_power ? beta : std::numeric_limits<double>::infinity();
 }
 

@@ -270,15 +270,15 @@ std::string ContactRules::repair_of_sign(const ContactPhase& phase, double t) co
                                         ? std::string()
                                         : ", sigma = \"-(" + phase.sigma_formula + ")\"");
     const auto has_sign = [&](double time) { return is_positive(time) == positive; };
-    const bool from_start = has_sign(times(0)) && std::abs(stress(0)) > stress_tolerance_;
+    // The last time before t with the other sign; where there is none, the first after it.
     double other = t;
-    for (Index k = 0; k < times.size(); ++k)
-        if (std::abs(stress(k)) > stress_tolerance_ && (stress(k) > 0.0) != positive &&
-            (from_start ? times(k) > t : times(k) < t)) {
+    for (Index k = 0; k < times.size() && (times(k) < t || !(other < t)); ++k)
+        if (std::abs(stress(k)) > stress_tolerance_ && (stress(k) > 0.0) != positive) {
             other = times(k);
-            if (from_start)
+            if (other > t)
                 break;
         }
+    const bool from_start = other > t;
     const double change = switch_time(has_sign, std::min(t, other), std::max(t, other));
     return "it changes its sign at t = " + number_text(change) +
            (from_start ? "; begin the contact there" : "; end the phase there");

@@ -11,6 +11,8 @@ namespace {
 std::string latex_symbol(const std::string& symbol) {
     if (symbol == "theta0")
         return "\\tilde\\theta_0";
+    if (symbol == "sigma")
+        return "\\sigma";
     return symbol == "u0" ? "u_0" : symbol;
 }
 

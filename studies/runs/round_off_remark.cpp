@@ -102,7 +102,8 @@ Scale scale_of(const Beam& beam, const ProblemData& data, const Norm& norm, doub
     return {sources, fmt::format("of a solution of 0 with sources of {:.2g}", sources)};
 }
 
-/// Whether theory has no error of that norm, neither in h nor in Δt; nothing: it does not say.
+/// Whether theory has no error of that norm, neither in h nor in Δt; nothing: it does not say,
+/// or the time levels decide.
 std::optional<bool> exact_in_theory(const Scene& scene, const Series& series, const Norm& norm) {
     const auto* solution = std::get_if<Solution>(&scene.problem);
     if (solution == nullptr)
@@ -116,7 +117,8 @@ std::optional<bool> exact_in_theory(const Scene& scene, const Series& series, co
             const Forecast& in_dt = scheme == "euler"  ? row.euler
                                     : scheme == "bdf2" ? row.bdf2
                                                        : row.sdirk2;
-            if (row.in_h.is_known() || in_dt.is_known() || expected.law_distance > 0.0)
+            const bool has_time_error = in_dt.is_known() && !in_dt.none_at_levels;
+            if (row.in_h.is_known() || has_time_error || expected.law_distance > 0.0)
                 return false;
             if (!row.in_h.has_error() && !in_dt.has_error())
                 return true;

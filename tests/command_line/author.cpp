@@ -30,6 +30,8 @@ BOOST_AUTO_TEST_CASE(derive_prints_formulas_for_a_scene_and_a_solution) {
     BOOST_TEST(has(latex.output, "\\sin"));
     BOOST_TEST(has(latex.output, "&& 0 \\le t \\le \\sqrt{2} \\\\"));
     BOOST_TEST(!has(latex.output, "\\text{"));
+    const Called penalised = call(directory, "derive penalised-mixed --latex");
+    BOOST_TEST(has(penalised.output, "\n  \\sigma &= "));
 }
 
 BOOST_AUTO_TEST_CASE(derive_answers_for_every_shipped_name) {

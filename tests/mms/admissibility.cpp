@@ -334,6 +334,12 @@ const std::vector<Repair> repairs = {
      "3:10: (8): sigma(1,t) is 0.5 at t = 0, where u(1,t) is 0.1; it must be at most 0 at the stop "
      "g2: it changes its sign at t = 0.5; begin the contact there",
      "theta = 0\nu = \"x^2*g2\"\n[[phase]]\nuntil = 0.5\n[[phase]]\nsigma = \"1/2 - t\"\n"},
+    // Zero at t = 0, then of the wrong sign: it has that from the start all the same.
+    {solution("0", "x^2*g2", "t*(1/2 - t)"), between_stops,
+     "3:10: (8): sigma(1,t) is 0.00384521 at t = 0.0078125, where u(1,t) is 0.1; it must be at "
+     "most 0 at the stop g2: it changes its sign at t = 0.5; begin the contact there",
+     "theta = 0\nu = \"x^2*g2\"\n[[phase]]\nuntil = 0.5\n[[phase]]\n"
+     "sigma = \"t*(1/2 - t)\"\n"},
     // Phases that do not meet: by how much, in which term, and where they would.
     {sine + phases("u = \"x^2*t/100\"\n", "u = \"x^2*(1/50 - (t - 2)^2/1000)\"\n"), between_stops,
      "6:6: (3): u jumps by 0.009 at t = 1, x = 1; it must be continuous: subtract 9*x^2/1000 from "

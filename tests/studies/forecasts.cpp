@@ -237,4 +237,85 @@ BOOST_AUTO_TEST_CASE(a_jump_at_the_time_of_an_onset_lowers_the_order_that_it_lea
     }
 }
 
+// Stages of SDIRK2 are of order 2 for a tip that is linear in t, of 1 for any other. The steps are
+// far above 3ζε = 4.5e-5.
+BOOST_AUTO_TEST_CASE(only_an_uneven_tip_in_a_penalised_stop_costs_sdirk2_an_order) {
+    const auto problem = [](const std::string& tip) {
+        return Problem{parse_solution("theta = 'sin(pi*x)*exp(-t)'\nu = 'g2*(5 + " + tip +
+                                          ")/4*(3*x^2 - x^3)/2 + g2*x^2*(1 - x)^2*exp(-t)'\n",
+                                      "tip.toml"),
+                       {0.4, 0.15, 0.0, {-1.0, 0.1, 1e-4}},
+                       1.0};
+    };
+    const auto stress = [](const Problem& one) {
+        const ExpectedOrders expected = expected_orders(one.solution, one.beam, one.final_time);
+        bool loses = false;
+        for (const std::string& reason : expected.reasons)
+            loses = loses || reason.find("but for SDIRK2") != std::string::npos;
+        BOOST_REQUIRE(expected.orders.back().norm == "sigma_L2");
+        return std::pair{expected.orders.back().sdirk2, loses};
+    };
+    for (const auto& [tip, least] : {std::pair{"t", 2.0}, {"0", 2.0}, {"sin(t)", 1.0}}) {
+        const auto [forecast, loses] = stress(problem(tip));
+        BOOST_TEST(forecast.least == least, tip);
+        BOOST_TEST(forecast.greatest == 2.0, tip);
+        BOOST_TEST(loses == (least < 2.0), tip);
+        check_forecast(problem(tip), "sdirk2", {16, 23, 32, 45, 64}, tip);
+    }
+}
+
+// A tip that comes up like s^m and a force that begins like s^k, of which no power up to 6 is seen:
+// the orders p(2j + 1)/(2j + 2), with j = m − 1 and j = k, are in the range that is forecast.
+BOOST_AUTO_TEST_CASE(a_high_power_of_an_onset_leaves_less_than_a_flat_one) {
+    for (const int j : {6, 7}) {
+        const Problem problem = onset(j + 1, j, 0.4, 0.15);
+        const ExpectedOrders expected =
+            expected_orders(problem.solution, problem.beam, problem.final_time);
+        const ExpectedOrder& stress = expected.orders.back();
+        BOOST_REQUIRE(stress.norm == "sigma_L2");
+        const double share = (2.0 * j + 1.0) / (2.0 * j + 2.0);
+        for (const auto& [forecast, of_u] : {std::pair{stress.in_h, 2.0},
+                                             {stress.euler, 1.0},
+                                             {stress.bdf2, 2.0},
+                                             {stress.sdirk2, 2.0}}) {
+            BOOST_TEST(forecast.least <= of_u * share);
+            BOOST_TEST(forecast.least > of_u * 0.9);
+            BOOST_TEST(forecast.greatest >= of_u * share);
+        }
+        for (const std::string& reason : expected.reasons)
+            BOOST_TEST(reason.find("any power") == std::string::npos, reason);
+    }
+}
+
+// u_xxt goes to its value at t = 0 like s^β, however small β is: u has the order 1 + β. With a
+// large ζ what the first steps leave does not decay, and the order shows early.
+BOOST_AUTO_TEST_CASE(a_steep_cusp_lowers_the_order_too) {
+    for (const double beta : {0.02, 0.04, 0.3}) {
+        const std::string power = std::to_string(1.0 + beta);
+        const Problem problem{
+            parse_solution("theta = 't*sin(pi*x)'\nu = 'x^2*(1 - x)^2*t^" + power + "'\n",
+                           "cusp.toml"),
+            {0.0, 5.0, 0.0, {}},
+            1.0};
+        const ExpectedOrders expected =
+            expected_orders(problem.solution, problem.beam, problem.final_time);
+        BOOST_REQUIRE(expected.cusps.size() == 1);
+        BOOST_TEST(std::abs(expected.cusps[0].u_xxt_power - beta) < 1e-6);
+        for (const std::string scheme : {"bdf2", "sdirk2"})
+            check_forecast(problem, scheme, of_sixteenths, "u ~ t^" + power);
+    }
+}
+
+// A layer has a finite slope, however thin it is: nothing of it is a cusp.
+BOOST_AUTO_TEST_CASE(a_thin_layer_is_no_cusp) {
+    for (const std::string rate : {"1e10", "1e12", "2e12", "4e12", "1e13", "1e15"})
+        BOOST_TEST(expected_orders(parse_solution("theta = 't*sin(pi*x)'\n"
+                                                  "u = 'x^2*(1 - x)^2*(t + exp(-" +
+                                                      rate + "*t)/" + rate + ")'\n",
+                                                  "layer.toml"),
+                                   {0.0, 0.15, 0.0, {}}, 1.0)
+                       .cusps.empty(),
+                   rate);
+}
+
 BOOST_AUTO_TEST_SUITE_END()
