@@ -204,7 +204,7 @@ BOOST_AUTO_TEST_CASE(a_pattern_that_begins_within_a_number_is_a_failure) {
                                                           {"of 2026-0.75", R"(\D(\S{4})$)"},
                                                           {"took 12.0.75", R"(took \d+\.(\S+))"},
                                                           {"(x=-0.75)", R"((?:x|y)=-(\d\.\d+))"},
-             {"(x=-0.75)", R"((?:x=-)(\d\.\d+))"}})
+                                                          {"(x=-0.75)", R"((?:x=-)(\d\.\d+))"}})
         BOOST_TEST(read({line}, pattern).value.value_or(0.0) == 0.75, pattern);
     // Dots and dashes that lead to a number.
     for (const std::string line : {"L2 ..... 0.5", "L2.....0.5", "L2 -----0.5", "L2: +0.5"})
