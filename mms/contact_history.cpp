@@ -181,16 +181,26 @@ private:
         return on;
     }
 
-    /// Where the tip comes to a stop, or leaves it.
+    /// Where the tip comes to a stop, or leaves it; or rests there without a force for a while: one
+    /// that begins with a power up to nine is nothing at fewer sampled times than these.
     [[nodiscard]] std::optional<double> change_within(const Interval& phase) const {
+        constexpr double rounding = 1e-14;
+        constexpr int fewest_of_a_rest = 8;
         const ArrayXd times = samples(phase);
+        int resting = 0;
         for (Index k = 0; k + 1 < times.size(); ++k) {
+            const bool rests =
+                std::abs(value(phase, times(k), force_row_)) <= rounding * force_size_;
+            if (!rests && resting >= fewest_of_a_rest)
+                return times(k);
+            resting = rests ? resting + 1 : 0;
             const bool comes_to_it = is_on_stop(phase, times(k + 1));
             if (is_on_stop(phase, times(k)) != comes_to_it)
                 return comes_to_it ? last_on_stop(phase, times(k + 1), times(k))
                                    : last_on_stop(phase, times(k), times(k + 1));
         }
-        return std::nullopt;
+        return resting >= fewest_of_a_rest ? std::optional(times(times.size() - resting))
+                                           : std::nullopt;
     }
 
     /// Where the gap has a minimum that is nothing; next to an end on a stop it belongs to that

@@ -66,6 +66,7 @@ private:
     [[nodiscard]] GreatestValue farthest(const ContactPhase& phase, bool below, double limit) const;
     [[nodiscard]] bool stays_between_stops(const ContactPhase& phase) const;
     void require_law(const ContactPhase& phase) const;
+    [[nodiscard]] bool is_rounding_of_law(double tip, double stress) const;
     [[nodiscard]] bool at_lower(double tip) const;
     [[nodiscard]] bool at_upper(double tip) const;
     void require_between_stops(const ContactPhase& phase, double t, double tip) const;

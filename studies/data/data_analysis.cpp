@@ -156,6 +156,15 @@ void leave_open(const DataAnalysis& data, const DataColumn& errors,
     }
 }
 
+std::vector<double> of_rows_with_numbers(const std::vector<double>& widths,
+                                         const std::vector<double>& numbers) {
+    std::vector<double> result;
+    for (std::size_t r = 0; r < numbers.size(); ++r)
+        if (std::isfinite(numbers[r]))
+            result.push_back(widths[r]);
+    return result;
+}
+
 /// The width at which one that coarser rows refine stands still where the finest refine another;
 /// none where it does not. Of the rows that have a number.
 std::optional<double> standing_still(const DataColumn& width, const DataColumn& along,
@@ -179,7 +188,7 @@ std::optional<double> standing_still(const DataColumn& width, const DataColumn& 
 /// How a width changes with the one that rows are refined along.
 std::string path_words(const DataColumn& width, const DataColumn& along,
                        const std::vector<double>& numbers) {
-    if (!varies(width.numbers))
+    if (!varies(of_rows_with_numbers(width.numbers, numbers)))
         return "it is the same in all rows";
     const auto still = standing_still(width, along, numbers);
     return still ? fmt::format("it stands still at {:.4g} where the finest rows refine {}", *still,
@@ -437,8 +446,9 @@ ColumnAnalysis analyse_values(const DataAnalysis& data, const DataColumn& values
                     : column.limit->order.status;
     std::string held; // its error is in the limit
     for (const auto& width : data.widths)
-        if (on_one_path && !varies(width.numbers))
-            held += fmt::format(" at {} = {:.4g}", width.name, width.numbers.front());
+        if (const auto found = of_rows_with_numbers(width.numbers, column.numbers);
+            on_one_path && !found.empty() && !varies(found))
+            held += fmt::format(" at {} = {:.4g}", width.name, found.front());
     column.findings.push_back(
         column.name + ": " +
         (limit.determined

@@ -306,10 +306,18 @@ std::size_t end_of_repetition(const std::string& pattern, std::size_t at) {
     return at < pattern.size() && pattern[at] == '?' ? at + 1 : at;
 }
 
-/// What is counted off is one atom so many times, as (.{11}).
+/// What is counted off is one atom so many times, as (.{11}); blanks are among what it takes, or it
+/// would be a part of a number as well.
 bool counts_off(const std::string& group) {
-    static const std::regex counted(R"(^\((?:\\?.|\[[^\]]*\])\{\d+\}\)$)");
+    static const std::regex counted(R"(^\((?:\.|\[[^\]]* [^\]]*\])\{\d+\}\)$)");
     return std::regex_match(group, counted);
+}
+
+/// Whether a group (?:…) that begins there is there in every match, as it is written.
+bool is_certain(const std::string& pattern, std::size_t begin) {
+    const std::size_t end = end_of_part(pattern, begin);
+    return pattern.substr(begin, end - begin).find('|') == std::string::npos &&
+           end_of_repetition(pattern, end) == end;
 }
 
 NamedBeside named_beside_the_group(const std::string& pattern) {
@@ -335,11 +343,17 @@ NamedBeside named_beside_the_group(const std::string& pattern) {
         if (atom == ")" && has_choice)
             named.before.clear(); // which of them it took is not known
         has_choice = atom == "|" || (has_choice && atom != ")");
-        if (atom == "(?:" || atom == "(?=" || atom == ")")
-            continue; // what stands in it counts
+        // What stands in a group counts, but behind the number not what may be absent.
+        if (atom == ")" || (atom == "(?:" && (!is_behind || is_certain(pattern, begin))))
+            continue;
         // Behind the group also one of a few, as [dh]; before it [-=] may take a minus unmeant.
         const bool is_one_of_few =
             is_behind && atom.starts_with('[') && !atom.starts_with("[^") && at == repetition;
+        const bool may_be_absent =
+            std::string_view("?*{").find(pattern.substr(repetition, 1)) != std::string_view::npos &&
+            at > repetition;
+        if (is_behind && may_be_absent)
+            break;
         if (is_one_of_few || names_what_it_takes(atom))
             (is_behind ? named.behind : named.before) += pattern.substr(begin, at - begin);
         else if (is_behind)

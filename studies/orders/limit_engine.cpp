@@ -475,12 +475,14 @@ LimitEstimate estimate_limit(std::span<const ValueRow> rows, const LimitTuning& 
         result.order.status = "an order of values needs three steps that are not zero";
     if (levels.size() < 4)
         result.order.status = "an order of values with an interval needs four widths";
-    const double falls_to = result.order.falls_to.value_or(infinity);
-    if (!is_erratic(levels) && falls_to > 0 && falls_to < tuning.slow_order) {
+    const auto [from, to] = result.order.falls.value_or(std::pair(infinity, infinity));
+    const bool is_slow =
+        to < tuning.slow_order || (to < tuning.first_order && from - to > tuning.far_fall);
+    if (!is_erratic(levels) && to > 0 && is_slow) {
         result.limit = {.status = fmt::format("the order of the steps falls over finer windows, to "
                                               "{:.2f}: how far slow terms still go, as 1/ln h, no "
                                               "model tells",
-                                              falls_to)};
+                                              to)};
         result.uncertainty = infinity;
         result.basis.clear();
     }

@@ -45,6 +45,10 @@ struct LimitTuning {
     /// of 433 missed whose error is 1/ln h, its square, h^¼, h + c h^¼ or h + c √h, of a seed that
     /// this was not chosen by; with 3 more, of powers of 1 and more, none was.
     double slow_order = 0.5;
+    /// Or below the first, where it falls by more than this: of h² + c √h 19 more are left out, of
+    /// which 15 missed. 37 of the 272 that stay miss.
+    double first_order = 1.0;
+    double far_fall = 0.5;
 };
 
 struct LimitEstimate {

@@ -425,7 +425,7 @@ std::vector<OrderInterval> OrderEnsemble::orders() const {
                            !is_ambiguous(width) && is_seen_as_a_power(width, order);
         if (!order.determined) {
             order.status = status_of(width, order);
-            order.falls_to = motion_of(width).falls_to();
+            order.falls = motion_of(width).falls();
         }
     }
     return result;

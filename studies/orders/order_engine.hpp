@@ -57,7 +57,8 @@ struct OrderInterval {
     /// Why it is not determined, as "it rises over finer windows, to 1.68"; empty where it
     /// is.
     std::string status = {};
-    std::optional<double> falls_to = {}; ///< that of the finest window, where it falls over all
+    /// Those of the coarsest window and of the finest, where it falls from each to the next.
+    std::optional<std::pair<double, double>> falls = {};
 
     double half_width() const { return (high - low) / 2; }
 };

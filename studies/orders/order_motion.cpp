@@ -199,8 +199,10 @@ std::string OrderMotion::words() const {
                                    step > 0 ? "rises" : "falls", windows_.back().value);
 }
 
-std::optional<double> OrderMotion::falls_to() const {
-    return step_over_windows() < 0 ? std::optional(windows_.back().value) : std::nullopt;
+std::optional<std::pair<double, double>> OrderMotion::falls() const {
+    return step_over_windows() < 0
+               ? std::optional(std::pair(windows_.front().value, windows_.back().value))
+               : std::nullopt;
 }
 
 /// The last step of the order from window to window, where all go its way; else 0.

@@ -11,6 +11,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace tvbeam {
@@ -29,8 +30,8 @@ public:
     }
     /// As "it rises over finer windows, to 1.68"; empty where it moves to and fro, or not at all.
     [[nodiscard]] std::string words() const;
-    /// The order of the finest window, where it falls from each to the next.
-    [[nodiscard]] std::optional<double> falls_to() const;
+    /// The orders of the coarsest window and of the finest, where it falls from each to the next.
+    [[nodiscard]] std::optional<std::pair<double, double>> falls() const;
 
 private:
     [[nodiscard]] double step_over_windows() const;

@@ -66,6 +66,16 @@ BOOST_AUTO_TEST_CASE(a_contact_that_begins_within_a_phase_is_not_one_from_the_st
         }));
     }
     BOOST_TEST(!history_of("", "-1 - t").contact.within);
+    // At the stop all the time, and pressed from c on; no rest is the zero of a force, or its
+    // begin.
+    const auto presses = history_of("", "-((t - c) + sqrt((t - c)^2))/2");
+    const auto lets_go = history_of("", "-((c - t) + sqrt((c - t)^2))/2");
+    for (const auto& known : {presses, lets_go}) {
+        BOOST_REQUIRE(known.contact.within);
+        BOOST_TEST(std::abs(*known.contact.within - 1.037) < 1e-2);
+    }
+    for (const std::string sigma : {"-sin(3*t)^2", "-t^6"})
+        BOOST_TEST(!history_of("", sigma).contact.within, sigma);
 }
 
 BOOST_DATA_TEST_CASE(a_touch_without_a_force_is_seen_wherever_it_is,

@@ -151,7 +151,12 @@ BOOST_AUTO_TEST_CASE(a_pattern_that_ends_within_a_number_is_a_failure) {
              {"L2 = 0.123-100", R"(L2 = ([\d.]+))"},
              {"L2 = 4.0e-01, 3 steps", R"(L2 = ([\d.]+).*steps)"},
              {"v = 1.234567e-100", R"(v = (-?\d+\.\d{3,}(?:[eE][-+]\d{2})?))"},
-             {"v = 1.2345e-05", R"(v = (\d\.\d{4}))"}})
+             {"v = 1.2345e-05", R"(v = (\d\.\d{4}))"},
+             {"v = 1.2345", R"(v = ([0-9.]{4}))"},
+             {"dofs = 16641", R"(dofs = (\d{4}))"},
+             {"v = 8.00e-03", R"(v = (\d+\.\d+)(?:[eE][-+]?\d+)?)"},
+             {"v = 8.00e-03", R"(v = (\d+\.\d+)(?:e|$))"},
+             {"v = 8.00e-03", R"(v = (\d+\.\d+)(?=e))"}})
         BOOST_TEST(read({line}, pattern).failure.find("ends within the number") !=
                        std::string::npos,
                    pattern);
@@ -162,11 +167,9 @@ BOOST_AUTO_TEST_CASE(a_pattern_that_ends_within_a_number_is_a_failure) {
     for (const auto& [line, pattern] : std::vector<std::pair<std::string, std::string>>{
              {"v = 1.5-100.25i", R"(v = (-?\d+\.\d+))"},
              {"v = (1.5+100j)", R"(v = \(?(-?\d+\.\d+))"},
-             {"v = 1.5e-3", R"(v = (\d+\.\d+)(?=e-3))"},
+             {"v = 1.5e-3", R"(v = (\d+\.\d+)(?:e-3))"},
              {"version 0.1.5", R"(version 0[.](\d+\.\d))"}})
         BOOST_TEST(read({line}, pattern).value.value_or(0.0) == 1.5, pattern);
-    BOOST_TEST(*read({"steps 12.0"}, R"(steps (\d+)(?:\.0)?)").value == 12.0);
-    BOOST_TEST(*read({"wall 12.5 s"}, R"(wall (\d+)(?:[.]\d+)? s)").value == 12.0);
 }
 
 BOOST_AUTO_TEST_CASE(a_pattern_that_begins_within_a_number_is_a_failure) {
