@@ -505,6 +505,16 @@ BOOST_AUTO_TEST_CASE(a_stop_that_yields_little_yields) {
     const Solution parsed =
         parse_solution(solution("0", "(g2 + 1e-14*(1 + t))*x^2", "-1 - t"), "my.toml");
     BOOST_TEST(law_distance(parsed, beam, 1.0) == 0.0);
+    // Where it comes to the stop at t = 1 the law, written out, is rounding of the tip over
+    // epsilon.
+    const std::string tip = "exp(log(g2) + 1e-5*(t - 1)^2)";
+    const Solution comes =
+        parse_solution("theta = 'sin(pi*x)'\n"
+                       "[[phase]]\nuntil = 1\nu = 'x^2*g2*(1 - (1 - t)^2/2)'\nsigma = '0'\n"
+                       "[[phase]]\nu = 'x^2*" +
+                           tip + "'\nsigma = '-(" + tip + " - g2)/1e-6'\n",
+                       "my.toml");
+    BOOST_CHECK_NO_THROW(law_distance(comes, {0.4, 0.15, 0.0, {-0.5, 0.03, 1e-6}}, 2.0));
 }
 
 BOOST_DATA_TEST_CASE(a_broken_rule_is_named_with_equation_time_and_place, data::make(cases)) {

@@ -789,6 +789,10 @@ BOOST_AUTO_TEST_CASE(a_width_that_stands_still_in_the_finest_rows_leaves_no_limi
                                  "0.025,0.025,1.025,0.025\n0.0125,0.025,NA,NA\n";
     const auto made = column_of(analysed(diagonal), true);
     BOOST_TEST((made.limit->limit.low <= 1 && 1 <= made.limit->limit.high));
+    // Nor does a coarse one that was not, with another dt.
+    const auto late = analysed("0.4,0.2,NA,NA\n" + still);
+    BOOST_TEST(column_of(late, true).findings.front().find("at dt = 0.025") != std::string::npos);
+    BOOST_TEST(column_of(late, false).by_width[1].status == "it is the same in all rows");
     // Refined to the end, though by other steps.
     const auto to_the_end =
         column_of(analysed("0.2,0.16,1.2,0.2\n0.1,0.04,1.05,0.05\n0.05,0.01,1.0125,0.0125\n"
