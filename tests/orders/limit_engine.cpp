@@ -311,6 +311,11 @@ BOOST_AUTO_TEST_CASE(values_whose_order_falls_below_a_half_have_no_limit) {
             BOOST_TEST(limit.limit.status.starts_with("the order of the steps falls"),
                        limit.limit.status);
         }
+    // h² + √h/100 ends in a half: it has fallen from 2, and is below the first on its way there.
+    const auto limit = estimate_limit(
+        sequence(8, [](double h) { return 1 + h * h / 16 + 0.01 * std::sqrt(h / 4); }));
+    BOOST_TEST(!limit.limit.determined);
+    BOOST_TEST(limit.order.falls.value_or(std::pair(0.0, 0.0)).second > 0.5);
     // Those of powers of a half and more, with next terms, fall no further.
     int held = 0;
     int cases = 0;
