@@ -31,13 +31,11 @@ struct Size {
 
 class Coverage {
 public:
-    Coverage(const Solution& solution, const Beam& beam, double final_time)
-        : beam_(beam), final_time_(final_time), derived_(derive_on(solution, beam)) {
-        check_admissible(solution, derived_, PlainSolution(solution, derived_, beam, final_time),
-                         beam, final_time);
+    explicit Coverage(const AdmissibleSolution& solution)
+        : beam_(solution.beam()), final_time_(solution.final_time()), derived_(solution.derived()) {
         for (const PhaseExpressions& phase : derived_.phases)
-            if (phase.begin_value < final_time)
-                times_.push_back({phase.begin_value, std::min(phase.end_value, final_time)});
+            if (phase.begin_value < final_time_)
+                times_.push_back({phase.begin_value, std::min(phase.end_value, final_time_)});
     }
 
     std::vector<TermUse> terms() {
@@ -169,19 +167,17 @@ private:
                                  : "the tip never reaches " + name);
     }
 
-    Beam beam_;
+    const Beam& beam_;
     double final_time_;
-    DerivedSolution derived_;
+    const DerivedSolution& derived_;
     std::vector<CloseLook> times_; ///< of each phase that begins before the final time
     std::vector<TermUse> terms_;
 };
 
 } // namespace
 
-std::vector<TermUse> coverage(const Solution& solution, const Beam& beam, double final_time) {
-    require_final_time(final_time);
-    return located(solution.phases.front().u, "the solution",
-                   [&] { return Coverage(solution, beam, final_time).terms(); });
+std::vector<TermUse> coverage(const AdmissibleSolution& solution) {
+    return located(solution.place(), "the solution", [&] { return Coverage(solution).terms(); });
 }
 
 } // namespace tvbeam

@@ -1,7 +1,6 @@
 #pragma once
 
-#include "core/problem.hpp"
-#include "mms/solution.hpp"
+#include "mms/admissible/admissibility.hpp"
 
 #include <string>
 #include <vector>
@@ -20,7 +19,7 @@ struct TermUse {
     [[nodiscard]] bool is_exercised() const { return largest > 0.0; }
 };
 
-/// Every term in the order of the equations. Throws InputError as manufactured_problem does.
-std::vector<TermUse> coverage(const Solution& solution, const Beam& beam, double final_time);
+/// Every term in the order of the equations.
+std::vector<TermUse> coverage(const AdmissibleSolution& solution);
 
 } // namespace tvbeam

@@ -108,21 +108,19 @@ std::vector<Switch> switches(const DerivedSolution& derived, double final_time) 
     const ArrayXd x = sample_points(0.0, 1.0);
     const ArrayXd sizes = sizes_of(tape, derived, final_time);
     std::vector<Switch> result;
-    for (const PhaseExpressions& phase : derived.phases) {
+    for (std::size_t i = 0; i < derived.phases.size(); ++i) {
+        const PhaseExpressions& phase = derived.phases[i];
         if (!(phase.begin_value < final_time))
             break;
         const double end = std::min(phase.end_value, final_time);
-        // At its begin the phase before it holds.
+        // Right at its begin a rate may have no value.
         const double begin = phase.begin_value + 1e-9 * (end - phase.begin_value);
         const bool is_expected = may_jump(phase.theta) || may_jump(phase.u);
         const double least = least_jump(is_expected);
         std::optional<Jump> greatest;
         for (const double place : parts_to_search(is_expected)) {
             const auto in_time = [&](const ArrayXd& s) {
-                Eigen::ArrayXXd values(2, s.size());
-                for (Eigen::Index n = 0; n < s.size(); ++n)
-                    values.col(n) = tape.at(ArrayXd::Constant(1, place), s(n));
-                return values;
+                return tape.of_phase(i).evaluate(ArrayXd::Constant(1, place), s);
             };
             const auto jump = find_jump(in_time, uneven_grid(begin, end), least);
             if (jump && !(greatest && std::abs(jump->size) <= std::abs(greatest->size)))
@@ -608,14 +606,11 @@ std::optional<Forecast> forecast_of(const std::string& words) {
     return between(*least, *greatest);
 }
 
-ExpectedOrders expected_orders(const Solution& solution, const Beam& beam, double final_time) {
-    const DerivedSolution derived = derive_on(solution, beam);
-    require_final_time(final_time);
-    const double law_distance =
-        check_admissible(solution, derived, PlainSolution(solution, derived, beam, final_time),
-                         beam, final_time)
-            .law_distance;
-    return located(solution.phases.front().u, "the solution", [&] {
+ExpectedOrders expected_orders(const AdmissibleSolution& solution) {
+    const DerivedSolution& derived = solution.derived();
+    const Beam& beam = solution.beam();
+    const double final_time = solution.final_time();
+    return located(solution.place(), "the solution", [&] {
         const ModelSymbols& s = model_symbols();
         ExpectedOrders result;
         result.theta_is_exact = vanishes(derived, final_time, &DerivedPhase::theta_x, s.x, 1);
@@ -623,7 +618,7 @@ ExpectedOrders expected_orders(const Solution& solution, const Beam& beam, doubl
         result.switches = switches(derived, final_time);
         result.cusps = cusps(derived, final_time);
         result.kink = kink_in(derived, final_time);
-        result.law_distance = law_distance;
+        result.law_distance = solution.remarks().law_distance;
         if (beam.stops.epsilon > 0.0)
             seek_farthest_tip(derived, beam.stops, final_time, result);
         else if (beam.stops.exist())

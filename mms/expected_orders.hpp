@@ -1,8 +1,7 @@
 #pragma once
 
-#include "core/problem.hpp"
+#include "mms/admissible/admissibility.hpp"
 #include "mms/contact_history.hpp"
-#include "mms/solution.hpp"
 
 #include <limits>
 #include <optional>
@@ -143,7 +142,7 @@ struct ExpectedOrders {
 ///   through, and it has 1 to 2. The errors of a solution of rigid stops stall, in an unknown way,
 ///   at the distance of the two laws.
 ///
-/// Throws InputError as manufactured_problem does.
-ExpectedOrders expected_orders(const Solution& solution, const Beam& beam, double final_time);
+/// Throws InputError where a derivative is too large.
+ExpectedOrders expected_orders(const AdmissibleSolution& solution);
 
 } // namespace tvbeam

@@ -53,9 +53,11 @@ Points scattered(const CloseLook& x, const CloseLook& t) {
     // The fractional parts of the multiples of the golden ratio stay apart from one another.
     constexpr int count = 2048;
     constexpr double golden_ratio = 0.6180339887498949;
-    for (int k = 0; k < count; ++k)
-        points.add(x.begin + std::fmod((k + 0.5) * golden_ratio, 1.0) * (x.end - x.begin),
+    for (int k = 0; k < count; ++k) {
+        const double multiple = (k + 0.5) * golden_ratio;
+        points.add(x.begin + (multiple - std::floor(multiple)) * (x.end - x.begin),
                    t.begin + (k + 0.5) / count * (t.end - t.begin));
+    }
     return points;
 }
 

@@ -83,19 +83,15 @@ void require_as_written(const ProblemData& problem, const PlainSolution& plain) 
 
 } // namespace
 
-ProblemData manufactured_problem(const Solution& solution, const Beam& beam, double final_time) {
-    require_final_time(final_time);
-    const DerivedSolution derived = derive_on(solution, beam);
-    const PlainSolution plain(solution, derived, beam, final_time);
-    const Admissible admissible = check_admissible(solution, derived, plain, beam, final_time);
+ProblemData manufactured_problem(const AdmissibleSolution& solution) {
     try {
-        ProblemData problem = built(derived, final_time);
-        problem.exact->law_distance = admissible.law_distance;
-        problem.exact->tip_is_sampled = admissible.tip_is_sampled;
-        require_as_written(problem, plain);
+        ProblemData problem = built(solution.derived(), solution.final_time());
+        problem.exact->law_distance = solution.remarks().law_distance;
+        problem.exact->tip_is_sampled = solution.remarks().tip_is_sampled;
+        require_as_written(problem, solution.plain());
         return problem;
     } catch (const AlgebraError& error) {
-        throw InputError(solution.phases.front().theta.begin(),
+        throw InputError(solution.solution().phases.front().theta.begin(),
                          std::string("the solution cannot be evaluated: ") + error.what());
     }
 }

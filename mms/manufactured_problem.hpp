@@ -1,7 +1,7 @@
 #pragma once
 
 #include "core/problem.hpp"
-#include "mms/solution.hpp"
+#include "mms/admissible/admissibility.hpp"
 
 namespace tvbeam {
 
@@ -18,8 +18,8 @@ namespace tvbeam {
 /// profile; profiles and amplitudes are shared by all fields. The result holds no symbolic
 /// expression, and its functions may be called from several threads.
 ///
-/// Throws InputError if the solution is not admissible on [0, final_time] (admissibility.hpp),
-/// names a stop that the beam does not have, or holds a constant beyond the range of a double.
-ProblemData manufactured_problem(const Solution& solution, const Beam& beam, double final_time);
+/// Throws InputError if the solution holds a constant beyond the range of a double, or what is
+/// compiled is not what the text says.
+ProblemData manufactured_problem(const AdmissibleSolution& solution);
 
 } // namespace tvbeam

@@ -4,16 +4,19 @@
 #include "mms/admissible/jumps.hpp"
 #include "mms/admissible/repair.hpp"
 #include "mms/admissible/sampled_rules.hpp"
+#include "mms/derivation.hpp"
 #include "mms/expression/algebra.hpp"
 #include "mms/expression/expression_parser.hpp"
 #include "mms/expression/symbols.hpp"
 #include "mms/expression/tape_compiler.hpp"
+#include "mms/plain_solution.hpp"
 #include "mms/text/error_text.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -334,15 +337,20 @@ private:
 
 } // namespace
 
-void require_final_time(double final_time) {
+double require_final_time(double final_time) {
     if (!(final_time > 0.0) || !std::isfinite(final_time))
         throw InputError({}, "the final time is " + number_text(final_time) +
                                  "; it must be positive and finite");
+    return final_time;
 }
 
-Admissible check_admissible(const Solution& solution, const DerivedSolution& derived,
-                            const PlainSolution& plain, const Beam& beam, double final_time) {
-    return AdmissibilityCheck(solution, derived, plain, beam, final_time).run();
-}
+AdmissibleSolution::AdmissibleSolution(const Solution& solution, const Beam& beam,
+                                       double final_time)
+    : solution_(solution), beam_(beam), final_time_(require_final_time(final_time)),
+      derived_(std::make_unique<DerivedSolution>(derive_on(solution, beam))),
+      plain_(std::make_unique<PlainSolution>(solution, *derived_, beam, final_time)),
+      remarks_(AdmissibilityCheck(solution, *derived_, *plain_, beam_, final_time).run()) {}
+
+AdmissibleSolution::~AdmissibleSolution() = default;
 
 } // namespace tvbeam

@@ -3,6 +3,7 @@
 #include "core/space/mesh.hpp"
 #include "core/time/time_scheme.hpp"
 #include "mms/expression/algebra.hpp"
+#include "mms/expression/piecewise_tape.hpp"
 #include "mms/expression/symbols.hpp"
 #include "mms/sample_points.hpp"
 #include "mms/text/error_text.hpp"
@@ -30,9 +31,9 @@ constexpr double rounding = 1e-14;
 enum Row : Index { theta, u_xx, theta_t, u_xxt, f, mu, stress };
 
 /// The rows, where `wanted` begins; those behind it are left out.
-PiecewiseTape rows(const DerivedSolution& derived, const Solution& solution, bool with_loads) {
-    return located(solution.phases.front().u, "the solution", [&] {
-        return PiecewiseTape(derived, [&](const DerivedPhase& phase) {
+PiecewiseTape rows(const AdmissibleSolution& solution, bool with_loads) {
+    return located(solution.place(), "the solution", [&] {
+        return PiecewiseTape(solution.derived(), [&](const DerivedPhase& phase) {
             std::vector<ex> result = {phase.theta, phase.u_xx, phase.theta_t, phase.u_xxt};
             if (with_loads)
                 result.insert(result.end(),
@@ -146,7 +147,7 @@ bool has_levels_of(std::int64_t finer, std::int64_t coarse) {
 /// θ̃, u_xx and their rates in the steps of one refinement.
 class Steps {
 public:
-    /// levels: at the ends of these steps, or of a multiple of them; shape of each: 4 × points.
+    /// levels: at the ends of these steps, or of a multiple of them; shape of each: points × 4.
     Steps(const PiecewiseTape& tape, const ArrayXd& x, const std::vector<Eigen::ArrayXXd>& levels,
           double final_time, std::int64_t steps)
         : tape_(tape), x_(x), levels_(levels), final_time_(final_time), steps_(steps),
@@ -156,11 +157,11 @@ public:
         return levels_[static_cast<std::size_t>(level * stride_)];
     }
 
-    /// The defects of θ̃ and u_xx in the step that ends at level n; shape: 2 × points.
+    /// The defects of θ̃ and u_xx in the step that ends at level n; shape: points × 2.
     [[nodiscard]] Eigen::ArrayXXd defect(const TimeScheme& scheme, std::int64_t n) const {
         const double dt = final_time_ / static_cast<double>(steps_);
         const auto difference = [&](std::int64_t level) -> Eigen::ArrayXXd {
-            return at(level).topRows(2) - at(level - 1).topRows(2);
+            return at(level).leftCols(2) - at(level - 1).leftCols(2);
         };
         std::vector<Eigen::ArrayXXd> increments;
         for (int j = 1; j <= scheme.history; ++j)
@@ -177,9 +178,9 @@ public:
 private:
     [[nodiscard]] Eigen::ArrayXXd rates(std::int64_t n, double fraction) const {
         if (fraction == 1.0)
-            return at(n).bottomRows(2);
+            return at(n).rightCols(2);
         const double level = static_cast<double>(n) - (1.0 - fraction);
-        return tape_.at(x_, level_time(final_time_, level, steps_)).bottomRows(2);
+        return tape_.at(x_, level_time(final_time_, level, steps_)).bottomRows(2).transpose();
     }
 
     const PiecewiseTape& tape_;
@@ -195,14 +196,15 @@ double root_mean_square(const ArrayXd& values) {
 
 } // namespace
 
-std::vector<Residual> space_residuals(const Solution& solution, const Beam& beam, double final_time,
-                                      ThermalMass mass, const std::vector<std::int64_t>& elements) {
-    const DerivedSolution derived = derive_on(solution, beam);
-    const PiecewiseTape tape = rows(derived, solution, true);
+std::vector<Residual> space_residuals(const AdmissibleSolution& solution, ThermalMass mass,
+                                      const std::vector<std::int64_t>& elements) {
+    const Beam& beam = solution.beam();
+    const double final_time = solution.final_time();
+    const PiecewiseTape tape = rows(solution, true);
     const ArrayXd grid = sample_points(0.0, 1.0);
     std::vector<Residual> result(elements.size());
     std::vector<Sizes> terms(elements.size());
-    for (const PhaseExpressions& phase : derived.phases) {
+    for (const PhaseExpressions& phase : solution.derived().phases) {
         if (!(phase.begin_value < final_time))
             break;
         const CloseLook span{phase.begin_value, std::min(phase.end_value, final_time)};
@@ -229,10 +231,9 @@ std::vector<Residual> space_residuals(const Solution& solution, const Beam& beam
     return result;
 }
 
-TimeResiduals::TimeResiduals(const Solution& solution, const Beam& beam, double final_time,
-                             std::vector<std::int64_t> steps)
-    : beam_(beam), final_time_(final_time), steps_(std::move(steps)),
-      exact_(rows(derive_on(solution, beam), solution, false)), x_(sample_points(0.0, 1.0)) {
+TimeResiduals::TimeResiduals(const AdmissibleSolution& solution, std::vector<std::int64_t> steps)
+    : beam_(solution.beam()), final_time_(solution.final_time()), steps_(std::move(steps)),
+      exact_(std::make_unique<PiecewiseTape>(rows(solution, false))), x_(sample_points(0.0, 1.0)) {
     for (const std::int64_t count : steps_) {
         const bool among_finer = std::ranges::any_of(steps_, [&](std::int64_t finer) {
             return finer > count && has_levels_of(finer, count);
@@ -241,9 +242,12 @@ TimeResiduals::TimeResiduals(const Solution& solution, const Beam& beam, double 
             continue;
         auto& levels = levels_[count];
         for (std::int64_t n = 0; n <= count; ++n)
-            levels.push_back(exact_.at(x_, level_time(final_time_, static_cast<double>(n), count)));
+            levels.emplace_back(
+                exact_->at(x_, level_time(final_time_, static_cast<double>(n), count)).transpose());
     }
 }
+
+TimeResiduals::~TimeResiduals() = default;
 
 std::vector<Residual> TimeResiduals::of(const std::string& scheme) const {
     const TimeScheme& method = TimeScheme::named(scheme);
@@ -256,13 +260,13 @@ std::vector<Residual> TimeResiduals::of(const std::string& scheme) const {
         const double dt = final_time_ / static_cast<double>(count);
         const auto known = std::ranges::find_if(
             levels_, [&](const auto& one) { return has_levels_of(one.first, count); });
-        const Steps exact(exact_, x_, known->second, final_time_, count);
+        const Steps exact(*exact_, x_, known->second, final_time_, count);
         for (std::int64_t n = 1 + method.history; n <= count; ++n) {
             const Eigen::ArrayXXd defect = exact.defect(method, n);
             residual.heat = std::max(residual.heat,
-                                     root_mean_square(defect.row(0) - beam_.alpha * defect.row(1)));
-            residual.beam = std::max(residual.beam, beam_.zeta * root_mean_square(defect.row(1)));
-            const ArrayXd sizes = exact.at(n).abs().rowwise().maxCoeff();
+                                     root_mean_square(defect.col(0) - beam_.alpha * defect.col(1)));
+            residual.beam = std::max(residual.beam, beam_.zeta * root_mean_square(defect.col(1)));
+            const ArrayXd sizes = exact.at(n).abs().colwise().maxCoeff();
             size.heat = std::max(size.heat, (sizes(theta) + beam_.alpha * sizes(u_xx)) / dt);
             size.beam = std::max(size.beam, beam_.zeta * sizes(u_xx) / dt);
         }

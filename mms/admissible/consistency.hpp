@@ -1,18 +1,19 @@
 #pragma once
 
-#include "core/problem.hpp"
 #include "core/space/linear_elements.hpp"
-#include "mms/expression/piecewise_tape.hpp"
-#include "mms/solution.hpp"
+#include "mms/admissible/admissibility.hpp"
 
 #include <array>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace tvbeam {
+
+class PiecewiseTape;
 
 /// What is left of the two discrete equations when the exact solution is put into them. It tells,
 /// without a run, from which h and dt on a scheme sees the solution as smooth, and that f, G and m
@@ -36,8 +37,8 @@ inline constexpr std::array<std::int64_t, 4> shown_steps{64, 128, 256, 512};
 ///     representative, Πu_xx + ζ Πu_xxt + α Iθ̃ + Πμ − σ̃(1,t) (1 − x),
 ///
 /// the largest over 17 times of each phase up to final_time and, ever closer, next to the largest.
-std::vector<Residual> space_residuals(const Solution& solution, const Beam& beam, double final_time,
-                                      ThermalMass mass, const std::vector<std::int64_t>& elements);
+std::vector<Residual> space_residuals(const AdmissibleSolution& solution, ThermalMass mass,
+                                      const std::vector<std::int64_t>& elements);
 
 /// In time, space exact: τ(θ̃) − α τ(u_xx) and ζ τ(u_xx), where τ(y) is the defect of a step of the
 /// scheme with exact y_t in its stages. With the increments e of TimeScheme,
@@ -49,8 +50,8 @@ std::vector<Residual> space_residuals(const Solution& solution, const Beam& beam
 /// found once for all schemes, and those of a refinement among those of a finer one, halved.
 class TimeResiduals {
 public:
-    TimeResiduals(const Solution& solution, const Beam& beam, double final_time,
-                  std::vector<std::int64_t> steps);
+    TimeResiduals(const AdmissibleSolution& solution, std::vector<std::int64_t> steps);
+    ~TimeResiduals();
 
     /// One for each number of steps.
     [[nodiscard]] std::vector<Residual> of(const std::string& scheme) const;
@@ -59,9 +60,9 @@ private:
     Beam beam_;
     double final_time_;
     std::vector<std::int64_t> steps_;
-    PiecewiseTape exact_; ///< θ̃, u_xx and their rates
+    std::unique_ptr<const PiecewiseTape> exact_; ///< θ̃, u_xx and their rates
     Eigen::ArrayXd x_;
-    /// exact_ at the levels of a number of steps.
+    /// exact_ at the levels of a number of steps; shape of each: points × 4.
     std::map<std::int64_t, std::vector<Eigen::ArrayXXd>> levels_;
 };
 

@@ -348,15 +348,18 @@ numeric exact_rational(double value) {
 }
 
 bool may_jump(const ex& expression) {
-    for (auto part = expression.preorder_begin(); part != expression.preorder_end(); ++part) {
-        if (is_a<GiNaC::power>(*part) && !part->op(1).info(GiNaC::info_flags::nonnegint))
+    const auto is_suspect = [](const ex& part) {
+        if (is_a<GiNaC::power>(part))
+            return !part.op(1).info(GiNaC::info_flags::nonnegint);
+        if (!is_a<GiNaC::function>(part))
+            return false;
+        const std::string name = ex_to<GiNaC::function>(part).get_name();
+        return name == "tan" || name == "asin" || name == "acos" || name == "log";
+    };
+    const auto is_constant = [](const ex& part) { return is_a<numeric>(part.evalf()); };
+    for (auto part = expression.preorder_begin(); part != expression.preorder_end(); ++part)
+        if (is_suspect(*part) && !is_constant(*part)) // sqrt(2) is one
             return true;
-        if (is_a<GiNaC::function>(*part)) {
-            const std::string name = ex_to<GiNaC::function>(*part).get_name();
-            if (name == "tan" || name == "asin" || name == "acos" || name == "log")
-                return true;
-        }
-    }
     return false;
 }
 

@@ -21,6 +21,9 @@ public:
     /// phase belongs to it; `late`: to the phase that begins there.
     [[nodiscard]] Eigen::ArrayXXd at(const Eigen::ArrayXd& x, double t, bool late = false) const;
 
+    /// Those of one phase, at any time.
+    [[nodiscard]] const Tape& of_phase(std::size_t phase) const { return tapes_[phase]; }
+
 private:
     std::vector<double> ends_;
     std::vector<Tape> tapes_;

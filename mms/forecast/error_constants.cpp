@@ -437,10 +437,11 @@ const NormConstants* ErrorConstants::of(const std::string& norm) const {
 }
 
 std::vector<ErrorConstants> error_constants(const ExpectedOrders& expected,
-                                            const Solution& solution, const Beam& beam,
-                                            double final_time,
+                                            const AdmissibleSolution& solution,
                                             const std::vector<ForecastMethod>& methods) {
-    const DerivedSolution derived = derive_on(solution, beam);
+    const DerivedSolution& derived = solution.derived();
+    const Beam& beam = solution.beam();
+    const double final_time = solution.final_time();
     std::vector<ErrorConstants> results;
     results.reserve(methods.size());
     for (const auto& method : methods)

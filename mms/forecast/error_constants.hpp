@@ -1,9 +1,8 @@
 #pragma once
 
-#include "core/problem.hpp"
 #include "core/space/thermal_mass.hpp"
+#include "mms/admissible/admissibility.hpp"
 #include "mms/expected_orders.hpp"
-#include "mms/solution.hpp"
 
 #include <optional>
 #include <string>
@@ -64,8 +63,7 @@ struct ErrorConstants {
 /// errors in θ are not known; nor where ζ/(1 + α²), the time that this takes, is below T/200. One
 /// result a method; expected: what expected_orders says of them.
 std::vector<ErrorConstants> error_constants(const ExpectedOrders& expected,
-                                            const Solution& solution, const Beam& beam,
-                                            double final_time,
+                                            const AdmissibleSolution& solution,
                                             const std::vector<ForecastMethod>& methods);
 
 } // namespace tvbeam

@@ -56,15 +56,14 @@ std::string coverage_text(const std::vector<TermUse>& terms) {
            (untested.empty() ? "\nUntested: nothing.\n" : "\nUntested:\n" + untested);
 }
 
-std::string space_table(const SolutionSetting& setting) {
+std::string space_table(const AdmissibleSolution& solution) {
     Table::Column s{"s", {}};
     Table::Column heat{"heat", {}};
     Table::Column heat_order{"ord.", {}};
     Table::Column beam{"beam", {}};
     Table::Column beam_order{"ord.", {}};
-    for (const Residual& row :
-         space_residuals(setting.solution, setting.beam, setting.final_time,
-                         ThermalMass::consistent, {shown_elements.begin(), shown_elements.end()})) {
+    for (const Residual& row : space_residuals(solution, ThermalMass::consistent,
+                                               {shown_elements.begin(), shown_elements.end()})) {
         s.cells.push_back(std::to_string(row.count));
         heat.cells.push_back(scientific(row.heat, 1));
         heat_order.cells.push_back(fixed(row.heat_order, 2));
@@ -75,10 +74,10 @@ std::string space_table(const SolutionSetting& setting) {
 }
 
 /// What the ends of phases do to the residuals in time; empty without any before the final time.
-std::string phase_ends_text(const SolutionSetting& setting) {
+std::string phase_ends_text(const AdmissibleSolution& solution) {
     std::string ends;
-    for (const PhaseExpressions& phase : derive_on(setting.solution, setting.beam).phases)
-        if (phase.end_value < setting.final_time)
+    for (const PhaseExpressions& phase : solution.derived().phases)
+        if (phase.end_value < solution.final_time())
             ends += (ends.empty() ? "t = " : ", ") + number_text(phase.end_value);
     return ends.empty() ? ""
                         : "\n" + wrapped("Phases end at " + ends +
@@ -86,12 +85,12 @@ std::string phase_ends_text(const SolutionSetting& setting) {
                                          "across it, may be larger and of lower order.");
 }
 
-std::string time_table(const SolutionSetting& setting) {
+std::string time_table(const AdmissibleSolution& solution) {
     const std::vector<std::int64_t> steps(shown_steps.begin(), shown_steps.end());
     Table::Column dt{"dt", {}};
     for (const std::int64_t count : steps)
-        dt.cells.push_back(shortest(setting.final_time / static_cast<double>(count)));
-    const TimeResiduals residuals(setting.solution, setting.beam, setting.final_time, steps);
+        dt.cells.push_back(shortest(solution.final_time() / static_cast<double>(count)));
+    const TimeResiduals residuals(solution, steps);
     std::vector<Table::Group> groups;
     for (const auto& name : TimeScheme::names()) {
         Table::Column heat{"heat", {}};
@@ -106,7 +105,7 @@ std::string time_table(const SolutionSetting& setting) {
         }
         groups.push_back({name, {heat, heat_order, beam, beam_order}});
     }
-    return text_table({"", {"", {dt}}, groups}) + phase_ends_text(setting);
+    return text_table({"", {"", {dt}}, groups}) + phase_ends_text(solution);
 }
 
 std::string orders_table(const ExpectedOrders& expected) {
@@ -131,7 +130,7 @@ std::string orders_table(const ExpectedOrders& expected) {
 }
 
 /// a of each heat mass matrix, b of each time scheme.
-std::string sizes_table(const SolutionSetting& setting, const ExpectedOrders& expected) {
+std::string sizes_table(const AdmissibleSolution& solution, const ExpectedOrders& expected) {
     using Size = std::optional<LeadingTerm> NormConstants::*;
     struct Shown {
         std::string heading;
@@ -146,8 +145,7 @@ std::string sizes_table(const SolutionSetting& setting, const ExpectedOrders& ex
             {(methods.size() == 1 ? "b: " : "") + time, methods.size(), &NormConstants::in_dt});
         methods.push_back({time, ThermalMass::consistent});
     }
-    const auto sizes =
-        error_constants(expected, setting.solution, setting.beam, setting.final_time, methods);
+    const auto sizes = error_constants(expected, solution, methods);
     if (!sizes[1].unknown.empty())
         return wrapped("not known: " + sizes[1].unknown);
     Table::Column norm{"norm", {}};
@@ -181,22 +179,22 @@ std::string sizes_table(const SolutionSetting& setting, const ExpectedOrders& ex
 } // namespace
 
 std::string solution_report(const SolutionSetting& setting) {
-    const auto& [solution, beam, final_time, origin] = setting;
     std::string text = "\n" + wrapped(beam_text(setting));
     try {
-        text += "\n" + coverage_text(coverage(solution, beam, final_time));
+        const AdmissibleSolution solution(setting.solution, setting.beam, setting.final_time);
+        text += "\n" + coverage_text(coverage(solution));
         text += "\n" +
                 wrapped("The exact solution in the discrete equations: the residual in space, and "
                         "in time with space exact.") +
-                "\n" + space_table(setting) + "\n" + time_table(setting);
-        const ExpectedOrders expected = expected_orders(solution, beam, final_time);
+                "\n" + space_table(solution) + "\n" + time_table(solution);
+        const ExpectedOrders expected = expected_orders(solution);
         text += "\n" +
                 wrapped("Orders to expect on uniform meshes, where the solution is smooth in x and "
                         "t but at the ends of its phases (-: no error of that kind):") +
                 "\n" + orders_table(expected);
         text += "\nSizes a of h^p and b of dt^q to expect on uniform meshes, by modified "
                 "equations:\n\n" +
-                sizes_table(setting, expected);
+                sizes_table(solution, expected);
     } catch (const InputError& error) {
         text += wrapped(std::string("not admissible: ") + error.what());
     }

@@ -43,17 +43,17 @@ std::vector<std::pair<std::string, std::optional<double>>> last_orders(const Res
 class DerivedParts {
 public:
     DerivedParts(const Solution& solution, const Scene& scene)
-        : solution_(solution), scene_(scene), final_time_(scene.longest_time()) {}
+        : solution_(solution), scene_(scene) {}
 
     const std::vector<TermUse>& terms() {
         if (!terms_)
-            terms_ = coverage(solution_, scene_.beam, final_time_);
+            terms_ = coverage(admissible());
         return *terms_;
     }
 
     const ExpectedOrders& orders() {
         if (!orders_)
-            orders_ = expected_orders(solution_, scene_.beam, final_time_);
+            orders_ = expected_orders(admissible());
         return *orders_;
     }
 
@@ -63,8 +63,7 @@ public:
         if (known == sizes_.end())
             known = sizes_
                         .emplace(time, scene_.mesh.is_uniform()
-                                           ? error_constants(orders(), solution_, scene_.beam,
-                                                             final_time_,
+                                           ? error_constants(orders(), admissible(),
                                                              {{time, scene_.scheme.thermal_mass}})
                                                  .front()
                                            : ErrorConstants{"the meshes are not uniform", {}})
@@ -77,19 +76,18 @@ public:
              derived_formulas(solution_, scene_.beam.stops.epsilon > 0.0))
             formulas_ += fmt::format("{} for {} = {}\n{} for {}\n", symbol, interval, formula,
                                      latex, interval_latex);
-        return tvbeam::distance_of_formulas(solution_, scene_.beam, final_time_);
+        return tvbeam::distance_of_formulas(solution_, scene_.beam, scene_.longest_time());
     }
 
     /// At the last two of the refinements that are shown.
-    [[nodiscard]] Residual last_in_space() const {
-        return space_residuals(solution_, scene_.beam, final_time_, ThermalMass::consistent,
+    Residual last_in_space() {
+        return space_residuals(admissible(), ThermalMass::consistent,
                                {shown_elements.end() - 2, shown_elements.end()})
             .back();
     }
     Residual last_in_time(const std::string& time) {
         if (!in_time_)
-            in_time_.emplace(solution_, scene_.beam, final_time_,
-                             std::vector(shown_steps.end() - 2, shown_steps.end()));
+            in_time_.emplace(admissible(), std::vector(shown_steps.end() - 2, shown_steps.end()));
         return in_time_->of(time).back();
     }
 
@@ -118,9 +116,15 @@ public:
     }
 
 private:
+    const AdmissibleSolution& admissible() {
+        if (!admissible_)
+            admissible_.emplace(solution_, scene_.beam, scene_.longest_time());
+        return *admissible_;
+    }
+
     const Solution& solution_;
     const Scene& scene_;
-    double final_time_;
+    std::optional<AdmissibleSolution> admissible_;
     std::string formulas_;
     std::optional<std::vector<TermUse>> terms_;
     std::optional<ExpectedOrders> orders_;

@@ -110,7 +110,7 @@ std::optional<bool> exact_in_theory(const Scene& scene, const Series& series, co
         return std::nullopt;
     const std::string& scheme = scheme_of(series.method).time.name;
     try {
-        const auto expected = expected_orders(*solution, scene.beam, series.final_time);
+        const auto expected = expected_orders({*solution, scene.beam, series.final_time});
         for (const ExpectedOrder& row : expected.orders) {
             if (row.norm != norm.name)
                 continue;

@@ -437,7 +437,7 @@ ProblemData problem_of(const Scene& scene, double final_time) {
         return given_problem(std::get<GivenData>(scene.problem), scene.beam, final_time);
     if (solution->phases.empty())
         throw InputError({scene.file}, "the scene has no problem of its own; run it on one");
-    return manufactured_problem(*solution, scene.beam, final_time);
+    return manufactured_problem({*solution, scene.beam, final_time});
 }
 
 ErrorConstants forecast_constants(const Scene& scene, double final_time) {
@@ -446,8 +446,8 @@ ErrorConstants forecast_constants(const Scene& scene, double final_time) {
         return {"the scene has no solution from a text", {}};
     if (!scene.mesh.is_uniform())
         return {"the meshes are not uniform", {}};
-    return error_constants(expected_orders(*solution, scene.beam, final_time), *solution,
-                           scene.beam, final_time,
+    const AdmissibleSolution admissible(*solution, scene.beam, final_time);
+    return error_constants(expected_orders(admissible), admissible,
                            {{scene.scheme.time.name, scene.scheme.thermal_mass}})
         .front();
 }

@@ -17,7 +17,7 @@ const Beam paper_beam{.alpha = 0.017, .zeta = 0.1, .stops = {-0.02, 0.1}};
 
 ProblemData paper_problem(const Beam& beam) {
     const auto file = find_file(Shipped::solution, "copetti-fernandez-2011");
-    return manufactured_problem(read_solution(file), beam, final_time);
+    return manufactured_problem({read_solution(file), beam, final_time});
 }
 
 Setting on(const Beam& beam) {
@@ -83,7 +83,7 @@ std::vector<std::pair<std::string, Setting>> of_low_rank() {
             fmt::format("name = \"low-rank\"\ntheta = \"{}\"\nu = \"{}\"\n", theta, u);
         Setting setting = full();
         setting.data = std::make_shared<const ProblemData>(
-            manufactured_problem(parse_solution(text, "low-rank"), setting.beam, final_time));
+            manufactured_problem({parse_solution(text, "low-rank"), setting.beam, final_time}));
         const auto rank = separated(*setting.data, setting.norms, final_time).rank;
         all.emplace_back(fmt::format("solution {}, {} products", all.size() + 1, rank), setting);
     }

@@ -83,7 +83,7 @@ BOOST_DATA_TEST_CASE(moment_form_equals_hermite_form,
     const auto [place, is_new] = derived.try_emplace(name);
     if (is_new)
         place->second =
-            manufactured_problem(read_solution(find_file(Shipped::solution, name)), beam, 2.0);
+            manufactured_problem({read_solution(find_file(Shipped::solution, name)), beam, 2.0});
     const ProblemData& problem = place->second;
     const Difference largest =
         difference(beam, problem, TimeScheme::named(time), mass, elements, 0.01, 200, 1e-13);
@@ -119,7 +119,7 @@ BOOST_AUTO_TEST_CASE(difference_of_the_rows_of_table_1_grows_no_faster_than_roun
     const double c = condition(20) / std::pow(20.0, 4);
     BOOST_TEST(condition(10) / 1e4 == c, boost::test_tools::tolerance(0.3)); // it is c h⁻⁴
     const ProblemData problem = manufactured_problem(
-        read_solution(find_file(Shipped::solution, "copetti-fernandez-2011")), paper_beam, 2.0);
+        {read_solution(find_file(Shipped::solution, "copetti-fernandez-2011")), paper_beam, 2.0});
     const double epsilon = std::numeric_limits<double>::epsilon();
     for (const int s : {10, 20, 40, 80, 160}) {
         // All steps of the row; under the sanitizers, which are slow, the first 400.
@@ -165,7 +165,7 @@ BOOST_AUTO_TEST_CASE(fixed_point_that_does_not_converge_is_given_up_with_a_reaso
     const double alpha = std::sqrt(0.999 * (dt + zeta) * (1.0 + pi * pi * dt) / dt);
     const Beam beam{.alpha = alpha, .zeta = zeta};
     const ProblemData problem = manufactured_problem(
-        read_solution(find_file(Shipped::solution, "free-oscillation")), beam, 1.0);
+        {read_solution(find_file(Shipped::solution, "free-oscillation")), beam, 1.0});
     const RunResult result = run({beam,
                                   Mesh::uniform(40),
                                   {Algorithm::fixed_point, ThermalMass::consistent, 1e-12},
@@ -186,7 +186,7 @@ BOOST_DATA_TEST_CASE(matrices_are_factored_once_for_each_coefficient,
                      data::make(TimeScheme::names()) * data::make({0.25, 0.1, 1.0 / 49.0, 0.03}),
                      time, dt) {
     const ProblemData problem = manufactured_problem(
-        read_solution(find_file(Shipped::solution, "free-decay")), paper_beam, 1.0);
+        {read_solution(find_file(Shipped::solution, "free-decay")), paper_beam, 1.0});
     const Scheme scheme{
         .algorithm = Algorithm::fixed_point, .tolerance = 1e-10, .time = TimeScheme::named(time)};
     const Mesh mesh = Mesh::uniform(8);

@@ -49,7 +49,7 @@ BOOST_DATA_TEST_CASE(separated_and_pointwise_norms_agree,
                      mass, elements) {
     const Scheme scheme{Algorithm::direct, mass, 0.0};
     ProblemData problem = manufactured_problem(
-        read_solution(find_file(Shipped::solution, "copetti-fernandez-2011")), paper_beam, 2.0);
+        {read_solution(find_file(Shipped::solution, "copetti-fernandez-2011")), paper_beam, 2.0});
     const RunRequest request{paper_beam, Mesh::uniform(elements), scheme, 2.0, 160, all_norms()};
     const RunResult split = run(request, problem);
     const ProblemData original = problem;
@@ -67,7 +67,7 @@ BOOST_DATA_TEST_CASE(separated_and_pointwise_norms_agree,
 BOOST_DATA_TEST_CASE(separated_and_general_sources_give_the_same_errors, data::make(all_schemes),
                      scheme) {
     ProblemData problem = manufactured_problem(
-        read_solution(find_file(Shipped::solution, "copetti-fernandez-2011")), paper_beam, 2.0);
+        {read_solution(find_file(Shipped::solution, "copetti-fernandez-2011")), paper_beam, 2.0});
     problem.body_force = problem.heat_source; // any one, which the Hermite form alone reads
     const RunRequest request{paper_beam, Mesh::uniform(12), scheme, 2.0, 100, all_norms()};
     const RunResult separated = run(request, problem);
@@ -91,7 +91,7 @@ BOOST_DATA_TEST_CASE(separated_and_general_sources_give_the_same_errors, data::m
 
 BOOST_AUTO_TEST_CASE(a_square_is_the_square_and_the_corollary_is_the_sum_of_its_three_terms) {
     const ProblemData problem = manufactured_problem(
-        read_solution(find_file(Shipped::solution, "copetti-fernandez-2011")), paper_beam, 2.0);
+        {read_solution(find_file(Shipped::solution, "copetti-fernandez-2011")), paper_beam, 2.0});
     const auto errors =
         run({paper_beam,
              Mesh::uniform(8),

@@ -65,7 +65,7 @@ BOOST_DATA_TEST_CASE(representable_data_are_reproduced_to_round_off,
                      patch, scheme, elements) {
     const double final_time = 1.5;
     const ProblemData problem =
-        manufactured_problem(parse_solution(patch.text, "patch"), patch.beam, final_time);
+        manufactured_problem({parse_solution(patch.text, "patch"), patch.beam, final_time});
     // The moment form keeps round-off; the Hermite form multiplies it by the condition of B, h⁻⁴,
     // and by the tolerance of its iteration.
     const double s = elements;
@@ -92,7 +92,7 @@ BOOST_DATA_TEST_CASE(stationary_heat_is_exact_at_the_nodes,
     // 2, nothing moves.
     const Beam beam{.alpha = 0.0, .zeta = 0.1};
     const ProblemData problem =
-        manufactured_problem(parse_solution("theta = 'x*(1 - x)'\nu = '0'", "patch"), beam, 1.0);
+        manufactured_problem({parse_solution("theta = 'x*(1 - x)'\nu = '0'", "patch"), beam, 1.0});
     const Mesh mesh = Mesh::uniform(elements);
     const auto solver = make_solver(beam, problem, mesh, scheme, 0.05, Needs{});
     march(*solver, problem, scheme.time, 0.05, 20, [&](double) {

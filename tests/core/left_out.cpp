@@ -28,7 +28,7 @@ RunResult result_of(const Beam& beam, const std::vector<std::string>& names,
     for (const auto& name : names)
         norms.push_back(*Norm::named(name));
     return run({beam, Mesh::uniform(30), scheme, 1.0, steps, norms},
-               manufactured_problem(parse_solution(text, "test"), beam, 1.0));
+               manufactured_problem({parse_solution(text, "test"), beam, 1.0}));
 }
 
 const Beam full{.alpha = 0.4, .zeta = 0.1, .stops = {-0.1, 0.1}};

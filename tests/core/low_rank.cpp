@@ -110,7 +110,7 @@ BOOST_DATA_TEST_CASE(errors_are_those_of_the_functions_themselves,
     const Solution solution = read_solution(find_file(Shipped::solution, name));
     const Beam beam =
         suited({.alpha = 0.3, .zeta = 0.1, .theta_A = 0.4, .stops = {-0.02, 0.1}}, solution);
-    const ProblemData problem = manufactured_problem(solution, beam, 1.0);
+    const ProblemData problem = manufactured_problem({solution, beam, 1.0});
     const SeparatedProblem products = separated(without_products(problem), all_norms(), 1.0);
     // The layers of these are too thin in time or space.
     static const std::set<std::string> left{};
@@ -175,7 +175,7 @@ BOOST_DATA_TEST_CASE(combined_profiles_give_the_errors_of_the_nodal_form,
                        "swaying");
     const std::vector<Norm> norms{*Norm::named("theta_L2L2"), *Norm::named("u_LinfH2semi")};
     const SeparatedProblem products =
-        separated(manufactured_problem(solution, beam, 1.0), norms, 1.0);
+        separated(manufactured_problem({solution, beam, 1.0}), norms, 1.0);
     BOOST_TEST_REQUIRE(products.rank >= 12);
     for (const std::vector<Norm>& asked : {norms, std::vector<Norm>{norms.back()}}) {
         Scheme scheme{.time = TimeScheme::named(time)};
@@ -303,8 +303,9 @@ BOOST_AUTO_TEST_CASE(bumps_that_the_steps_resolve_are_found_in_long_runs_too) {
 
 BOOST_AUTO_TEST_CASE(what_separates_is_left_alone) {
     const ProblemData problem =
-        manufactured_problem(read_solution(find_file(Shipped::solution, "copetti-fernandez-2011")),
-                             {.alpha = 0.017, .zeta = 0.1, .stops = {-0.02, 0.1}}, 1.0);
+        manufactured_problem({read_solution(find_file(Shipped::solution, "copetti-fernandez-2011")),
+                              {.alpha = 0.017, .zeta = 0.1, .stops = {-0.02, 0.1}},
+                              1.0});
     const SeparatedProblem same = separated(problem, all_norms(), 1.0);
     BOOST_TEST(same.rank == 0);
     BOOST_TEST(same.reason.empty());

@@ -233,14 +233,14 @@ const Beam beam{.alpha = 0.3, .zeta = 0.1};
 /// A sharp solution as text; front: where tanh changes sign.
 ProblemData sharp_problem(const std::string& front) {
     return manufactured_problem(
-        parse_solution("name = \"sharp\"\n"
-                       "theta = \"x*(1 - x)*(1 + t)*tanh(60*(x - " +
-                           front +
-                           "))\"\n"
-                           "u = \"x^2*(3 - x)*sin(t)/100 + x^2*t*tanh(60*(x - " +
-                           front + "))/1000\"\n",
-                       "sharp"),
-        beam, 1.0);
+        {parse_solution("name = \"sharp\"\n"
+                        "theta = \"x*(1 - x)*(1 + t)*tanh(60*(x - " +
+                            front +
+                            "))\"\n"
+                            "u = \"x^2*(3 - x)*sin(t)/100 + x^2*t*tanh(60*(x - " +
+                            front + "))/1000\"\n",
+                        "sharp"),
+         beam, 1.0});
 }
 
 std::vector<Norm> all_norms() {
@@ -316,11 +316,11 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_resolved_is_said_until_the_mesh_resolves_it)
 
     // A spike that runs along the beam: no few intervals resolve all places where it is.
     ProblemData problem = manufactured_problem(
-        parse_solution(
-            "name = \"spike\"\nu = \"0\"\n"
-            "theta = \"x*(1 - x)*exp(-((x - 0.2 - t/2)/w)^2)\"\n[parameters]\nw = 3e-5\n",
-            "spike"),
-        beam, 1.0);
+        {parse_solution(
+             "name = \"spike\"\nu = \"0\"\n"
+             "theta = \"x*(1 - x)*exp(-((x - 0.2 - t/2)/w)^2)\"\n[parameters]\nw = 3e-5\n",
+             "spike"),
+         beam, 1.0});
     const RunResult result =
         run({.beam = beam,
              .mesh = Mesh::uniform(8),

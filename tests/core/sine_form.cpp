@@ -133,7 +133,7 @@ BOOST_DATA_TEST_CASE(errors_are_those_of_the_nodal_form,
     const auto [place, is_new] = derived.try_emplace(name);
     if (is_new)
         place->second =
-            manufactured_problem(read_solution(find_file(Shipped::solution, name)), beam, 2.0);
+            manufactured_problem({read_solution(find_file(Shipped::solution, name)), beam, 2.0});
     const ProblemData& problem = place->second;
     const auto norms = norms_of(all ? Norm::names() : sine_norms);
     const Mesh mesh =
@@ -160,11 +160,11 @@ BOOST_DATA_TEST_CASE(errors_are_those_of_the_nodal_form_where_many_modes_cancel,
                      elements, alpha, mass) {
     const Beam beam{.alpha = alpha, .zeta = 1e-3};
     const ProblemData problem =
-        manufactured_problem(parse_solution("name = \"strong\"\n"
-                                            "theta = \"-0.5*(x - x^3)*exp(-t)\"\n"
-                                            "u = \"0.01*(1 - cos(3*x))*cos(t)\"\n",
-                                            "strong"),
-                             beam, 0.01);
+        manufactured_problem({parse_solution("name = \"strong\"\n"
+                                             "theta = \"-0.5*(x - x^3)*exp(-t)\"\n"
+                                             "u = \"0.01*(1 - cos(3*x))*cos(t)\"\n",
+                                             "strong"),
+                              beam, 0.01});
     const auto norms = norms_of(Norm::names());
     Scheme scheme{Algorithm::direct, mass, 0.0, TimeScheme::named("sdirk2")};
     const RunResult sine = run({beam, Mesh::uniform(elements), scheme, 0.01, 100, norms}, problem);
@@ -184,7 +184,7 @@ BOOST_DATA_TEST_CASE(a_contact_may_end_with_any_step_of_a_block, data::make(Time
                      time) {
     const Beam beam{.alpha = 0.4, .zeta = 0.15, .stops = {-0.02, 0.1}};
     const ProblemData problem = manufactured_problem(
-        read_solution(find_file(Shipped::solution, "released-from-g2")), beam, 2.0);
+        {read_solution(find_file(Shipped::solution, "released-from-g2")), beam, 2.0});
     const auto norms = norms_of(sine_norms);
     const Mesh mesh = resolution_of(problem, {Algorithm::direct}, norms, 2.0).on(Mesh::uniform(20));
     Scheme scheme{Algorithm::direct, ThermalMass::consistent, 0.0, TimeScheme::named(time)};

@@ -56,7 +56,7 @@ std::vector<double> errors(const Scheme& scheme, std::int64_t steps) {
     // θ̃ and u_xx are multiples of 1 − x; the error of θ̃ is what the beam's does to it.
     const Beam beam{.alpha = 0.6, .zeta = 0.3, .theta_A = 2.0};
     const std::string text = "theta = 'theta_A*(1 - x)'\nu = '(x^3/6 - x^2/2)*sin(2*t)'";
-    const ProblemData problem = manufactured_problem(parse_solution(text, "test"), beam, 1.0);
+    const ProblemData problem = manufactured_problem({parse_solution(text, "test"), beam, 1.0});
     std::vector<Norm> asked;
     asked.reserve(norms.size());
     for (const auto& name : norms)

@@ -26,7 +26,7 @@ bool solution(std::span<const std::uint8_t> data) {
     const std::size_t beam = taken(data) % beams.size();
     try {
         const Solution parsed = parse_solution(text_of(data), "fuzz.toml");
-        const ProblemData problem = manufactured_problem(parsed, beams[beam], 1.0);
+        const ProblemData problem = manufactured_problem({parsed, beams[beam], 1.0});
         require(problem.exact.has_value(), "a solution without an exact solution");
         return true;
     } catch (const InputError&) {

@@ -23,7 +23,7 @@ namespace {
 
 /// How far an admissible solution is from the law of its stops; throws InputError for any other.
 double law_distance(const Solution& solution, const Beam& beam, double final_time) {
-    return manufactured_problem(solution, beam, final_time).exact->law_distance;
+    return manufactured_problem({solution, beam, final_time}).exact->law_distance;
 }
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
@@ -533,7 +533,7 @@ BOOST_DATA_TEST_CASE(a_broken_rule_is_named_with_equation_time_and_place, data::
                 BOOST_TEST(what.find(part) != std::string::npos, part << " in " << what);
             return true;
         });
-    BOOST_CHECK_THROW(manufactured_problem(parsed, sample.beam, 2.0), InputError);
+    BOOST_CHECK_THROW(manufactured_problem({parsed, sample.beam, 2.0}), InputError);
 }
 
 BOOST_DATA_TEST_CASE(shipped_solutions_are_admissible_for_any_material,
@@ -542,9 +542,9 @@ BOOST_DATA_TEST_CASE(shipped_solutions_are_admissible_for_any_material,
                      path, alpha, zeta) {
     const Solution parsed = read_solution(path);
     for (const double theta_A : {-3.0, 0.0, 1e3}) {
-        const auto exact =
-            manufactured_problem(parsed, suited({alpha, zeta, theta_A, {-0.02, 0.1}}, parsed), 2.0)
-                .exact;
+        const auto exact = manufactured_problem(
+                               {parsed, suited({alpha, zeta, theta_A, {-0.02, 0.1}}, parsed), 2.0})
+                               .exact;
         // Between the sampled times, too.
         BOOST_TEST(!exact->tip_is_sampled);
     }
@@ -552,7 +552,8 @@ BOOST_DATA_TEST_CASE(shipped_solutions_are_admissible_for_any_material,
 
 BOOST_AUTO_TEST_CASE(what_is_not_proven_is_said) {
     const auto is_sampled = [](const std::string& u) {
-        return manufactured_problem(parse_solution(solution("0", u), "my.toml"), between_stops, 2.0)
+        return manufactured_problem(
+                   {parse_solution(solution("0", u), "my.toml"), between_stops, 2.0})
             .exact->tip_is_sampled;
     };
     BOOST_TEST(!is_sampled("x^2*g2*sin(t)^2"));
@@ -568,7 +569,7 @@ BOOST_AUTO_TEST_CASE(a_single_stop_is_passed_by_a_narrow_peak) {
         const Solution sharp =
             parse_solution(solution("0", "x^2*" + peak + "*exp(-1e18*(t - 0.3333)^2)"), "my.toml");
         try {
-            manufactured_problem(sharp, {0.017, 0.1, 0.0, stops}, 2.0);
+            manufactured_problem({sharp, {0.017, 0.1, 0.0, stops}, 2.0});
             return false;
         } catch (const InputError&) {
             return true;

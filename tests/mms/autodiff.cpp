@@ -124,7 +124,7 @@ ProblemData in_cpp(const std::string& name, const Beam& beam) {
 
 ProblemData as_text(const std::string& name, const Beam& beam) {
     return manufactured_problem(
-        read_solution(std::string(TVBEAM_SOLUTIONS_DIR "/") + name + ".toml"), beam, 2.0);
+        {read_solution(std::string(TVBEAM_SOLUTIONS_DIR "/") + name + ".toml"), beam, 2.0});
 }
 
 const std::vector<std::string> names{"copetti-fernandez-2011", "moving-front", "stiff-layer",

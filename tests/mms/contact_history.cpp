@@ -45,10 +45,11 @@ ContactHistory onset(const std::string& gap, const std::string& force) {
 BOOST_AUTO_TEST_CASE(a_contact_that_begins_within_a_phase_is_not_one_from_the_start) {
     const auto history_of = [](const std::string& u, const std::string& sigma) {
         return expected_orders(
-            parse_solution("theta = 'sin(pi*x)*exp(-t)'\nu = 'g2*(3*x^2 - x^3)/2" + u +
-                               "'\nsigma = '" + sigma + "'\n[parameters]\nc = 1.037\n",
-                           "within.toml"),
-            {0.4, 0.15, 0.0, {-0.1, 0.1}}, 2.0);
+            {parse_solution("theta = 'sin(pi*x)*exp(-t)'\nu = 'g2*(3*x^2 - x^3)/2" + u +
+                                "'\nsigma = '" + sigma + "'\n[parameters]\nc = 1.037\n",
+                            "within.toml"),
+             {0.4, 0.15, 0.0, {-0.1, 0.1}},
+             2.0});
     };
     const auto begins = history_of("*(1 - ((c - t) + sqrt((c - t)^2))^3/8/c^3)",
                                    "-((t - c) + sqrt((t - c)^2))^2/4");

@@ -69,8 +69,9 @@ std::vector<std::string> smooth() {
 // θ̃ = t x (1 − x), u = x² t/100: each size is the largest of a polynomial on [0,1] × [0,2].
 BOOST_AUTO_TEST_CASE(sizes_of_terms_are_those_of_their_formulas) {
     const auto terms =
-        coverage(parse_solution("theta = 't*x*(1 - x)'\nu = 'x^2*t/100'\n", "my.toml"),
-                 {0.4, 0.15, 0.0, {-0.02, 0.1}}, 2.0);
+        coverage({parse_solution("theta = 't*x*(1 - x)'\nu = 'x^2*t/100'\n", "my.toml"),
+                  {0.4, 0.15, 0.0, {-0.02, 0.1}},
+                  2.0});
     const auto close = boost::test_tools::tolerance(1e-12);
     BOOST_TEST(use(terms, "(1)", "theta_t").largest == 0.25, close); // at x = 1/2
     BOOST_TEST(use(terms, "(1)", "theta_xx").largest == 4.0, close); // 2 t
@@ -88,7 +89,7 @@ BOOST_AUTO_TEST_CASE(sizes_of_terms_are_those_of_their_formulas) {
 BOOST_AUTO_TEST_CASE(cases_of_contact_are_distinguishable) {
     const auto on = [&](const std::string& name, const Beam& beam) {
         const Solution solution = shipped_solution(name);
-        return coverage(solution, suited(beam, solution), 2.0);
+        return coverage({solution, suited(beam, solution), 2.0});
     };
     const auto touching = on("touch-without-force", coupled);
     check_unused(touching, "(8)", "a force at the stop g2", "the tip touches g2 without a force");
@@ -99,8 +100,9 @@ BOOST_AUTO_TEST_CASE(cases_of_contact_are_distinguishable) {
     BOOST_TEST(use(pressed, "(8)", "a force at the stop g1").largest == 3.0); // 1 + t
     const auto released = on("released-from-g2", coupled);
     BOOST_TEST(use(released, "(8)", "a force at the stop g2").largest == 0.5625); // (3/4)²
-    const auto still = coverage(parse_solution("theta = 'sin(pi*x)'\nu = '0'\n", "still.toml"),
-                                {0.4, 0.15, 0.0, {-0.02, 0.1}}, 2.0);
+    const auto still = coverage({parse_solution("theta = 'sin(pi*x)'\nu = '0'\n", "still.toml"),
+                                 {0.4, 0.15, 0.0, {-0.02, 0.1}},
+                                 2.0});
     check_unused(still, "(6)(7)", "a free tip between stops", "u(1,t) is zero");
     const auto unstopped = on("free-oscillation", {0.4, 0.15, 0.0, {}});
     check_unused(unstopped, "(6)(7)", "a free tip between stops", "the beam has no stops");
@@ -111,8 +113,9 @@ BOOST_AUTO_TEST_CASE(cases_of_contact_are_distinguishable) {
 BOOST_AUTO_TEST_CASE(a_smooth_touch_is_one_without_a_force) {
     const auto on = [](const std::string& u, double epsilon) {
         return coverage(
-            parse_solution("theta = 'sin(pi*x)'\nu = '" + u + "'\nsigma = '0'\n", "touch.toml"),
-            {0.5, 0.1, 0.0, {-0.1, 0.1, epsilon}}, 1.0);
+            {parse_solution("theta = 'sin(pi*x)'\nu = '" + u + "'\nsigma = '0'\n", "touch.toml"),
+             {0.5, 0.1, 0.0, {-0.1, 0.1, epsilon}},
+             1.0});
     };
     for (const double epsilon : {0.0, 0.05}) {
         const auto one = on("g2*x^2*(1 - (t - 0.7003)^2)", epsilon);
@@ -136,7 +139,7 @@ BOOST_AUTO_TEST_CASE(a_size_is_followed_to_where_it_is_largest) {
     const Beam beam{0.4, 0.15, 0.0, {-0.1, 0.1}};
     const auto largest = [&](const std::string& theta) {
         const Solution solution = parse_solution("theta = '" + theta + "'\nu = '0'\n", "my.toml");
-        return use(coverage(solution, beam, 1.0), "(1)", "theta_xx").largest;
+        return use(coverage({solution, beam, 1.0}), "(1)", "theta_xx").largest;
     };
     const auto close = boost::test_tools::tolerance(1e-4);
     const double pi = std::acos(-1.0);
@@ -156,7 +159,7 @@ BOOST_AUTO_TEST_CASE(a_phase_is_seen_however_short_it_is) {
             shape + "'\nu = 'x^5*" + shape + "'\n[[phase]]\n" + still,
         "my.toml");
     const Beam beam{0.5, 0.1, 0.0, {-2.0, 1.0}};
-    const auto terms = coverage(solution, beam, 20.0);
+    const auto terms = coverage({solution, beam, 20.0});
     for (const std::string term : {"theta_t", "theta_xx", "alpha*u_xxt", "a heat source f"})
         BOOST_TEST(use(terms, "(1)", term).is_exercised(), term);
     // With s = 10 (t - 10.15): 1e6 times the shape is (1 - s²)³, and its slope is largest at
@@ -167,7 +170,8 @@ BOOST_AUTO_TEST_CASE(a_phase_is_seen_however_short_it_is) {
     BOOST_TEST(use(terms, "(3)", "u_xxx").largest == 60.0, close);
     check_unused(terms, "(8)", "a force at the stop g2", "the tip touches g2 without a force");
     check_unused(terms, "(8)", "a force at the stop g1", "the tip never reaches g1");
-    const auto residuals = space_residuals(solution, beam, 20.0, ThermalMass::consistent, {32, 64});
+    const auto residuals =
+        space_residuals({solution, beam, 20.0}, ThermalMass::consistent, {32, 64});
     BOOST_TEST(std::abs(residuals.back().heat_order.value_or(0.0) - 2.0) < 0.03);
     BOOST_TEST(std::abs(residuals.back().beam_order.value_or(0.0) - 2.0) < 0.03);
 }
@@ -179,7 +183,7 @@ BOOST_DATA_TEST_CASE(a_narrow_peak_is_seen_at_its_height, data::make({50.0, 200.
     for (const std::string beside : {"", " + sin(pi*x)*t"}) {
         const Solution solution =
             parse_solution("theta = '" + peak + beside + "'\nu = 'x^2*t/100'\n", "my.toml");
-        const auto terms = coverage(solution, {0.4, 0.15, 0.0, {}}, 1.0);
+        const auto terms = coverage({solution, {0.4, 0.15, 0.0, {}}, 1.0});
         const double height = 0.25 * k * std::sqrt(2.0 / std::exp(1.0));
         BOOST_TEST(use(terms, "(1)", "theta_t").largest == height + (beside.empty() ? 0.0 : 1.0),
                    boost::test_tools::tolerance(0.03));
@@ -193,7 +197,7 @@ BOOST_AUTO_TEST_CASE(a_narrow_peak_of_the_force_is_seen_at_its_height) {
     const Solution solution = parse_solution("theta = 'sin(pi*x)'\nu = 'g2*(3*x^2 - x^3)/2'\n"
                                              "sigma = '-1 - 4*exp(-(700*(t - 0.4567))^2)'\n",
                                              "my.toml");
-    const auto terms = coverage(solution, {0.4, 0.15, 0.0, {-0.1, 0.1}}, 1.0);
+    const auto terms = coverage({solution, {0.4, 0.15, 0.0, {-0.1, 0.1}}, 1.0});
     BOOST_TEST(use(terms, "(8)", "a force at the stop g2").largest == 5.0,
                boost::test_tools::tolerance(1e-3));
 }
@@ -202,7 +206,7 @@ BOOST_AUTO_TEST_CASE(a_narrow_peak_of_the_force_is_seen_at_its_height) {
 BOOST_AUTO_TEST_CASE(a_term_that_was_not_seen_is_not_said_to_be_zero) {
     const Solution solution = parse_solution(
         "theta = 'sin(pi*x)*exp(-(1e7*(t - 0.4567))^2)'\nu = 'x^2*t/100'\n", "my.toml");
-    check_unused(coverage(solution, {0.4, 0.15, 0.0, {}}, 1.0), "(1)", "theta_t",
+    check_unused(coverage({solution, {0.4, 0.15, 0.0, {}}, 1.0}), "(1)", "theta_t",
                  "theta is steady, as far as was seen");
 }
 
@@ -211,7 +215,7 @@ BOOST_AUTO_TEST_CASE(every_term_is_exercised_by_some_shipped_solution) {
     std::vector<TermUse> all;
     for (const std::string& name : shipped()) {
         const Solution solution = shipped_solution(name);
-        const auto terms = coverage(solution, suited(coupled, solution), 2.0);
+        const auto terms = coverage({solution, suited(coupled, solution), 2.0});
         if (all.empty())
             all = terms;
         for (std::size_t i = 0; i < terms.size(); ++i)
@@ -228,8 +232,8 @@ BOOST_DATA_TEST_CASE(space_residuals_have_order_two_or_vanish,
     const ThermalMass mass = lumped ? ThermalMass::lumped : ThermalMass::consistent;
     const Solution solution = shipped_solution(name);
     const Beam beam = suited(coupled, solution);
-    const ExpectedOrders expected = expected_orders(solution, beam, 2.0);
-    const auto residuals = space_residuals(solution, beam, 2.0, mass, {64, 128});
+    const ExpectedOrders expected = expected_orders({solution, beam, 2.0});
+    const auto residuals = space_residuals({solution, beam, 2.0}, mass, {64, 128});
     const Residual& finest = residuals.back();
     BOOST_TEST((finest.heat == 0.0) == expected.theta_is_exact, finest.heat);
     BOOST_TEST((finest.beam == 0.0) == expected.theta_is_exact, finest.beam);
@@ -245,7 +249,7 @@ BOOST_DATA_TEST_CASE(time_residuals_have_the_order_of_the_scheme,
     const Beam beam = suited(coupled, solution);
     // The layer e^(−1000 t) must be resolved.
     const double final_time = name == "stiff-layer" ? 0.01 : 2.0;
-    const auto residuals = TimeResiduals(solution, beam, final_time, {256, 512}).of(scheme);
+    const auto residuals = TimeResiduals({solution, beam, final_time}, {256, 512}).of(scheme);
     const int order = TimeScheme::named(scheme).order;
     // exp(−π² t) has next terms of about one part in fifteen at these steps.
     constexpr double tolerance = 0.08;
@@ -262,19 +266,19 @@ BOOST_DATA_TEST_CASE(time_residuals_have_the_order_of_the_scheme,
 BOOST_AUTO_TEST_CASE(a_jump_leaves_a_residual_in_schemes_that_look_across_it) {
     const Solution solution = shipped_solution("impact");
     const Beam beam = suited(coupled, solution);
-    const auto back = TimeResiduals(solution, beam, 2.0, {256, 512}).of("bdf2");
+    const auto back = TimeResiduals({solution, beam, 2.0}, {256, 512}).of("bdf2");
     BOOST_TEST(std::abs(back.back().beam_order.value()) < 0.05);
-    const auto across = TimeResiduals(solution, beam, 2.0, {255, 511}).of("sdirk2");
+    const auto across = TimeResiduals({solution, beam, 2.0}, {255, 511}).of("sdirk2");
     BOOST_TEST(std::abs(across.back().beam_order.value()) < 0.05);
-    const auto level = TimeResiduals(solution, beam, 2.0, {256, 512}).of("sdirk2");
+    const auto level = TimeResiduals({solution, beam, 2.0}, {256, 512}).of("sdirk2");
     BOOST_TEST(std::abs(level.back().beam_order.value() - 2.0) < 0.05);
-    const auto switches = expected_orders(solution, beam, 2.0).switches;
+    const auto switches = expected_orders({solution, beam, 2.0}).switches;
     BOOST_REQUIRE(switches.size() == 1U);
     BOOST_TEST(switches[0].t == 1.0);
     // g2 times the largest curvature of (3 x² − x³)/2, which is 3.
     BOOST_TEST(switches[0].u_xxt_jump == 0.3, boost::test_tools::tolerance(1e-12));
     BOOST_TEST(switches[0].theta_t_jump == 0.0);
-    BOOST_TEST(expected_orders(solution, beam, 1.0).switches.empty());
+    BOOST_TEST(expected_orders({solution, beam, 1.0}).switches.empty());
 }
 
 // The tip is pressed on g2 up to t = 1. A jump of u_xxt at t = 2 spoils the deflection, not a
@@ -294,7 +298,7 @@ BOOST_AUTO_TEST_CASE(a_jump_after_the_last_contact_spares_the_contact_stress) {
             "u = 'g2*(3*x^2 - x^3)/2*(1 - (t - 1)^2/4) + g2*x^2*(1 - x)^2*(t - 1/2)'\n",
         "early.toml");
     const auto least_order = [](const Solution& solution, const std::string& norm) {
-        const auto orders = expected_orders(solution, suited(coupled, solution), 2.5).orders;
+        const auto orders = expected_orders({solution, suited(coupled, solution), 2.5}).orders;
         const auto row = std::find_if(orders.begin(), orders.end(),
                                       [&](const auto& order) { return order.norm == norm; });
         BOOST_REQUIRE(row != orders.end());
@@ -313,7 +317,7 @@ BOOST_AUTO_TEST_CASE(orders_are_of_what_is_run_however_it_is_written) {
     const auto words = [](const std::string& text) {
         std::string all;
         for (const auto& row :
-             expected_orders(parse_solution(text, "my.toml"), {0.3, 0.1, 0.0, {}}, 1.0).orders)
+             expected_orders({parse_solution(text, "my.toml"), {0.3, 0.1, 0.0, {}}, 1.0}).orders)
             all += row.norm + " " + words_of(row.in_h) + " " + words_of(row.euler) + " " +
                    words_of(row.bdf2) + " " + words_of(row.sdirk2) + "\n";
         return all;
@@ -329,7 +333,7 @@ BOOST_AUTO_TEST_CASE(orders_are_of_what_is_run_however_it_is_written) {
 BOOST_AUTO_TEST_CASE(the_stress_of_a_tip_without_a_time_error_has_none_without_coupling) {
     const auto of_stress = [](const std::string& text, double alpha, double epsilon) {
         const Beam beam{alpha, 0.1, 0.0, {-0.1, 0.1, epsilon}};
-        const auto orders = expected_orders(parse_solution(text, "my.toml"), beam, 1.0).orders;
+        const auto orders = expected_orders({parse_solution(text, "my.toml"), beam, 1.0}).orders;
         return words_of(orders.back().bdf2);
     };
     const std::string bent = "theta = 'cos(t)*sin(pi*x)'\n";
@@ -346,11 +350,11 @@ BOOST_AUTO_TEST_CASE(the_stress_of_a_tip_without_a_time_error_has_none_without_c
 BOOST_AUTO_TEST_CASE(a_solution_linear_in_time_has_no_time_residual) {
     const Solution solution = parse_solution("theta = 'x*(1 - x)*t'\nu = 'x^2*t/100'\n", "my.toml");
     const Beam beam = {0.4, 0.15, 0.0, {}};
-    const ExpectedOrders expected = expected_orders(solution, beam, 1.0);
+    const ExpectedOrders expected = expected_orders({solution, beam, 1.0});
     BOOST_TEST(!expected.theta_has_time_error);
     BOOST_TEST(!expected.u_has_time_error);
     for (const auto& scheme : TimeScheme::names()) {
-        const auto residuals = TimeResiduals(solution, beam, 1.0, {16, 32}).of(scheme);
+        const auto residuals = TimeResiduals({solution, beam, 1.0}, {16, 32}).of(scheme);
         BOOST_TEST(residuals.back().heat == 0.0);
         BOOST_TEST(residuals.back().beam == 0.0);
     }
@@ -362,7 +366,7 @@ BOOST_AUTO_TEST_CASE(a_rate_of_infinite_slope_takes_its_part_of_the_order) {
     const auto least = [](const std::string& theta, const std::string& u, double alpha) {
         const Solution solution = parse_solution(
             "theta = 'sin(pi*x)*(" + theta + ")'\nu = 'x^2*(" + u + ")/100'\n", "my.toml");
-        const auto expected = expected_orders(solution, {alpha, 0.15, 0.0, {}}, 1.0);
+        const auto expected = expected_orders({solution, {alpha, 0.15, 0.0, {}}, 1.0});
         std::map<std::string, double> orders;
         for (const auto& row : expected.orders) {
             BOOST_TEST(row.euler.least == (row.norm == "corollary" ? 2.0 : 1.0), row.norm);
@@ -395,7 +399,7 @@ BOOST_AUTO_TEST_CASE(bdf2_has_order_three_where_a_solution_is_quadratic_in_time)
         const Solution solution = parse_solution(
             "theta = 'x*(1 - x)*(" + theta + ")'\nu = 'x^2*(" + u + ")/100'\n", "my.toml");
         const Beam beam{0.4, 0.15, 0.0, {}};
-        if (const Forecast order = expected_orders(solution, beam, 1.0).orders[0].bdf2;
+        if (const Forecast order = expected_orders({solution, beam, 1.0}).orders[0].bdf2;
             order.is_known() && order.least == order.greatest)
             return order.least;
         return 0.0;
@@ -407,13 +411,14 @@ BOOST_AUTO_TEST_CASE(bdf2_has_order_three_where_a_solution_is_quadratic_in_time)
     // Without coupling each field has its own.
     const Solution apart =
         parse_solution("theta = 'x*(1 - x)*t^2'\nu = 'x^2*t^3/100'\n", "my.toml");
-    for (const auto& row : expected_orders(apart, {0.0, 0.15, 0.0, {}}, 1.0).orders)
+    for (const auto& row : expected_orders({apart, {0.0, 0.15, 0.0, {}}, 1.0}).orders)
         if (row.norm.starts_with("theta") || row.norm.starts_with("u_"))
             BOOST_TEST(row.bdf2.least == (row.norm.starts_with("theta") ? 3.0 : 2.0), row.norm);
     const Solution solution =
         parse_solution("theta = 'sin(pi*x)*t^2'\nu = 'x^2*t^2/100'\n", "my.toml");
     BOOST_TEST(
-        TimeResiduals(solution, {0.4, 0.15, 0.0, {}}, 1.0, {16, 32}).of("bdf2").back().heat == 0.0);
+        TimeResiduals({solution, {0.4, 0.15, 0.0, {}}, 1.0}, {16, 32}).of("bdf2").back().heat ==
+        0.0);
 }
 
 // Without coupling each equation has the time error of what it differences itself: the heat
@@ -426,9 +431,9 @@ BOOST_AUTO_TEST_CASE(a_time_error_is_forecast_where_a_residual_is) {
                     const Solution solution = parse_solution(
                         "theta = 'sin(pi*x)*" + theta + "'\nu = 'x^2*" + u + "/100'\n", "my.toml");
                     const Beam beam{alpha, zeta, 0.0, {}};
-                    const ExpectedOrders expected = expected_orders(solution, beam, 1.0);
+                    const ExpectedOrders expected = expected_orders({solution, beam, 1.0});
                     const Residual residual =
-                        TimeResiduals(solution, beam, 1.0, {16, 32}).of("euler").back();
+                        TimeResiduals({solution, beam, 1.0}, {16, 32}).of("euler").back();
                     const bool heat = residual.heat > 0.0;
                     const bool bending = residual.beam > 0.0;
                     BOOST_TEST_CONTEXT(theta << ", " << u << ", " << alpha << ", " << zeta) {

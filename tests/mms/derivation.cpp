@@ -384,7 +384,7 @@ BOOST_DATA_TEST_CASE(derived_functions_agree_with_automatic_differentiation,
     BOOST_REQUIRE(counterparts.contains(name));
     const Solution solution = read_solution(std::string(TVBEAM_SOLUTIONS_DIR "/") + name + ".toml");
     const Beam beam = suited(beams[static_cast<std::size_t>(which)], solution);
-    const ProblemData problem = manufactured_problem(solution, beam, 2.0);
+    const ProblemData problem = manufactured_problem({solution, beam, 2.0});
     const DerivedSolution derived = derive_on(solution, beam);
     std::mt19937 random(5);
     std::uniform_real_distribution<double> uniform(0.0, 1.0);
@@ -417,8 +417,9 @@ BOOST_AUTO_TEST_CASE(a_root_of_a_product_with_negative_factors_is_no_endless_one
          {"x*(1 - x)/sqrt((tanh(-pi)/(t + 3))/((x - t + 4)*tanh(-pi^12)))",
           "x*(1 - x)*sin(x/sqrt((tanh(-pi)/tanh(-2))/(tanh(-5)*tanh(-pi^12))))"})
         BOOST_CHECK_NO_THROW(
-            manufactured_problem(parse_solution("theta = '" + theta + "'\nu = '0'\n", "my.toml"),
-                                 {0.1, 0.1, 0.0, {}}, 1.0));
+            manufactured_problem({parse_solution("theta = '" + theta + "'\nu = '0'\n", "my.toml"),
+                                  {0.1, 0.1, 0.0, {}},
+                                  1.0}));
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -73,7 +73,7 @@ GivenData given(const std::string& q) {
 } // namespace
 
 BOOST_AUTO_TEST_CASE(the_papers_problem_is_a_few_products) {
-    const ProblemData problem = manufactured_problem(papers_solution(), papers_beam, 2.0);
+    const ProblemData problem = manufactured_problem({papers_solution(), papers_beam, 2.0});
     BOOST_TEST(problem.heat_source.is_separable());
     BOOST_TEST(problem.moment_load.is_separable());
     // f: sin πx and x − 1. μ: sin πx, and x − 1 for σ, u_xx and u_xxt together.
@@ -94,12 +94,12 @@ BOOST_AUTO_TEST_CASE(the_papers_problem_is_a_few_products) {
 BOOST_AUTO_TEST_CASE(what_the_beam_does_not_have_leaves_no_terms) {
     Beam beam = papers_beam;
     beam.alpha = 0.0;
-    const ProblemData problem = manufactured_problem(papers_solution(), beam, 2.0);
+    const ProblemData problem = manufactured_problem({papers_solution(), beam, 2.0});
     BOOST_TEST(problem.heat_source.terms.size() == 1U);
     BOOST_TEST(problem.moment_load.terms.size() == 1U);
     BOOST_TEST(problem.couple_load.terms.size() == 1U);
     const ProblemData at_rest =
-        manufactured_problem(parse_solution("theta = 0\nu = 0\n", "rest.toml"), Beam{}, 1.0);
+        manufactured_problem({parse_solution("theta = 0\nu = 0\n", "rest.toml"), Beam{}, 1.0});
     BOOST_TEST(at_rest.heat_source.is_zero());
     BOOST_TEST(at_rest.moment_load.is_zero());
     BOOST_TEST(at_rest.exact->u.is_zero());
@@ -110,7 +110,8 @@ BOOST_AUTO_TEST_CASE(what_the_beam_does_not_have_leaves_no_terms) {
 
 BOOST_DATA_TEST_CASE(profiles_and_amplitudes_are_finite_and_distinct, data::make(shipped())) {
     const Solution solution = read_solution(sample);
-    const ProblemData problem = manufactured_problem(solution, suited(papers_beam, solution), 2.0);
+    const ProblemData problem =
+        manufactured_problem({solution, suited(papers_beam, solution), 2.0});
     const ArrayXd x = ArrayXd::LinSpaced(50, 0.0, 1.0);
     for (std::size_t i = 0; i < problem.profiles.size(); ++i) {
         const ArrayXd values = problem.profiles[i](x);
@@ -137,10 +138,10 @@ BOOST_DATA_TEST_CASE(profiles_of_powers_of_sums_have_squares,
     const Beam beam = {0.4, 0.1, 0.0, {}};
     for (const std::string scale : {"t", "1e-30*(1 + 1.15*t)"}) {
         const ProblemData problem = manufactured_problem(
-            parse_solution("theta = \"x*(1 - x)*" + power + "*" + scale + "\"\nu = \"x^2*(1 - x)*" +
-                               power + "*" + scale + "\"\n",
-                           "power.toml"),
-            beam, 1.0);
+            {parse_solution("theta = \"x*(1 - x)*" + power + "*" + scale +
+                                "\"\nu = \"x^2*(1 - x)*" + power + "*" + scale + "\"\n",
+                            "power.toml"),
+             beam, 1.0});
         const ArrayXd x = ArrayXd::LinSpaced(200, 0.0, 1.0);
         for (const SpaceFunction& profile : problem.profiles) {
             const double square = profile(x).square().maxCoeff();
@@ -161,7 +162,7 @@ BOOST_DATA_TEST_CASE(moment_load_is_the_integral_of_the_couple_load, data::make(
     const Solution solution = read_solution(sample);
     Beam beam = papers_beam;
     beam.theta_A = 0.75;
-    const ProblemData problem = manufactured_problem(solution, suited(beam, solution), 2.0);
+    const ProblemData problem = manufactured_problem({solution, suited(beam, solution), 2.0});
     for (const double t : {0.0, 0.3, 1.2, 1.25, 1.3, 1.9})
         for (const double y : {0.0, 0.2, 0.55, 1.0}) {
             const auto load = [&](double x) {
@@ -177,7 +178,7 @@ BOOST_DATA_TEST_CASE(moment_load_is_the_integral_of_the_couple_load, data::make(
 
 // Also where times are not in order, and at the very end of a phase, which is still its own.
 BOOST_AUTO_TEST_CASE(amplitudes_follow_the_phases) {
-    const ProblemData problem = manufactured_problem(papers_solution(), papers_beam, 2.0);
+    const ProblemData problem = manufactured_problem({papers_solution(), papers_beam, 2.0});
     const Index stress = *problem.exact->stress;
     const double end = std::sqrt(2.0);
     ArrayXd t(7);
@@ -196,7 +197,7 @@ BOOST_AUTO_TEST_CASE(rests_follow_the_phases) {
                                              "theta = \"x*(1-x)*exp(x*t)\"\n"
                                              "[[phase]]\ntheta = \"x*(1-x)*exp(x*t^2)\"\n",
                                              "my.toml");
-    const ProblemData problem = manufactured_problem(solution, papers_beam, 2.0);
+    const ProblemData problem = manufactured_problem({solution, papers_beam, 2.0});
     const auto theta = [&](double x, double t) {
         return field_value(problem.exact->theta, problem, x, t);
     };
@@ -219,7 +220,7 @@ BOOST_AUTO_TEST_CASE(what_does_not_separate_is_the_same_together_as_alone) {
     )toml",
                                          "two-phases");
     const Beam beam = {0.017, 0.1, 0.0, {}};
-    const ProblemData problem = manufactured_problem(solution, beam, 1.0);
+    const ProblemData problem = manufactured_problem({solution, beam, 1.0});
     const std::vector<SpaceTimeFunction> functions{
         problem.heat_source.rest, problem.moment_load.rest, problem.exact->u_xx.rest};
     BOOST_TEST(are_same(problem.curvature_initial.rest, problem.exact->u_xx.rest));
@@ -248,7 +249,7 @@ BOOST_AUTO_TEST_CASE(phases_after_the_final_time_do_no_harm) {
         parse_solution("theta = \"t*sin(pi*x)\"\n[[phase]]\nuntil = 2\nu = \"x^2*t\"\n"
                        "[[phase]]\nuntil = 3\nu = \"x^2*log(t - 2)\"\n[[phase]]\nu = \"x*t\"\n",
                        "my.toml");
-    const ProblemData problem = manufactured_problem(solution, {0.5, 0.1, 0.0, {}}, 2.0);
+    const ProblemData problem = manufactured_problem({solution, {0.5, 0.1, 0.0, {}}, 2.0});
     BOOST_TEST(field_value(problem.exact->u, problem, 0.5, 2.0) == 0.5);
     BOOST_TEST(problem.heat_source.is_separable());
 }
@@ -257,7 +258,7 @@ BOOST_AUTO_TEST_CASE(phases_after_the_final_time_do_no_harm) {
 BOOST_AUTO_TEST_CASE(products_that_overflow_by_themselves_are_not_taken_apart) {
     const Solution solution =
         parse_solution("theta = \"x*(1-x)*exp(1000*(x - 1 - t))\"\nu = 0\n", "my.toml");
-    const ProblemData problem = manufactured_problem(solution, {}, 2.0);
+    const ProblemData problem = manufactured_problem({solution, {}, 2.0});
     for (const double t : {0.0, 0.01, 0.5, 2.0}) {
         const double expected = 0.9 * 0.1 * std::exp(1000.0 * (0.9 - 1.0 - t));
         BOOST_TEST(std::abs(field_value(problem.exact->theta, problem, 0.9, t) - expected) <=
@@ -333,7 +334,7 @@ BOOST_AUTO_TEST_CASE(a_source_that_steepens_with_time_is_gentle_for_a_while) {
 BOOST_AUTO_TEST_CASE(a_beam_is_taken_at_its_shortest_decimal) {
     const Solution solution =
         parse_solution("theta = \"alpha*x*(1-x)*(1000/17)*t\"\nu = 0\n", "my.toml");
-    const ProblemData problem = manufactured_problem(solution, papers_beam, 1.0);
+    const ProblemData problem = manufactured_problem({solution, papers_beam, 1.0});
     BOOST_TEST(field_value(problem.exact->theta, problem, 0.5, 1.0) == 0.25);
 }
 
@@ -518,7 +519,7 @@ BOOST_AUTO_TEST_CASE(any_formulas_are_a_problem_or_an_input_error) {
         document.append(theta).append("'\nu = '").append(u).append("'\n");
         try {
             const Solution solution = parse_solution(document, "my.toml");
-            const ProblemData problem = manufactured_problem(solution, {0.5, 0.25, 0.0, {}}, 2.0);
+            const ProblemData problem = manufactured_problem({solution, {0.5, 0.25, 0.0, {}}, 2.0});
             BOOST_TEST(std::isfinite(field_value(problem.heat_source, problem, 0.4, 1.1)));
             ++accepted;
         } catch (const InputError&) {

@@ -67,14 +67,12 @@ struct Case {
     ThermalMass mass;
 
     Case(const std::string& name, const std::string& scheme, ThermalMass of_heat)
-        : setting(solution_setting(name)),
-          forecast(error_constants(
-                       expected_orders(setting.solution, setting.beam, setting.final_time),
-                       setting.solution, setting.beam, setting.final_time, {{scheme, of_heat}})
-                       .front()),
-          time(scheme), mass(of_heat) {
+        : setting(solution_setting(name)), time(scheme), mass(of_heat) {
+        const AdmissibleSolution solution(setting.solution, setting.beam, setting.final_time);
+        forecast =
+            error_constants(expected_orders(solution), solution, {{scheme, of_heat}}).front();
         if (forecast.unknown.empty())
-            problem = manufactured_problem(setting.solution, setting.beam, setting.final_time);
+            problem = manufactured_problem(solution);
     }
 
     /// All norms, not their squares.
@@ -261,8 +259,9 @@ BOOST_AUTO_TEST_CASE(without_viscosity_maxima_of_a_coupled_temperature_are_not_f
         Beam beam;
         beam.alpha = alpha;
         beam.zeta = zeta;
-        const auto sizes = error_constants(expected_orders(solution, beam, 1.0), solution, beam,
-                                           1.0, {{"euler", ThermalMass::consistent}})
+        const AdmissibleSolution admissible(solution, beam, 1.0);
+        const auto sizes = error_constants(expected_orders(admissible), admissible,
+                                           {{"euler", ThermalMass::consistent}})
                                .front();
         for (const std::string norm : {"theta_LinfL2", "theta_L2L2"}) {
             const auto* row = sizes.of(norm);

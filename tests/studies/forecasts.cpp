@@ -89,9 +89,9 @@ std::int64_t elements_for(const ProblemData& data) {
 void check_forecast(const Problem& problem, const std::string& scheme,
                     const std::vector<std::int64_t>& counts, const std::string& name) {
     const ExpectedOrders expected =
-        expected_orders(problem.solution, problem.beam, problem.final_time);
+        expected_orders({problem.solution, problem.beam, problem.final_time});
     const ProblemData data =
-        manufactured_problem(problem.solution, problem.beam, problem.final_time);
+        manufactured_problem({problem.solution, problem.beam, problem.final_time});
     const std::int64_t elements = elements_for(data);
     std::vector<std::vector<double>> found;
     for (const std::int64_t count : counts)
@@ -205,7 +205,8 @@ BOOST_AUTO_TEST_CASE(a_jump_of_nothing_is_none) {
                                              "[[phase]]\n"
                                              "u = 'g2*(3*x^2 - x^3)/2/(1 + (t - 7/10)^3)'\n",
                                              "nothing.toml");
-    const ExpectedOrders expected = expected_orders(solution, {0.4, 0.15, 0.0, {-0.02, 0.1}}, 2.0);
+    const ExpectedOrders expected =
+        expected_orders({solution, {0.4, 0.15, 0.0, {-0.02, 0.1}}, 2.0});
     BOOST_TEST(expected.contact.onsets.empty());
     for (const std::string& reason : expected.reasons)
         BOOST_TEST(reason.find("sigma jumps") == std::string::npos, reason);
@@ -226,7 +227,8 @@ BOOST_AUTO_TEST_CASE(a_jump_at_the_time_of_an_onset_lowers_the_order_that_it_lea
                                              "u = 'g2*(3*x^2 - x^3)/2'\n"
                                              "sigma = '-(t - 1)'\n",
                                              "onset.toml");
-    const ExpectedOrders expected = expected_orders(solution, {0.4, 0.15, 0.0, {-0.02, 0.1}}, 2.0);
+    const ExpectedOrders expected =
+        expected_orders({solution, {0.4, 0.15, 0.0, {-0.02, 0.1}}, 2.0});
     BOOST_REQUIRE(expected.contact.onsets.size() == 1);
     BOOST_TEST(expected.contact.onsets[0].t == expected.switches.at(0).t);
     const ExpectedOrder& stress = expected.orders.back();
@@ -248,7 +250,7 @@ BOOST_AUTO_TEST_CASE(only_an_uneven_tip_in_a_penalised_stop_costs_sdirk2_an_orde
                        1.0};
     };
     const auto stress = [](const Problem& one) {
-        const ExpectedOrders expected = expected_orders(one.solution, one.beam, one.final_time);
+        const ExpectedOrders expected = expected_orders({one.solution, one.beam, one.final_time});
         bool loses = false;
         for (const std::string& reason : expected.reasons)
             loses = loses || reason.find("but for SDIRK2") != std::string::npos;
@@ -270,7 +272,7 @@ BOOST_AUTO_TEST_CASE(a_high_power_of_an_onset_leaves_less_than_a_flat_one) {
     for (const int j : {6, 7}) {
         const Problem problem = onset(j + 1, j, 0.4, 0.15);
         const ExpectedOrders expected =
-            expected_orders(problem.solution, problem.beam, problem.final_time);
+            expected_orders({problem.solution, problem.beam, problem.final_time});
         const ExpectedOrder& stress = expected.orders.back();
         BOOST_REQUIRE(stress.norm == "sigma_L2");
         const double share = (2.0 * j + 1.0) / (2.0 * j + 2.0);
@@ -298,7 +300,7 @@ BOOST_AUTO_TEST_CASE(a_steep_cusp_lowers_the_order_too) {
             {0.0, 5.0, 0.0, {}},
             1.0};
         const ExpectedOrders expected =
-            expected_orders(problem.solution, problem.beam, problem.final_time);
+            expected_orders({problem.solution, problem.beam, problem.final_time});
         BOOST_REQUIRE(expected.cusps.size() == 1);
         BOOST_TEST(std::abs(expected.cusps[0].u_xxt_power - beta) < 1e-6);
         for (const std::string scheme : {"bdf2", "sdirk2"})
@@ -309,11 +311,12 @@ BOOST_AUTO_TEST_CASE(a_steep_cusp_lowers_the_order_too) {
 // A layer has a finite slope, however thin it is: nothing of it is a cusp.
 BOOST_AUTO_TEST_CASE(a_thin_layer_is_no_cusp) {
     for (const std::string rate : {"1e10", "1e12", "2e12", "4e12", "1e13", "1e15"})
-        BOOST_TEST(expected_orders(parse_solution("theta = 't*sin(pi*x)'\n"
-                                                  "u = 'x^2*(1 - x)^2*(t + exp(-" +
-                                                      rate + "*t)/" + rate + ")'\n",
-                                                  "layer.toml"),
-                                   {0.0, 0.15, 0.0, {}}, 1.0)
+        BOOST_TEST(expected_orders({parse_solution("theta = 't*sin(pi*x)'\n"
+                                                   "u = 'x^2*(1 - x)^2*(t + exp(-" +
+                                                       rate + "*t)/" + rate + ")'\n",
+                                                   "layer.toml"),
+                                    {0.0, 0.15, 0.0, {}},
+                                    1.0})
                        .cusps.empty(),
                    rate);
 }

@@ -70,7 +70,7 @@ std::string curved(const std::string& end) {
 }
 
 ProblemData problem(const std::string& text, double final_time) {
-    return manufactured_problem(parse_solution(text, "phases.toml"), beam, final_time);
+    return manufactured_problem({parse_solution(text, "phases.toml"), beam, final_time});
 }
 
 /// The same with every function read 1e-9 earlier next to the end, where the former phase holds

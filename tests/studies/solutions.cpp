@@ -269,8 +269,8 @@ BOOST_DATA_TEST_CASE(where_no_order_in_h_is_forecast_no_mesh_matters, data::make
                      solution) {
     Scene scene = scene_of(solution);
     scene.scheme.time = TimeScheme::named("sdirk2");
-    const auto expected = expected_orders(std::get<Solution>(scene.problem), scene.beam,
-                                          scene.get<LadderBlock>()->final_time);
+    const auto expected = expected_orders(
+        {std::get<Solution>(scene.problem), scene.beam, scene.get<LadderBlock>()->final_time});
     const auto found = orders(scene, rung(scene, 16, 512), rung(scene, 32, 512));
     for (std::size_t k = 0; k < norms.size(); ++k) {
         const auto forecast =
