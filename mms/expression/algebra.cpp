@@ -356,9 +356,10 @@ bool may_jump(const ex& expression) {
         const std::string name = ex_to<GiNaC::function>(part).get_name();
         return name == "tan" || name == "asin" || name == "acos" || name == "log";
     };
+    // Of a number, as sqrt(2) and 2^x, it does not.
     const auto is_constant = [](const ex& part) { return is_a<numeric>(part.evalf()); };
     for (auto part = expression.preorder_begin(); part != expression.preorder_end(); ++part)
-        if (is_suspect(*part) && !is_constant(*part)) // sqrt(2) is one
+        if (is_suspect(*part) && !is_constant(part->op(0)))
             return true;
     return false;
 }

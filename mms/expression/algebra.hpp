@@ -58,7 +58,7 @@ bool is_identically_zero(const GiNaC::ex& expression);
 GiNaC::numeric exact_rational(double value);
 
 /// Whether the expression, or a derivative of it, may jump somewhere: it has a quotient, a root, a
-/// logarithm, or a function that has one of these for a derivative, of what is no constant.
+/// logarithm, or a function that has one of these for a derivative, of what is no number.
 bool may_jump(const GiNaC::ex& expression);
 
 /// Whether the symbol occurs.
