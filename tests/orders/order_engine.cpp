@@ -4,6 +4,7 @@
 #include "studies/orders/order_engine.hpp"
 
 #include "tests/sweep.hpp"
+#include "tests/this_build.hpp"
 
 #include <boost/test/data/monomorphic.hpp>
 #include <boost/test/data/test_case.hpp>
@@ -206,7 +207,7 @@ BOOST_DATA_TEST_CASE(scatter_that_nobody_states_is_in_the_intervals,
                      data::make({4, 5}) * data::make({3e-3, 2e-2}), levels, sigma) {
     std::mt19937 generator(20261130);
     const auto uniform = uniform_from(generator);
-    constexpr int tables = 60;
+    const int tables = short_tests ? 15 : 60;
     Count count;
     for (int table = 0; table < tables; ++table) {
         const double p = 1 + table % 3;
@@ -363,7 +364,7 @@ BOOST_AUTO_TEST_CASE(the_orders_of_grids_hold_where_both_widths_have_next_terms)
     int missed = 0;
     for (const bool has_logarithm : {false, true})
         for (const double next : {0.0, 1.0, 2.0}) // power of the next term in dt; 0: none
-            for (int k = 0; k < 8; ++k) {
+            for (int k = 0; k < (short_tests ? 2 : 8); ++k) {
                 const double p = one_of({1, 1.5, 2, 3, 4});
                 const double q = one_of({1, 2, 3});
                 const double c = has_logarithm ? between(0.05, 0.5) : between(-0.5, 0.5);
@@ -406,6 +407,8 @@ BOOST_DATA_TEST_CASE(half_an_order_on_is_seen_beside_a_far_smaller_term_of_oppos
                      data::make({1.0, 1.7, 2.0, 3.0}) * data::make({1.0, 2.0}) *
                          data::make({0.4, 0.8, 1.3}) * data::make({2e-4, 5e-4, 1e-3, 1e-2, 0.1}),
                      p, q, next, part) {
+    if (short_tests && next != (q > 1 ? 0.4 : 1.3))
+        return;
     const auto law = [p = p, next = next](double h) {
         return std::pow(h, p) * (1 + next * std::sqrt(h));
     };
@@ -423,6 +426,8 @@ BOOST_DATA_TEST_CASE(what_falls_faster_than_any_power_has_no_order,
                      data::make({4.0, 5.0, 7.0, 7.2, 7.4, 10.0, 14.0}) *
                          data::make({0.1, 0.05, 0.02, 0.01, 1e-4, 1e-6}) * data::make({4, 5, 6}),
                      a, b, levels) {
+    if (short_tests && levels != 5)
+        return;
     std::vector<ErrorRow> rows;
     for (int i = 0; i < levels; ++i)
         for (const double dt : {0.1, 0.05, 0.025, 0.0125}) {
