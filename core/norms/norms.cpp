@@ -40,6 +40,11 @@ const std::vector<Norm>& roots() {
 
 } // namespace
 
+bool Norm::has_maximum() const {
+    return std::any_of(parts.begin(), parts.end(),
+                       [](const TimeNorm& part) { return part.kind == TimeNorm::Kind::Linf; });
+}
+
 QuantitySet Norm::quantities() const {
     QuantitySet set{};
     for (const auto& part : parts)

@@ -38,6 +38,8 @@ struct Norm {
 
     /// The quantities that any part needs.
     [[nodiscard]] QuantitySet quantities() const;
+    /// Whether a part is a maximum over time.
+    [[nodiscard]] bool has_maximum() const;
 
     static std::optional<Norm> named(std::string_view name);
     static std::vector<std::string> names(); ///< all of them, without the `_sq` forms

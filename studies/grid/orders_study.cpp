@@ -1,3 +1,4 @@
+#include "core/norms/norms.hpp"
 #include "mms/forecast/error_constants.hpp"
 #include "mms/text/toml_reader.hpp"
 #include "studies/grid/grid.hpp"
@@ -107,9 +108,10 @@ std::vector<Metric> forecast_metrics(std::size_t k, double within, const StudyRe
     const auto order = [](const auto& term) {
         return term ? std::optional(term->order) : std::nullopt;
     };
+    const auto known = Norm::named(measure.root());
     const auto sizes =
         fit_known_orders(root_records_of(result.get<OrdersResult>()->runs, k, measure),
-                         order(norm->in_h), order(norm->in_dt));
+                         order(norm->in_h), order(norm->in_dt), known && known->has_maximum());
     std::vector<Metric> metrics;
     const auto add = [&](const std::string& size, const std::optional<LeadingTerm>& term,
                          const std::optional<FittedSize>& fitted) {

@@ -180,6 +180,8 @@ TermRows with_widths(const TermRows& rows, const std::vector<Eigen::Index>& widt
     }
     if (rows.log_reference.size() > 0)
         merged.log_reference = rows.log_reference(widths);
+    const auto squares = std::ranges::find(widths, rows.in_squares);
+    merged.in_squares = squares == widths.end() ? -1 : squares - widths.begin();
     return merged;
 }
 

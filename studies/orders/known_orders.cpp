@@ -4,6 +4,7 @@
 
 #include <Eigen/LU>
 #include <Eigen/QR>
+#include <fmt/format.h>
 
 #include <cmath>
 #include <utility>
@@ -41,52 +42,103 @@ std::optional<FittedSize> root(double square, double uncertainty) {
     return FittedSize{value, uncertainty / (2.0 * value)};
 }
 
+/// The fit of one set of rows.
+class KnownOrderFit {
+public:
+    KnownOrderFit(std::span<const Refinement> records, std::optional<double> p,
+                  std::optional<double> q)
+        : p_(p), q_(q), columns_(columns_of(p, q)) {
+        for (const auto& record : records)
+            if (std::isfinite(record.error) && record.error > 0.0)
+                used_.push_back(record);
+        matrix_.resize(static_cast<Eigen::Index>(used_.size()),
+                       static_cast<Eigen::Index>(columns_.size()));
+        for (Eigen::Index i = 0; i < matrix_.rows(); ++i) {
+            const Refinement& row = used_[static_cast<std::size_t>(i)];
+            for (Eigen::Index k = 0; k < matrix_.cols(); ++k) {
+                const auto& [of_h, of_dt] = columns_[static_cast<std::size_t>(k)];
+                matrix_(i, k) =
+                    std::pow(row.h, of_h) * std::pow(row.dt, of_dt) / (row.error * row.error);
+            }
+        }
+    }
+
+    [[nodiscard]] KnownOrderSizes sizes(const Eigen::VectorXd& weights) const {
+        const Eigen::MatrixXd weighted = weights.asDiagonal() * matrix_;
+        const Eigen::VectorXd norms = weighted.colwise().norm();
+        const Eigen::MatrixXd scaled = weighted * norms.cwiseInverse().asDiagonal();
+        const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(scaled);
+        if (qr.rank() < scaled.cols())
+            return {"the runs do not determine the sizes", {}, {}};
+        const Eigen::VectorXd solved = qr.solve(weights);
+        const auto freedom = static_cast<int>(scaled.rows() - scaled.cols());
+        const double variance = (scaled * solved - weights).squaredNorm() / freedom;
+        const Eigen::MatrixXd covariance = variance * (scaled.transpose() * scaled).inverse();
+        const double factor = 1.96 * student_over_normal(freedom);
+        const auto size = [&](Eigen::Index k) {
+            return root(solved(k) / norms(k), factor * std::sqrt(covariance(k, k)) / norms(k));
+        };
+        KnownOrderSizes result;
+        if (p_)
+            result.a = size(0);
+        if (q_)
+            result.b = size(p_ ? 1 : 0);
+        return result;
+    }
+
+    [[nodiscard]] KnownOrderSizes sizes() const {
+        return sizes(Eigen::VectorXd::Ones(matrix_.rows()));
+    }
+
+    /// Those of a maximum over time.
+    [[nodiscard]] KnownOrderSizes sizes_of_maximum() const {
+        KnownOrderSizes result = sizes();
+        if (!p_ || !q_)
+            return result;
+        if (!result.a || !result.b)
+            return {result.failure, {}, {}};
+        Eigen::VectorXd ratio(matrix_.rows()); // of the term in Δt to that in h
+        for (Eigen::Index i = 0; i < ratio.size(); ++i) {
+            const Refinement& row = used_[static_cast<std::size_t>(i)];
+            ratio(i) =
+                result.b->value * std::pow(row.dt, *q_) / (result.a->value * std::pow(row.h, *p_));
+        }
+        const auto widened = [&](const FittedSize& size,
+                                 std::optional<FittedSize> KnownOrderSizes::*which,
+                                 const Eigen::VectorXd& other) -> std::optional<FittedSize> {
+            const KnownOrderSizes of_its_rows =
+                sizes((1.0 + other.array().pow(8.0)).inverse().matrix());
+            const auto& its = of_its_rows.*which;
+            if (!its)
+                return std::nullopt;
+            const double least = other.minCoeff();
+            return FittedSize{size.value, size.uncertainty + std::abs(its->value - size.value) +
+                                              least * least * size.value};
+        };
+        return {"", widened(*result.a, &KnownOrderSizes::a, ratio),
+                widened(*result.b, &KnownOrderSizes::b, ratio.cwiseInverse())};
+    }
+
+    [[nodiscard]] std::size_t rows() const { return used_.size(); }
+    [[nodiscard]] std::size_t columns() const { return columns_.size(); }
+
+private:
+    std::optional<double> p_, q_;
+    std::vector<std::pair<double, double>> columns_;
+    std::vector<Refinement> used_;
+    Eigen::MatrixXd matrix_; ///< a row a record, in parts of its e²
+};
+
 } // namespace
 
 KnownOrderSizes fit_known_orders(std::span<const Refinement> records, std::optional<double> p,
-                                 std::optional<double> q) {
-    const auto columns = columns_of(p, q);
-    if (columns.empty())
+                                 std::optional<double> q, bool is_maximum) {
+    if (!p && !q)
         return {};
-    std::vector<Refinement> used;
-    for (const auto& record : records)
-        if (std::isfinite(record.error) && record.error > 0.0)
-            used.push_back(record);
-    if (used.size() < columns.size() + 2)
-        return {std::to_string(used.size()) + " runs; the fit takes " +
-                    std::to_string(columns.size() + 2),
-                {},
-                {}};
-    const auto rows = static_cast<Eigen::Index>(used.size());
-    const auto count = static_cast<Eigen::Index>(columns.size());
-    Eigen::MatrixXd matrix(rows, count);
-    for (Eigen::Index i = 0; i < rows; ++i) {
-        const auto& [h, dt, error, seconds, uncertainty] = used[static_cast<std::size_t>(i)];
-        for (Eigen::Index k = 0; k < count; ++k) {
-            const auto& [of_h, of_dt] = columns[static_cast<std::size_t>(k)];
-            matrix(i, k) = std::pow(h, of_h) * std::pow(dt, of_dt) / (error * error);
-        }
-    }
-    const Eigen::VectorXd sizes = matrix.colwise().norm();
-    const Eigen::MatrixXd scaled = matrix * sizes.cwiseInverse().asDiagonal();
-    const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(scaled);
-    if (qr.rank() < count)
-        return {"the runs do not determine the sizes", {}, {}};
-    const Eigen::VectorXd ones = Eigen::VectorXd::Ones(rows);
-    const Eigen::VectorXd solved = qr.solve(ones);
-    const double variance =
-        (scaled * solved - ones).squaredNorm() / static_cast<double>(rows - count);
-    const Eigen::MatrixXd covariance = variance * (scaled.transpose() * scaled).inverse();
-    const double factor = 1.96 * student_over_normal(static_cast<int>(rows - count));
-    const auto size = [&](Eigen::Index k) {
-        return root(solved(k) / sizes(k), factor * std::sqrt(covariance(k, k)) / sizes(k));
-    };
-    KnownOrderSizes result;
-    if (p)
-        result.a = size(0);
-    if (q)
-        result.b = size(p ? 1 : 0);
-    return result;
+    const KnownOrderFit fit(records, p, q);
+    if (fit.rows() < fit.columns() + 2)
+        return {fmt::format("{} runs; the fit takes {}", fit.rows(), fit.columns() + 2), {}, {}};
+    return is_maximum ? fit.sizes_of_maximum() : fit.sizes();
 }
 
 } // namespace tvbeam

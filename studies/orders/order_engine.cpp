@@ -69,6 +69,13 @@ OrderEnsemble::OrderEnsemble(TermRows rows, const OrderTuning& tuning, bool may_
         scattered.scatter = shown;
         scattered_.reset(new OrderEnsemble(std::move(scattered), tuning_, false));
     }
+    if (rows_.in_squares < 0)
+        for (Index i = 0; i < rows_.log_reference.size(); ++i)
+            if (!std::isnan(rows_.log_reference[i])) {
+                TermRows other = rows_;
+                other.in_squares = i;
+                in_squares_.emplace_back(new OrderEnsemble(std::move(other), tuning_, may_scatter));
+            }
     const auto moving = moving_widths(rows_, tuning_.idle);
     if (moving.empty() || std::ssize(moving) == rows_.widths())
         return;
@@ -197,6 +204,42 @@ OrderEnsemble::Numbers OrderEnsemble::numbers_of(const Functional& number) const
 }
 
 std::optional<OrderEnsemble::Mixture> OrderEnsemble::mix(const Functional& number) const {
+    const auto own = mix_of_members(number);
+    if (in_squares_.empty())
+        return own;
+    std::vector<Mixture> all;
+    if (own)
+        all.push_back(*own);
+    for (const auto& other : in_squares_)
+        if (const auto one = other->mix(number))
+            all.push_back(*one);
+    double least = infinity;
+    const auto unit_of = [&](const Mixture& one) {
+        return one.half - tuning_.narrowest + least_scatter;
+    };
+    for (const auto& one : all)
+        least = std::min(least, unit_of(one));
+    double weights = 0;
+    double mean = 0;
+    double square = 0;
+    std::erase_if(all, [&](const Mixture& one) {
+        return unit_of(one) > tuning_.drifts_from_reference * least;
+    });
+    const auto weight_of = [&](const Mixture& one) { return 1 / (unit_of(one) * unit_of(one)); };
+    for (const auto& one : all) {
+        weights += weight_of(one);
+        mean += weight_of(one) * one.value;
+    }
+    if (!(weights > 0))
+        return std::nullopt;
+    mean /= weights;
+    for (const auto& one : all)
+        square += weight_of(one) * ((one.value - mean) * (one.value - mean) + one.half * one.half);
+    return Mixture{mean, std::sqrt(square / weights)};
+}
+
+std::optional<OrderEnsemble::Mixture>
+OrderEnsemble::mix_of_members(const Functional& number) const {
     const Numbers numbers = numbers_of(number);
     struct Weighed {
         double value, error, change, weight;
@@ -302,10 +345,19 @@ double OrderEnsemble::distance_to_slow_terms(Index width, double order) const {
     return farthest;
 }
 
+/// By the leading terms; where against a reference their search went on to no order at all
+/// (order_members.cpp), by all models.
 double OrderEnsemble::greatest_share(Index width) const {
+    const auto counts = [&](const EnsembleMember& member) {
+        return member.along < 0 &&
+               (rows_.log_reference.size() == 0 || std::isfinite(member.fit.order(width).error));
+    };
+    const bool by_leading = std::ranges::any_of(members_, [&](const EnsembleMember& member) {
+        return member.family == 0 && counts(member);
+    });
     double share = 0;
     for (const auto& member : members_)
-        if (member.family == 0)
+        if (counts(member) && (member.family == 0 || !by_leading))
             share = std::max(share, share_of_errors(member.fit, width, rows_));
     return share;
 }
@@ -372,7 +424,8 @@ bool OrderEnsemble::is_seen_as_a_power(Index width, const OrderInterval& order) 
             const double log_width = rows_.log_widths(r, width);
             const int level = level_of(levels, log_width);
             if (level >= member.place[static_cast<std::size_t>(width)] &&
-                member.fit.term(width, log_width) >= tuning_.seen * std::exp(rows_.log_errors[r]))
+                member.fit.measured_term(width, log_width) >=
+                    tuning_.seen * std::exp(rows_.log_errors[r]))
                 seen[static_cast<std::size_t>(level)] = true;
         }
         if (std::ranges::count(seen, true) >= static_cast<int>(fewest_levels))
@@ -419,16 +472,23 @@ std::vector<OrderInterval> OrderEnsemble::orders() const {
             order.low = mixture->value - half;
             order.high = mixture->value + half;
         }
-        order.determined = mixture && order.share >= tuning_.least_share &&
-                           order.low > tuning_.narrowest && order.half_width() <= tuning_.widest &&
-                           !motion_of(width).goes_on(order.value) && is_followed() &&
-                           !is_ambiguous(width) && is_seen_as_a_power(width, order);
+        order.determined =
+            mixture && order.share >= tuning_.least_share && order.low > tuning_.narrowest &&
+            order.half_width() <= tuning_.widest &&
+            (is_settled(width, order) || std::ranges::any_of(in_squares_, [&](const auto& other) {
+                 return other->is_settled(width, order);
+             }));
         if (!order.determined) {
             order.status = status_of(width, order);
             order.falls = motion_of(width).falls();
         }
     }
     return result;
+}
+
+bool OrderEnsemble::is_settled(Index width, const OrderInterval& order) const {
+    return !motion_of(width).goes_on(order.value) && is_followed() && !is_ambiguous(width) &&
+           is_seen_as_a_power(width, order);
 }
 
 std::string OrderEnsemble::status_of(Index width, const OrderInterval& order) const {

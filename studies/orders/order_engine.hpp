@@ -18,16 +18,19 @@
 /// look like scatter that nobody stated. So the
 /// interval knows scatter, the drift of the order along its width (the neighbours), and what
 /// extrapolation gives (the models with next terms, where they are steadier than those without).
-/// Where all of that is wide the order is not determined, nor where it still moves
-/// (order_motion.hpp), is steep and seen at two levels alone, or stands beside a constant that its
-/// few levels do not tell from it; the status says why. Where scatter, or a width of three levels,
-/// leaves open whether there is a logarithm or a next term half an order on, the interval reaches
-/// its order. In a width of three levels models with next terms do not count whose term in another
-/// width stands still. There is none where no model of all rows follows them. A width that changes
-/// no error by more than OrderTuning::idle of it is left out where the rest determines all orders.
-/// Constants: OrderTuning. Ideas of others: model averaging by stability and the spread over models
-/// as uncertainty (Rider et al. 2016; Eça and Hoekstra 2014), many models times many windows
-/// (StREEQ, Sandia).
+/// Against a reference its own error is taken off, and whether that is smooth or oscillates in
+/// every element is not known (TermRows::in_squares): all of this is done for either, and the
+/// numbers are put together with weights 1/half², without those that drift far more. Where all of
+/// that is wide the order is not determined, nor where it still moves (order_motion.hpp), is steep
+/// and seen at two levels alone, or stands beside a constant that its few levels do not tell from
+/// it; the status says why. Where scatter, or a width of three levels, leaves open whether there is
+/// a logarithm or a next term half an order on, the interval reaches its order. In a width of three
+/// levels models with next terms do not count whose term in another width stands still. There is
+/// none where no model of all rows follows them. A width that changes no error by more than
+/// OrderTuning::idle of it is left out where the rest determines all orders. Constants:
+/// OrderTuning. Ideas of others: model averaging by stability and the spread over models as
+/// uncertainty (Rider et al. 2016; Eça and Hoekstra 2014), many models times many windows (StREEQ,
+/// Sandia).
 #pragma once
 
 #include "studies/orders/error_rows.hpp"
@@ -115,6 +118,8 @@ private:
     Numbers numbers_of(const Functional& number) const;
     int place_of(Eigen::Index width, double log_width) const;
     std::optional<Mixture> mix(const Functional& number) const;
+    std::optional<Mixture> mix_of_members(const Functional& number) const;
+    bool is_settled(Eigen::Index width, const OrderInterval& order) const;
     /// Of a positive number, given its logarithms.
     OrderInterval mix_logarithms(const Functional& logarithm) const;
     bool residuals_scatter() const;
@@ -143,6 +148,8 @@ private:
     std::vector<Eigen::Index> moving_widths_;
     std::shared_ptr<const OrderEnsemble> moving_;
     std::shared_ptr<const OrderEnsemble> scattered_; ///< the same, with its unstated scatter
+    /// Against a reference, with squares subtracted in one width or another.
+    std::vector<std::shared_ptr<const OrderEnsemble>> in_squares_;
 };
 
 /// The orders of the error in each width; the failure in every status where there are none.

@@ -71,14 +71,10 @@ bool has_next_terms_of_two_kinds(const TermShape& shape) {
 /// no power has. Of a term that a reference has as well, what is left of it counts.
 bool is_a_difference(const TermFit& fit, const TermRows& rows) {
     constexpr double far_larger = 10;
-    const auto hidden = [&](Index i) {
-        const bool has_one = rows.log_reference.size() > 0 && !std::isnan(rows.log_reference[i]);
-        return has_one ? fit.term(i, rows.log_reference[i]) : 0.0;
-    };
     for (Index r = 0; r < rows.size(); ++r) {
         double largest = 0;
         for (Index i = 0; i < rows.widths(); ++i)
-            largest = std::max(largest, fit.term(i, rows.log_widths(r, i)) - hidden(i));
+            largest = std::max(largest, fit.measured_term(i, rows.log_widths(r, i)));
         if (largest <= far_larger * std::exp(rows.log_errors[r]))
             return false;
     }
@@ -102,7 +98,7 @@ std::size_t levels_with(const TermFit& fit, Index width, const TermRows& rows) {
     std::set<double> levels;
     for (Index r = 0; r < rows.size(); ++r)
         if (const double log_width = rows.log_widths(r, width);
-            fit.term(width, log_width) >= seen * std::exp(rows.log_errors[r]))
+            fit.measured_term(width, log_width) >= seen * std::exp(rows.log_errors[r]))
             levels.insert(log_width);
     return levels.size();
 }
@@ -283,8 +279,8 @@ void fit_each_alone(const TermRows& rows, const AllLevels& levels,
 double share_of_errors(const TermFit& fit, Index width, const TermRows& rows) {
     double share = 0;
     for (Index r = 0; r < rows.size(); ++r)
-        share = std::max(share,
-                         fit.term(width, rows.log_widths(r, width)) / std::exp(rows.log_errors[r]));
+        share = std::max(share, fit.measured_term(width, rows.log_widths(r, width)) /
+                                    std::exp(rows.log_errors[r]));
     return share;
 }
 

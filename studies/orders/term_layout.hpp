@@ -48,6 +48,9 @@ struct Term {
 
 Term term_at(const Layout& layout, const Eigen::VectorXd& theta, Eigen::Index i, double log_x);
 
+/// What a comparison with a reference shows of a term, given its value there, too.
+Term measured(const Term& term, const Term& reference, bool in_squares);
+
 /// ln of a reference's width; NaN where the comparison is exact.
 double reference_of(const Eigen::VectorXd& log_reference, Eigen::Index i);
 

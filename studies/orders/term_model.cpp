@@ -36,8 +36,8 @@ Term term_with(const Layout& layout, const Eigen::VectorXd& theta, Eigen::Index 
 class ModelAt {
 public:
     ModelAt(const Layout& layout, const Eigen::VectorXd& theta,
-            const Eigen::VectorXd& log_reference)
-        : layout_(layout), theta_(theta),
+            const Eigen::VectorXd& log_reference, Eigen::Index in_squares)
+        : layout_(layout), theta_(theta), in_squares_(in_squares),
           floor_(layout.floor() < 0 ? 0.0 : std::exp(2 * theta[layout.floor()])) {
         const Eigen::Index d = layout.widths();
         Eigen::Index pair = 0;
@@ -53,9 +53,8 @@ public:
 
     /// T_i at a width whose next power this is, less that of the reference.
     Term term(Eigen::Index i, double log_x, double next) const {
-        const Term term = term_with(layout_, theta_, i, log_x, next);
-        return {term.value - reference_[i].value, term.by_order - reference_[i].by_order,
-                term.by_next - reference_[i].by_next};
+        return measured(term_with(layout_, theta_, i, log_x, next), reference_[i],
+                        i == in_squares_);
     }
 
     /// ln e at one row, whose widths' terms stand at these places; NaN where the model has no
@@ -105,6 +104,7 @@ private:
 
     const Layout& layout_;
     const Eigen::VectorXd& theta_;
+    Eigen::Index in_squares_;
     double floor_; ///< its square
     double rho_[most_pairs];
     double by_angle_[most_pairs]; ///< ∂ρ/∂φ
@@ -115,6 +115,17 @@ private:
 
 Term term_at(const Layout& layout, const Eigen::VectorXd& theta, Eigen::Index i, double log_x) {
     return term_with(layout, theta, i, log_x, next_power(layout, i, log_x));
+}
+
+Term measured(const Term& term, const Term& reference, bool in_squares) {
+    if (!in_squares || reference.value == 0)
+        return {term.value - reference.value, term.by_order - reference.by_order,
+                term.by_next - reference.by_next};
+    const double value = std::sqrt(term.value * term.value - reference.value * reference.value);
+    const double own = term.value / value;
+    const double its = reference.value / value;
+    return {value, own * term.by_order - its * reference.by_order,
+            own * term.by_next - its * reference.by_next};
 }
 
 double reference_of(const Eigen::VectorXd& log_reference, Eigen::Index i) {
@@ -142,7 +153,7 @@ ModelFunction model_of(const Layout& layout, const TermRows& rows) {
     return [&layout, &rows, levels, places, terms = std::vector<Term>(levels.size())](
                const Eigen::VectorXd& theta, Eigen::VectorXd& values,
                Eigen::MatrixXd* jacobian) mutable {
-        const ModelAt model(layout, theta, rows.log_reference);
+        const ModelAt model(layout, theta, rows.log_reference, rows.in_squares);
         for (std::size_t l = 0; l < levels.size(); ++l)
             terms[l] = model.term(levels[l].width, levels[l].log_x, levels[l].next);
         const std::size_t* place = places.data();
@@ -154,14 +165,19 @@ ModelFunction model_of(const Layout& layout, const TermRows& rows) {
 }
 
 TermRows TermRows::subset(const std::vector<Eigen::Index>& chosen) const {
-    return {log_widths(chosen, Eigen::all), log_errors(chosen), weights(chosen), scatter,
-            log_reference};
+    return {log_widths(chosen, Eigen::all),
+            log_errors(chosen),
+            weights(chosen),
+            scatter,
+            log_reference,
+            in_squares};
 }
 
 TermRows TermRows::along(Eigen::Index width) const {
     TermRows result{log_widths.col(width), log_errors, weights, scatter};
     if (log_reference.size() > 0)
         result.log_reference = log_reference.segment(width, 1);
+    result.in_squares = width == in_squares ? 0 : -1;
     return result;
 }
 
@@ -209,13 +225,19 @@ double TermFit::term(Eigen::Index width, double log_width) const {
     return std::exp(log_unit) * term_at(layout, theta, width, log_width - log_centre[width]).value;
 }
 
+double TermFit::measured_term(Eigen::Index width, double log_width) const {
+    const double there = reference_of(log_reference, width);
+    const double of_reference = std::isnan(there) ? 0.0 : term(width, there);
+    return measured({term(width, log_width)}, {of_reference}, width == in_squares).value;
+}
+
 FittedNumber TermFit::log_error(const Eigen::VectorXd& log_widths, bool against_reference) const {
     const Layout layout(shape, log_centre.size());
     Eigen::VectorXd gradient = Eigen::VectorXd::Zero(layout.size());
     const Eigen::VectorXd reference = against_reference && log_reference.size() > 0
                                           ? Eigen::VectorXd(log_reference - log_centre)
                                           : Eigen::VectorXd();
-    const ModelAt model(layout, theta, reference);
+    const ModelAt model(layout, theta, reference, in_squares);
     Term terms[ModelAt::most_widths];
     std::size_t places[ModelAt::most_widths];
     for (std::size_t i = 0; i < ModelAt::most_widths; ++i)

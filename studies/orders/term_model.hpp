@@ -32,6 +32,10 @@ struct TermRows {
     /// ln of the widths of a reference run that stands in for the exact solution: T_i is then its
     /// value at the row less that at the reference. NaN: exact in that width. Empty: in all.
     Eigen::VectorXd log_reference = {};
+    /// The width in which squares are subtracted, T_i² = T_i(x)² − T_i(x_ref)²: of errors that
+    /// oscillate in every element, as those of interpolation, the reference's own stands at right
+    /// angles to the difference. -1: none, of errors that are smooth.
+    Eigen::Index in_squares = -1;
 
     Eigen::Index size() const { return log_errors.size(); }
     Eigen::Index widths() const { return log_widths.cols(); }
@@ -67,9 +71,10 @@ struct TermFit {
     Eigen::VectorXd log_centre; ///< ln of the unit of each width
     double log_unit = 0;        ///< ln of that of the errors, in which they are about one
     Eigen::VectorXd log_reference;
-    Eigen::VectorXd residuals; ///< of every row of the window, ln e − ln model
-    double scale = 0;          ///< sqrt(χ² / dof) of the robust fit
-    double scatter = 0;        ///< TermRows::scatter
+    Eigen::Index in_squares = -1; ///< TermRows::in_squares
+    Eigen::VectorXd residuals;    ///< of every row of the window, ln e − ln model
+    double scale = 0;             ///< sqrt(χ² / dof) of the robust fit
+    double scatter = 0;           ///< TermRows::scatter
     int dof = 0;
 
     /// What makes 1.96 standard errors a 95 % interval: Student's quantile over the normal one,
@@ -82,8 +87,10 @@ struct TermFit {
     FittedNumber next(Eigen::Index width) const; ///< c_i; 0 without a next term
     /// c_i g_i there: the next term over the leading one; 0 without one, and for a constant.
     double next_part(Eigen::Index width, double log_width) const;
-    /// T_i at a row.
+    /// T_i at a row, against the exact solution.
     double term(Eigen::Index width, double log_width) const;
+    /// What a comparison with the reference shows of it.
+    double measured_term(Eigen::Index width, double log_width) const;
     /// ln e at a row, against the exact solution or against the reference.
     FittedNumber log_error(const Eigen::VectorXd& log_widths, bool against_reference = false) const;
 };

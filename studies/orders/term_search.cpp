@@ -230,6 +230,7 @@ std::optional<TermFit> TermSearch::fit(const TermShape& shape, const TermFit* si
                    .log_centre = log_centre_,
                    .log_unit = log_unit_,
                    .log_reference = log_reference_,
+                   .in_squares = rows.in_squares,
                    .residuals = best->residuals,
                    .scale = best->scale(),
                    .scatter = rows.scatter,

@@ -32,7 +32,9 @@ std::optional<Start> start_at(const Layout& layout, const TermRows& rows, Eigen:
     const auto power_of = [&](Eigen::Index i, double order) {
         Eigen::ArrayXd power = (order * rows.log_widths.col(i)).array().exp();
         const double reference = reference_of(rows.log_reference, i);
-        if (!std::isnan(reference))
+        if (!std::isnan(reference) && i == rows.in_squares)
+            power = (power.square() - std::exp(2 * order * reference)).sqrt();
+        else if (!std::isnan(reference))
             power -= std::exp(order * reference);
         return Eigen::VectorXd(power / rows.log_errors.array().exp());
     };
