@@ -383,12 +383,15 @@ std::string rest_behind(const std::string& pattern, const std::string& number,
     static const std::regex rest(R"(^(\d|\.\d|\.?[eEdD][+-]?\d))");
     static const std::regex exponent_of_three(
         R"(^[+-]\d{3}(?![\d.ijIJ]))"); // Fortran's, as 0.12-100
+    static const std::regex begins_thousands(R"(^[-+]?\d{1,3}$)");
+    static const std::regex thousands(R"(^(,\d{3})+(\.\d+)?(?![\d,]))"); // as 1,234.5
     const bool ends_as_one =
         !number.empty() &&
         (std::isdigit(static_cast<unsigned char>(number.back())) != 0 || number.back() == '.');
     const bool goes_on =
         ends_as_one &&
         (std::regex_search(behind, rest) ||
+         (std::regex_match(number, begins_thousands) && std::regex_search(behind, thousands)) ||
          (number.find('.') != std::string::npos && std::regex_search(behind, exponent_of_three)));
     const NamedBeside named = goes_on ? named_beside_the_group(pattern) : NamedBeside();
     // What is counted off, as (.{11}), is meant so.
@@ -404,7 +407,8 @@ std::string begin_before(const std::string& pattern, const std::string& number,
     static const std::regex one(R"(^[-+]?(\d+\.?\d*|\.\d+)([eEdD][-+]?\d+)?$)");
     if (!std::regex_match(number, one))
         return {};
-    std::string belongs;
+    constexpr std::string_view minus_sign = "\u2212";
+    std::string belongs = before.ends_with(minus_sign) ? std::string(minus_sign) : "";
     for (std::size_t size = 1; size <= std::min(before.size(), longest_number); ++size) {
         const std::string front = before.substr(before.size() - size);
         // A hyphen or a dot behind a letter, or behind another, leads to a number.

@@ -154,6 +154,8 @@ BOOST_AUTO_TEST_CASE(a_pattern_that_ends_within_a_number_is_a_failure) {
              {"v = 1.2345e-05", R"(v = (\d\.\d{4}))"},
              {"v = 1.2345", R"(v = ([0-9.]{4}))"},
              {"dofs = 16641", R"(dofs = (\d{4}))"},
+             {"dofs = 16,641", R"(dofs = (\d+))"},
+             {"drag = -1,234.5 N", R"(drag = (-?\d+))"},
              {"v = 8.00e-03", R"(v = (\d+\.\d+)(?:[eE][-+]?\d+)?)"},
              {"v = 8.00e-03", R"(v = (\d+\.\d+)(?:e|$))"},
              {"v = 8.00e-03", R"(v = (\d+\.\d+)(?=e))"}})
@@ -163,6 +165,8 @@ BOOST_AUTO_TEST_CASE(a_pattern_that_ends_within_a_number_is_a_failure) {
     BOOST_TEST(*read({"L2 = 4.0e-01, 3 steps"}, R"(L2 = (\S+),.*steps)").value == 0.4);
     BOOST_TEST(*read({"L2 = [8., 4.]"}, R"(L2 = \[(\d+\.?\d*))").value == 8.0);
     BOOST_TEST(*read({"L2 = 4.0-2"}, R"(L2 = ([\d.]+))").value == 4.0); // a range
+    BOOST_TEST(*read({"5,125,0.5"}, R"(^(\d+))").value == 5.0);         // a row of three
+    BOOST_TEST(*read({"5,125"}, R"(^(\d+),)").value == 5.0);
     // A part of a complex number; and what follows is named in a group, or brackets.
     for (const auto& [line, pattern] : std::vector<std::pair<std::string, std::string>>{
              {"v = 1.5-100.25i", R"(v = (-?\d+\.\d+))"},
@@ -188,6 +192,7 @@ BOOST_AUTO_TEST_CASE(a_pattern_that_begins_within_a_number_is_a_failure) {
     // A minus, a point or digits that a class of anything else took, or nothing did.
     for (const auto& [line, pattern] : std::vector<std::pair<std::string, std::string>>{
              {"drag: -0.75", R"(drag\D*([-+\d.eE]+))"},
+             {"drag: \u22120.75", R"(drag\D*([-+\d.eE]+))"}, // a typeset minus
              {"drag: -0.75", R"((\d+\.\d+)$)"},
              {"drag: -.75", R"(drag\W+(\d+))"},
              {"drag=-0.75", R"(drag[ =:-]+(\S+))"},
