@@ -286,6 +286,8 @@ BOOST_AUTO_TEST_CASE(a_file_has_the_number_by_its_name) {
     BOOST_TEST(*in_file("e.csv", "step,L2\n1,7\n2,0.5\n\n").value == 0.5);
     BOOST_TEST(*in_file("e.csv", "step;\"L2\"\n2; 0.5 \n").value == 0.5);
     BOOST_TEST(*in_file("e.csv", "step  L2\n2\t0.5").value == 0.5);
+    BOOST_TEST(*in_file("e.csv", "\xEF\xBB\xBFL2,step\n0.5,2\n").value == 0.5);
+    BOOST_TEST(*in_file("e.json", "\xEF\xBB\xBF{\"L2\": 0.5}").value == 0.5);
     BOOST_TEST(*in_file("e.csv", "# of a run\nstep,L2\n% half\n2,0.5\n# the end\n").value == 0.5);
     BOOST_TEST(*in_file("e.csv", "# of a run\n# step L2\n1 7\n2 0.5\n").value == 0.5);
     for (const auto& [name, text, words] : std::vector<std::array<std::string, 3>>{
