@@ -594,9 +594,15 @@ BOOST_AUTO_TEST_CASE(a_run_is_known_by_what_its_figures_depend_on) {
 
 BOOST_AUTO_TEST_CASE(a_run_is_known_by_the_files_that_its_words_name_within_them) {
     const TemporaryDirectory directory;
-    const std::string config = directory.write("config.txt", "3\n");
-    for (const std::string& word : {config, "--config=" + config, "-f" + config, "@" + config,
-                                    "cat '" + config + "'; true", "a," + config + ":b"}) {
+    std::vector<std::pair<std::string, std::string>> words; // and the file in each
+    for (const std::string name : {"config.txt", "a b/c (1), d.txt"}) {
+        fs::create_directories((directory.path() / name).parent_path());
+        const std::string config = directory.write(name, "3\n");
+        for (const std::string& word : {config, "--config=" + config, "-f" + config, "@" + config,
+                                        "cat '" + config + "'; true", "a," + config + ":b"})
+            words.emplace_back(name, word);
+    }
+    for (const auto& [name, word] : words) {
         const std::string file = directory.write(
             "scene.toml", "[solver]\ncommand = [\"sh\", \"-c\", \"" + word +
                               "\", \"{elements}\"]\nerrors = { L2 = 'L2 = (\\S+)' }\n"
@@ -605,11 +611,38 @@ BOOST_AUTO_TEST_CASE(a_run_is_known_by_the_files_that_its_words_name_within_them
             const Scene read = read_scene(file);
             return RunIdentities(*read.solver).of(read.series().front(), 1);
         };
-        directory.write("config.txt", "3\n");
+        directory.write(name, "3\n");
         const std::string before = identity();
         BOOST_TEST(identity() == before);
-        directory.write("config.txt", "6\n");
+        directory.write(name, "6\n");
         BOOST_TEST(identity() != before, word);
+    }
+}
+
+BOOST_AUTO_TEST_CASE(a_run_is_known_however_the_way_to_its_scene_is_written) {
+    const TemporaryDirectory directory;
+    const fs::path& folder = directory.path();
+    fs::create_directory(folder / "scenes");
+    fs::create_directory_symlink(folder / "scenes", folder / "linked");
+    const std::string program = directory.write("scenes/solve.sh", "#!/bin/sh\necho L2 = 1\n");
+    fs::permissions(program, fs::perms::owner_all);
+    const auto identity = [&](const fs::path& scene) {
+        const Scene read = read_scene(scene.string());
+        return RunIdentities(*read.solver).of(read.series().front(), 1);
+    };
+    for (const std::string files : {"[\"solve.sh\"]", "[]"}) {
+        const fs::path scene = directory.write(
+            "scenes/scene.toml",
+            "[solver]\ncommand = [\"./solve.sh\", \"{elements}\"]\nfiles = " + files +
+                "\nerrors = { L2 = 'L2 = (\\S+)' }\n[ladder]\nelements = "
+                "[2, 4]\nnorms = [\"L2\"]\n");
+        const std::string known = identity(scene);
+        BOOST_TEST(identity(fs::relative(scene)) == known, files);
+        BOOST_TEST(identity(folder / "scenes/../scenes/./scene.toml") == known, files);
+        BOOST_TEST(identity(folder / "linked/scene.toml") == known, files);
+        directory.write("scenes/solve.sh", "#!/bin/sh\necho L2 = 12\n");
+        BOOST_TEST(identity(scene) != known, files);
+        directory.write("scenes/solve.sh", "#!/bin/sh\necho L2 = 1\n");
     }
 }
 
