@@ -69,6 +69,28 @@ BOOST_AUTO_TEST_CASE(names_in_braces_are_filled_in_and_other_braces_stay) {
         BOOST_TEST(filled(text) == wanted, text);
 }
 
+BOOST_AUTO_TEST_CASE(files_get_what_their_language_reads_and_the_command_bare_text) {
+    const TemporaryDirectory directory;
+    directory.write("s.toml", "[unknowns]\nu = \"sin(pi*x)*sin(pi*y)*exp(k*t)\"\n[parameters]\n"
+                              "k = -3\n[equations]\nf = \"diff(u, t) - k*laplace(u) + u^2\"\n");
+    directory.write("code.in", "{parameter.k}|{source.f}");
+    const auto texts = [&](const std::string& language) {
+        const Scene scene = read_scene(directory.write(
+            "scene.toml", "[solver]\ncommand = [\"true\", \"{parameter.k}|{source.f}\"]\n"
+                          "files = [\"code.in\"]\nerrors = { L2 = 'L2 = (\\S+)' }\nsolution = "
+                          "\"./s.toml\"\nlanguage = \"" +
+                              language + "\"\n[ladder]\nelements = [2, 4]\nnorms = [\"L2\"]\n"));
+        return std::pair(scene.solver->command[1].text, scene.solver->files[0].contents->text);
+    };
+    const auto [c_word, c_file] = texts("c");
+    BOOST_TEST(c_word.starts_with("-3|("), c_word);
+    BOOST_TEST(c_file == "(-3.0)" + c_word.substr(2));
+    const auto [fortran_word, fortran_file] = texts("fortran");
+    BOOST_TEST(fortran_word.starts_with("-3|("), fortran_word);
+    BOOST_TEST(fortran_word.find('\n') == std::string::npos, fortran_word);
+    BOOST_TEST(fortran_file.starts_with("(-3.0_dp)|&\n"), fortran_file);
+}
+
 BOOST_AUTO_TEST_CASE(what_cannot_be_filled_in_is_told_at_its_place) {
     BOOST_TEST(
         refusal({"{element}", {"scene.toml", 3, 5}})
