@@ -253,4 +253,18 @@ std::string inline_code(const DerivedSystem& derived, const DerivedFunction& fun
            ")";
 }
 
+std::string in_lines(const std::string& inline_code, CodeLanguage language) {
+    if (language != CodeLanguage::fortran || !is_long(inline_code))
+        return inline_code;
+    // How much stands before it in its line is not known.
+    std::string lines = "&\n" + wrapped_code(std::string(8, ' ') + inline_code, 8, " &");
+    lines.pop_back(); // what follows in the template stands in the last line
+    return lines;
+}
+
+std::string inline_number(double value, CodeLanguage language) {
+    const std::string text = literal_text(value, dialect_of(language).infix);
+    return value < 0.0 && language != CodeLanguage::moose ? "(" + text + ")" : text;
+}
+
 } // namespace tvbeam

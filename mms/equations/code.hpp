@@ -34,6 +34,14 @@ std::string system_code(const DerivedSystem& derived, CodeLanguage language);
 std::string inline_code(const DerivedSystem& derived, const DerivedFunction& function,
                         CodeLanguage language);
 
+/// The expression for a file of that language: in Fortran, whose lines end at 132 characters, a
+/// long one goes on in lines of its own, in free form.
+std::string in_lines(const std::string& inline_code, CodeLanguage language);
+
+/// A number as an operand of that language: 2.0, (-2.0), in Fortran 2.0_dp. A file of MOOSE has
+/// values, where no brackets may be.
+std::string inline_number(double value, CodeLanguage language);
+
 /// What a function is: "f = diff(u, t) - k*laplace(u) (heat.toml:9)".
 std::string description_of(const DerivedFunction& function);
 

@@ -109,7 +109,7 @@ private:
                          ? "; where a derivative that the equations have jumps there, what is "
                            "derived lacks a delta function"
                          : ""));
-            said_.emplace(exact.of, found.kind);
+            said_[exact.of].push_back(found);
         }
         for (const Rounded& value : values_of(program))
             if (!(std::abs(value.value) <= std::numeric_limits<double>::max()))
@@ -120,7 +120,7 @@ private:
     /// At a kink a derivative that is zero elsewhere may have a delta function.
     [[nodiscard]] bool is_kinked(const EquationField& field) const {
         const auto said = said_.find(field.unknown);
-        if (said == said_.end() || said->second != Singularity::Kind::kink)
+        if (said == said_.end() || said->second.front().kind != Singularity::Kind::kink)
             return false;
         const ex& exact = derived_.fields.find(field.unknown)->exact;
         for (std::size_t i = 0; i < coordinate_count; ++i)
@@ -174,16 +174,21 @@ private:
                     "parameter " + name + " has no effect on anything that is derived");
     }
 
-    /// What the exact values have is not said of their derivatives again, unless these have worse.
+    /// What the exact values have is not said of their derivatives again, unless these have worse,
+    /// or have it in another place.
     void look_for_singularity(const DerivedFunction& function) {
-        std::optional<Singularity::Kind> known;
+        std::vector<Singularity> known;
         for (const EquationField* field : derived_.fields.occurring_in(function.formula))
             if (const auto said = said_.find(field->unknown); said != said_.end())
-                known = std::min(known.value_or(said->second), said->second);
+                known.insert(known.end(), said->second.begin(), said->second.end());
         const Program program = located_program({function.formula}, derived_.fields, function);
         for (const auto& found : singularities_of(program, derived_)) {
             using Kind = Singularity::Kind;
-            if (known && found.kind >= *known)
+            // Where one could not be excluded is of no account: it may be anywhere.
+            if (std::ranges::any_of(known, [&](const Singularity& said) {
+                    return found.kind >= said.kind &&
+                           (found.kind == Kind::not_excluded || found.place == said.place);
+                }))
                 continue;
             const std::string what = found.kind == Kind::pole       ? " has no value: "
                                      : found.kind == Kind::no_value ? " has no value in places: "
@@ -195,7 +200,7 @@ private:
 
     DerivedSystem& derived_;
     std::vector<DomainPoint> points_;
-    std::map<std::string, Singularity::Kind> said_; ///< by unknown, the worst
+    std::map<std::string, std::vector<Singularity>> said_; ///< by unknown, the worst first
     std::vector<Remark> remarks_;
 };
 

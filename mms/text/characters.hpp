@@ -1,6 +1,11 @@
 #pragma once
 
+#include <string_view>
+
 namespace tvbeam {
+
+/// What some programs begin a file in UTF-8 with; it is no part of the text.
+inline constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
 
 // Of ASCII, whatever the locale.
 

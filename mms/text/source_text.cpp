@@ -1,5 +1,7 @@
 #include "mms/text/source_text.hpp"
 
+#include "mms/text/characters.hpp"
+
 #include <algorithm>
 #include <cstdint>
 #include <utility>
@@ -17,8 +19,8 @@ bool continues_code_point(char byte) {
 class Walker {
 public:
     explicit Walker(std::string_view document) : document_(document) {
-        if (document_.substr(0, 3) == "\xEF\xBB\xBF")
-            offset_ = 3;
+        if (document_.starts_with(byte_order_mark))
+            offset_ = byte_order_mark.size();
     }
 
     [[nodiscard]] bool at_end() const { return offset_ >= document_.size(); }

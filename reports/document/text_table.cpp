@@ -1,6 +1,9 @@
 #include "reports/document/text_table.hpp"
 
 #include <algorithm>
+#include <functional>
+#include <utility>
+#include <vector>
 
 namespace tvbeam {
 
@@ -18,45 +21,56 @@ std::string padded(const std::string& text, std::size_t width) {
     return std::string(width > length ? width - length : 0, ' ') + text;
 }
 
-std::size_t width_of(const Table::Column& column) {
-    std::size_t width = shown(column.heading);
-    for (const auto& cell : column.cells)
-        width = std::max(width, shown(cell));
-    return width;
+/// The widths of a group: found once, as they take all of its cells.
+struct Widths {
+    std::vector<std::size_t> columns;
+    std::size_t whole;
+};
+
+Widths widths_of(const Table::Group& group) {
+    Widths widths{{}, 0};
+    for (const auto& column : group.columns) {
+        std::size_t width = shown(column.heading);
+        for (const auto& cell : column.cells)
+            width = std::max(width, shown(cell));
+        widths.columns.push_back(width);
+        widths.whole += width + 1;
+    }
+    widths.whole = std::max(widths.whole, shown(group.heading) + 1) - 1;
+    return widths;
 }
 
-std::size_t width_of(const Table::Group& group) {
-    std::size_t width = 0;
-    for (const auto& column : group.columns)
-        width += width_of(column) + 1;
-    return std::max(width, shown(group.heading) + 1) - 1;
-}
+using Groups = std::vector<std::pair<const Table::Group*, Widths>>;
 
-std::string line_of(const std::vector<const Table::Group*>& groups, std::size_t row, bool heading) {
+/// text: of a column, what stands in this line.
+std::string line_of(const Groups& groups,
+                    const std::function<const std::string&(const Table::Column&)>& text) {
     std::string line;
-    for (const auto* group : groups) {
+    for (const auto& [group, widths] : groups) {
         std::string part;
-        for (const auto& column : group->columns)
-            part += (part.empty() ? "" : " ") +
-                    padded(heading ? column.heading : column.cells[row], width_of(column));
-        line += (line.empty() ? "" : " ") + padded(part, width_of(*group));
+        for (std::size_t i = 0; i < group->columns.size(); ++i)
+            part += (part.empty() ? "" : " ") + padded(text(group->columns[i]), widths.columns[i]);
+        line += (line.empty() ? "" : " ") + padded(part, widths.whole);
     }
     line.erase(line.find_last_not_of(' ') + 1);
     return line + "\n";
 }
 
 std::string part_text(const Table& part) {
-    std::vector<const Table::Group*> side_by_side{&part.key};
+    Groups side_by_side{{&part.key, widths_of(part.key)}};
     for (const auto& group : part.groups)
-        side_by_side.push_back(&group);
+        side_by_side.emplace_back(&group, widths_of(group));
     std::string headings;
-    for (const auto* group : side_by_side)
-        headings += (headings.empty() ? "" : " ") + padded(group->heading, width_of(*group));
+    for (const auto& [group, widths] : side_by_side)
+        headings += (headings.empty() ? "" : " ") + padded(group->heading, widths.whole);
     headings.erase(headings.find_last_not_of(' ') + 1);
     std::string text = headings.empty() ? "" : headings + "\n";
-    text += line_of(side_by_side, 0, true);
+    text += line_of(side_by_side,
+                    [](const auto& column) -> const std::string& { return column.heading; });
     for (std::size_t row = 0; row < part.rows(); ++row)
-        text += line_of(side_by_side, row, false);
+        text += line_of(side_by_side, [row](const auto& column) -> const std::string& {
+            return column.cells[row];
+        });
     return text;
 }
 
@@ -67,10 +81,11 @@ std::vector<Table> parts_of(const Table& table, std::size_t width) {
     std::size_t next = 0;
     do {
         Table part{table.caption, table.key, {}};
-        std::size_t used = width_of(part.key);
-        while (next < table.groups.size() &&
-               (part.groups.empty() || used + 1 + width_of(table.groups[next]) <= width)) {
-            used += 1 + width_of(table.groups[next]);
+        std::size_t used = widths_of(part.key).whole;
+        while (next < table.groups.size()) {
+            used += 1 + widths_of(table.groups[next]).whole;
+            if (!part.groups.empty() && used > width)
+                break;
             part.groups.push_back(table.groups[next++]);
         }
         parts.push_back(std::move(part));

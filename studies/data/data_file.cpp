@@ -1,5 +1,6 @@
 #include "studies/data/data_file.hpp"
 
+#include "mms/text/characters.hpp"
 #include "mms/text/file_text.hpp"
 #include "mms/text/input_error.hpp"
 #include "studies/data/data_columns.hpp"
@@ -161,7 +162,6 @@ constexpr std::size_t largest_table = 8 << 20;
 
 std::string text_of(const std::string& file) {
     std::string text = file_text(file, largest_table);
-    constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
     if (text.starts_with(byte_order_mark))
         text.erase(0, byte_order_mark.size());
     if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF"))

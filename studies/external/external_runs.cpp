@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <climits>
 #include <cstdlib>
 #include <fstream>
 #include <memory>
@@ -72,6 +73,11 @@ const SolverFile* file_called(const SolverBlock& solver, const std::string& name
     return found == solver.files.end() ? nullptr : &*found;
 }
 
+/// The one of the block's files that is called as the program: by a name with a / in it.
+const SolverFile* own_program(const SolverBlock& solver, const std::string& name) {
+    return name.find('/') == std::string::npos ? nullptr : file_called(solver, name);
+}
+
 /// The program that a run calls: with a / in its name, one of the block's files or a path relative
 /// to the scene, otherwise what PATH has. Throws InputError where there is none.
 fs::path program_of(const SolverBlock& solver, const std::string& name) {
@@ -85,7 +91,7 @@ fs::path program_of(const SolverBlock& solver, const std::string& name) {
                                          ? ": ./" + name + " is the one of solver.files"
                                          : ""));
     }
-    const SolverFile* own = file_called(solver, name);
+    const SolverFile* own = own_program(solver, name);
     fs::path file = own != nullptr ? own->source : fs::absolute(solver.folder / name);
     if (is_program(file))
         return file;
@@ -113,13 +119,14 @@ void require_at_hand(const SolverBlock& solver, const Place& place, const std::s
 
 /// What a run consists of before it begins.
 struct Prepared {
+    std::string name; ///< the program, as the command has it
     fs::path program;
     std::vector<std::string> arguments;
 };
 
 Prepared prepared(const SolverBlock& solver, const Placeholders& values) {
     const std::string name = solver.command.front().filled(values);
-    Prepared run{program_of(solver, name), {}};
+    Prepared run{name, program_of(solver, name), {}};
     for (std::size_t i = 1; i < solver.command.size(); ++i)
         run.arguments.push_back(solver.command[i].filled(values));
     return run;
@@ -204,10 +211,8 @@ private:
         Prepared run = prepared(solver_, values);
         const RunDirectory directory(keeper_.directory() / std::to_string(next_++));
         fill(solver_, values, directory.path());
-        if (const std::string name = solver_.command.front().filled(values);
-            name.find('/') != std::string::npos)
-            if (const auto* own = file_called(solver_, name))
-                run.program = directory.path() / own->name;
+        if (const auto* own = own_program(solver_, run.name))
+            run.program = directory.path() / own->name;
         std::vector<OutputReading> readings;
         for (const auto& measure : task.measures)
             if (const auto* pattern = solver_.source_of(measure).pattern(measure.name))
@@ -386,22 +391,43 @@ RunIdentities::RunIdentities(const SolverBlock& solver) : solver_(solver) {
 
 namespace {
 
-/// The absolute paths that a word names: itself, or those within it, as in --config=/path/a.txt.
-std::set<std::string> absolute_paths_in(const std::string& word) {
-    std::set<std::string> paths;
-    if (word.starts_with('/'))
-        paths.insert(word);
+/// The files that a word names by absolute paths: itself, or those within it, as in
+/// --config=/path/a.txt. What ends a path may also stand in it, as a blank: all that are there
+/// count.
+std::set<std::string> files_named_in(const std::string& word) {
+    std::set<std::string> files;
     constexpr const char* ends = " \t\n\r\"'`=,:;()<>|&";
-    for (std::size_t at = 0; at < word.size();) {
-        const std::size_t end = std::min(word.find_first_of(ends, at), word.size());
+    const auto end_from = [&](std::size_t at) {
+        return std::min(word.find_first_of(ends, at), word.size());
+    };
+    for (std::size_t at = 0; at < word.size(); at = end_from(at) + 1) {
         // Also behind an option's letter, as in -f/path/a.awk, or @/path/a.txt.
         const std::size_t root = word.find('/', at);
         const bool is_root = root == at || (root < at + 3 && (word[at] == '-' || word[at] == '@'));
-        if (root < end && is_root)
-            paths.insert(word.substr(root, end - root));
-        at = end + 1;
+        if (!is_root || root > end_from(at))
+            continue;
+        for (std::size_t end = end_from(root);; end = end_from(end + 1)) {
+            std::error_code error;
+            if (fs::is_regular_file(word.substr(root, end - root), error))
+                files.insert(word.substr(root, end - root));
+            if (end == word.size() || end - root > PATH_MAX)
+                break;
+        }
     }
-    return paths;
+    return files;
+}
+
+/// What a program is known by. One of the block's files is copied, and its contents are known; any
+/// other is what stands in its place, however the way to the scene was written.
+nlohmann::json identity_of(const SolverBlock& solver, const std::string& name,
+                           const fs::path& program) {
+    if (const auto* own = own_program(solver, name))
+        return own->name;
+    std::error_code error;
+    // Not the program's own links: what it does may depend on the name that it is called by.
+    return {(fs::canonical(program.parent_path(), error) / program.filename()).string(),
+            fs::file_size(program, error),
+            fs::last_write_time(program, error).time_since_epoch().count()};
 }
 
 } // namespace
@@ -410,7 +436,7 @@ std::string RunIdentities::of(const Series& series, std::size_t level) const {
     const auto values = placeholders_of(series.rungs.at(level), level, series.final_time,
                                         parameters_of(series.method));
     const Prepared run = prepared(solver_, values);
-    nlohmann::json json{{"program", run.program.string()},
+    nlohmann::json json{{"program", identity_of(solver_, run.name, run.program)},
                         {"arguments", run.arguments},
                         {"environment", solver_.environment},
                         {"inherited", inherited(solver_)},
@@ -418,14 +444,10 @@ std::string RunIdentities::of(const Series& series, std::size_t level) const {
                         {"values", reading_of(solver_.values)},
                         {"seconds", solver_.seconds ? solver_.seconds->text : ""},
                         {"files", digests_}};
-    std::error_code error;
-    json["size"] = fs::file_size(run.program, error);
-    json["time"] = fs::last_write_time(run.program, error).time_since_epoch().count();
     // Scripts and inputs that are called where they are, as by `sh /path/solve.sh`.
     for (const auto& argument : run.arguments)
-        for (const auto& file : absolute_paths_in(argument))
-            if (fs::is_regular_file(file, error))
-                json["called"][file] = digest(fs::path(file));
+        for (const auto& file : files_named_in(argument))
+            json["called"][file] = digest(fs::path(file));
     for (const auto& file : solver_.files)
         if (file.contents)
             json["files"][file.name] = digest(file.contents->filled(values));

@@ -30,8 +30,9 @@ StudiedSolver external_runs(const SolverBlock& solver, const Keeper& keeper);
 /// What runs are known again by: a digest of whatever their figures depend on, which is the
 /// command, the contents of the files, the environment that the block gives and what it inherits of
 /// where code is looked for (LD_LIBRARY_PATH, PYTHONPATH and the like), how figures are read, and
-/// the program's path, size and time. Several threads may call at a time. The block must
-/// outlive it.
+/// of a program that is none of the files its absolute path, size and time. The way to the scene,
+/// as it was written, is no part of it. Several threads may call at a time. The block must outlive
+/// it.
 class RunIdentities {
 public:
     explicit RunIdentities(const SolverBlock& solver);

@@ -1,5 +1,6 @@
 #include "studies/external/readings.hpp"
 
+#include "mms/text/characters.hpp"
 #include "studies/external/output.hpp"
 
 #include <nlohmann/json.hpp>
@@ -250,8 +251,13 @@ ReadFigure figure_in_csv(const std::filesystem::path& file, const std::string& n
     });
     std::ifstream stream(file, std::ios::binary);
     std::array<char, 65536> buffer{};
-    while (stream.read(buffer.data(), buffer.size()) || stream.gcount() > 0)
-        lines.take({buffer.data(), static_cast<std::size_t>(stream.gcount())});
+    for (bool begins = true; stream.read(buffer.data(), buffer.size()) || stream.gcount() > 0;
+         begins = false) {
+        std::string_view chunk(buffer.data(), static_cast<std::size_t>(stream.gcount()));
+        if (begins && chunk.starts_with(byte_order_mark))
+            chunk.remove_prefix(byte_order_mark.size());
+        lines.take(chunk);
+    }
     lines.finish();
     if (last.empty())
         return {{}, "it has no row below its header"};

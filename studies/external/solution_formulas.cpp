@@ -53,16 +53,19 @@ SolutionFormulas::SolutionFormulas(const std::filesystem::path& file, CodeLangua
     for (const auto& function : derived_.functions)
         functions_[name_of(function)] = &function;
     for (const auto& parameter : derived_.parameters)
-        parameters_["parameter." + parameter.name] = shortest(parameter.value);
+        parameters_["parameter." + parameter.name] = parameter.value;
 }
 
-std::string SolutionFormulas::text_of(const std::string& name, const Place& place) const {
+std::string SolutionFormulas::text_of(const std::string& name, const Place& place,
+                                      bool is_in_file) const {
     if (name == "functions")
         return system_code(derived_, language_);
-    if (const auto found = functions_.find(name); found != functions_.end())
-        return inline_code(derived_, *found->second, language_);
+    if (const auto found = functions_.find(name); found != functions_.end()) {
+        const std::string code = inline_code(derived_, *found->second, language_);
+        return is_in_file ? in_lines(code, language_) : code;
+    }
     if (const auto found = parameters_.find(name); found != parameters_.end())
-        return found->second;
+        return is_in_file ? inline_number(found->second, language_) : shortest(found->second);
     std::vector<std::string> names = {"functions"};
     for (const auto& [known, function] : functions_)
         names.push_back(known);
@@ -94,7 +97,7 @@ Template SolutionFormulas::filled(const Template& original) {
             at = brace + (doubled ? 2 : 1);
             continue;
         }
-        result.text += text_of(name, place_in(original, brace));
+        result.text += text_of(name, place_in(original, brace), original.is_file);
         used_ = true;
         at = end + 1;
         result.pieces.push_back({result.text.size(), at});

@@ -16,10 +16,11 @@ namespace tvbeam {
 ///     {exact.u}       the exact value; {exact.u_x}, {exact.u_y}, {exact.u_z}: its gradient
 ///     {boundary.q}    a boundary value
 ///     {initial.u}     an initial value
-///     {parameter.k}   the number
+///     {parameter.k}   the number: in a file as the language writes an operand (inline_number), in
+///                     the command bare
 ///     {functions}     the functions of `tvbeam derive --code`
 ///
-/// All but the last are expressions in brackets, of the coordinates, in which parameters are
+/// All but the last two are expressions in brackets, of the coordinates, in which parameters are
 /// numbers (inline_code).
 class SolutionFormulas {
 public:
@@ -39,12 +40,13 @@ public:
     [[nodiscard]] bool used() const { return used_; }
 
 private:
-    [[nodiscard]] std::string text_of(const std::string& name, const Place& place) const;
+    [[nodiscard]] std::string text_of(const std::string& name, const Place& place,
+                                      bool is_in_file) const;
 
     DerivedSystem derived_;
     CodeLanguage language_;
     std::map<std::string, const DerivedFunction*> functions_; ///< by source.f, exact.u_x, …
-    std::map<std::string, std::string> parameters_;           ///< by parameter.k
+    std::map<std::string, double> parameters_;                ///< by parameter.k
     bool used_ = false;
 };
 

@@ -100,6 +100,16 @@ bool dips(const Sequence& orders, double level) {
                        [&](const Observed& seen) { return seen.order < level - steady; });
 }
 
+/// Whether the orders are two in turn, one after the other.
+bool go_to_and_fro(const Sequence& orders) {
+    constexpr std::ptrdiff_t fewest = 4; // fewer are a dip, or a hump
+    for (auto at = orders.first + 1; at != orders.end; ++at)
+        if (std::abs(at->order - (at - 1)->order) <= steady ||
+            (at - orders.first > 1 && std::abs(at->order - (at - 2)->order) > steady))
+            return false;
+    return orders.end - orders.first >= fewest;
+}
+
 /// The orders from the first that leaves on, in words: up or down, and how they end. Why is said
 /// only where the orders themselves show it; explained: a model says it already.
 std::string departure(const Measure& norm, std::span<const Refinement> roots,
@@ -121,9 +131,14 @@ std::string departure(const Measure& norm, std::span<const Refinement> roots,
             at(*std::min_element(orders.leaves, greatest,
                                  [](const auto& a, const auto& b) { return a.order < b.order; })) +
             ", and rises, to " + at(extreme);
-    if (last.rung != extreme.rung)
+    const bool alternate = go_to_and_fro(orders);
+    if (alternate)
+        text = "; then it goes to and fro, between " +
+               order_text(power * std::min(before, least->order)) + " and " +
+               order_text(power * std::max(before, greatest->order));
+    else if (last.rung != extreme.rung)
         text += "; " + at(last);
-    if (!rises && last.order <= 0.0)
+    if (!alternate && !rises && last.order <= 0.0)
         return text + ": the error no longer shrinks.";
     if (explained)
         return text + ".";
@@ -133,7 +148,7 @@ std::string departure(const Measure& norm, std::span<const Refinement> roots,
         return text + ": the error hardly shrinks any more.";
     const double last_step = std::abs(last.order - (orders.end - 2)->order);
     const bool settles = orders.end - orders.leaves >= 2 && last.order > 0.0 && last_step <= steady;
-    if (dips(orders, settles ? last.order : before))
+    if (!alternate && dips(orders, settles ? last.order : before))
         return text + ", as where two terms of the error cancel.";
     const double step_before = orders.end - orders.first < 3
                                    ? 0.0

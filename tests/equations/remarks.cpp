@@ -85,6 +85,17 @@ BOOST_AUTO_TEST_CASE(a_kink_is_said_once_and_the_pole_of_its_derivative_too) {
     BOOST_TEST(with_slope[1].starts_with("my.toml:4:6: f has no value: "), with_slope[1]);
 }
 
+BOOST_AUTO_TEST_CASE(a_kink_in_another_place_than_the_solution_s_is_said_of_the_source) {
+    const auto said =
+        remarks_of("x^2.5*(1-x)*cos(t)", "diff(u,t) - diff(u,x,2) + sqrt(sqrt((x-0.5)^2))*u");
+    BOOST_REQUIRE(said.size() == 2U);
+    BOOST_TEST(said[0].find("u is not smooth: the argument x of a root is 0 at t = 0, x = 0") !=
+                   std::string::npos,
+               said[0]);
+    BOOST_TEST(said[1].find("f is not smooth: ") != std::string::npos, said[1]);
+    BOOST_TEST(said[1].find("x = 0.5") != std::string::npos, said[1]);
+}
+
 BOOST_AUTO_TEST_CASE(a_pole_of_a_source_alone_is_said_of_it) {
     const std::string said = remark_of("exp(x)*(2 + t)", "diff(u, t) - u/(x - 1/2)");
     BOOST_TEST(said.starts_with("my.toml:4:6: f has no value: the divisor 2*x - 1 is 0 at "), said);

@@ -69,6 +69,28 @@ BOOST_AUTO_TEST_CASE(names_in_braces_are_filled_in_and_other_braces_stay) {
         BOOST_TEST(filled(text) == wanted, text);
 }
 
+BOOST_AUTO_TEST_CASE(files_get_what_their_language_reads_and_the_command_bare_text) {
+    const TemporaryDirectory directory;
+    directory.write("s.toml", "[unknowns]\nu = \"sin(pi*x)*sin(pi*y)*exp(k*t)\"\n[parameters]\n"
+                              "k = -3\n[equations]\nf = \"diff(u, t) - k*laplace(u) + u^2\"\n");
+    directory.write("code.in", "{parameter.k}|{source.f}");
+    const auto texts = [&](const std::string& language) {
+        const Scene scene = read_scene(directory.write(
+            "scene.toml", "[solver]\ncommand = [\"true\", \"{parameter.k}|{source.f}\"]\n"
+                          "files = [\"code.in\"]\nerrors = { L2 = 'L2 = (\\S+)' }\nsolution = "
+                          "\"./s.toml\"\nlanguage = \"" +
+                              language + "\"\n[ladder]\nelements = [2, 4]\nnorms = [\"L2\"]\n"));
+        return std::pair(scene.solver->command[1].text, scene.solver->files[0].contents->text);
+    };
+    const auto [c_word, c_file] = texts("c");
+    BOOST_TEST(c_word.starts_with("-3|("), c_word);
+    BOOST_TEST(c_file == "(-3.0)" + c_word.substr(2));
+    const auto [fortran_word, fortran_file] = texts("fortran");
+    BOOST_TEST(fortran_word.starts_with("-3|("), fortran_word);
+    BOOST_TEST(fortran_word.find('\n') == std::string::npos, fortran_word);
+    BOOST_TEST(fortran_file.starts_with("(-3.0_dp)|&\n"), fortran_file);
+}
+
 BOOST_AUTO_TEST_CASE(what_cannot_be_filled_in_is_told_at_its_place) {
     BOOST_TEST(
         refusal({"{element}", {"scene.toml", 3, 5}})
@@ -291,6 +313,8 @@ BOOST_AUTO_TEST_CASE(a_file_has_the_number_by_its_name) {
     BOOST_TEST(*in_file("e.csv", "step,L2\n1,7\n2,0.5\n\n").value == 0.5);
     BOOST_TEST(*in_file("e.csv", "step;\"L2\"\n2; 0.5 \n").value == 0.5);
     BOOST_TEST(*in_file("e.csv", "step  L2\n2\t0.5").value == 0.5);
+    BOOST_TEST(*in_file("e.csv", "\xEF\xBB\xBFL2,step\n0.5,2\n").value == 0.5);
+    BOOST_TEST(*in_file("e.json", "\xEF\xBB\xBF{\"L2\": 0.5}").value == 0.5);
     BOOST_TEST(*in_file("e.csv", "# of a run\nstep,L2\n% half\n2,0.5\n# the end\n").value == 0.5);
     BOOST_TEST(*in_file("e.csv", "# of a run\n# step L2\n1 7\n2 0.5\n").value == 0.5);
     for (const auto& [name, text, words] : std::vector<std::array<std::string, 3>>{
@@ -597,9 +621,15 @@ BOOST_AUTO_TEST_CASE(a_run_is_known_by_what_its_figures_depend_on) {
 
 BOOST_AUTO_TEST_CASE(a_run_is_known_by_the_files_that_its_words_name_within_them) {
     const TemporaryDirectory directory;
-    const std::string config = directory.write("config.txt", "3\n");
-    for (const std::string& word : {config, "--config=" + config, "-f" + config, "@" + config,
-                                    "cat '" + config + "'; true", "a," + config + ":b"}) {
+    std::vector<std::pair<std::string, std::string>> words; // and the file in each
+    for (const std::string name : {"config.txt", "a b/c (1), d.txt"}) {
+        fs::create_directories((directory.path() / name).parent_path());
+        const std::string config = directory.write(name, "3\n");
+        for (const std::string& word : {config, "--config=" + config, "-f" + config, "@" + config,
+                                        "cat '" + config + "'; true", "a," + config + ":b"})
+            words.emplace_back(name, word);
+    }
+    for (const auto& [name, word] : words) {
         const std::string file = directory.write(
             "scene.toml", "[solver]\ncommand = [\"sh\", \"-c\", \"" + word +
                               "\", \"{elements}\"]\nerrors = { L2 = 'L2 = (\\S+)' }\n"
@@ -608,11 +638,38 @@ BOOST_AUTO_TEST_CASE(a_run_is_known_by_the_files_that_its_words_name_within_them
             const Scene read = read_scene(file);
             return RunIdentities(*read.solver).of(read.series().front(), 1);
         };
-        directory.write("config.txt", "3\n");
+        directory.write(name, "3\n");
         const std::string before = identity();
         BOOST_TEST(identity() == before);
-        directory.write("config.txt", "6\n");
+        directory.write(name, "6\n");
         BOOST_TEST(identity() != before, word);
+    }
+}
+
+BOOST_AUTO_TEST_CASE(a_run_is_known_however_the_way_to_its_scene_is_written) {
+    const TemporaryDirectory directory;
+    const fs::path& folder = directory.path();
+    fs::create_directory(folder / "scenes");
+    fs::create_directory_symlink(folder / "scenes", folder / "linked");
+    const std::string program = directory.write("scenes/solve.sh", "#!/bin/sh\necho L2 = 1\n");
+    fs::permissions(program, fs::perms::owner_all);
+    const auto identity = [&](const fs::path& scene) {
+        const Scene read = read_scene(scene.string());
+        return RunIdentities(*read.solver).of(read.series().front(), 1);
+    };
+    for (const std::string files : {"[\"solve.sh\"]", "[]"}) {
+        const fs::path scene = directory.write(
+            "scenes/scene.toml",
+            "[solver]\ncommand = [\"./solve.sh\", \"{elements}\"]\nfiles = " + files +
+                "\nerrors = { L2 = 'L2 = (\\S+)' }\n[ladder]\nelements = "
+                "[2, 4]\nnorms = [\"L2\"]\n");
+        const std::string known = identity(scene);
+        BOOST_TEST(identity(fs::relative(scene)) == known, files);
+        BOOST_TEST(identity(folder / "scenes/../scenes/./scene.toml") == known, files);
+        BOOST_TEST(identity(folder / "linked/scene.toml") == known, files);
+        directory.write("scenes/solve.sh", "#!/bin/sh\necho L2 = 12\n");
+        BOOST_TEST(identity(scene) != known, files);
+        directory.write("scenes/solve.sh", "#!/bin/sh\necho L2 = 1\n");
     }
 }
 

@@ -81,6 +81,23 @@ BOOST_DATA_TEST_CASE(a_reason_is_the_one_that_the_orders_show, data::make(cases)
 }
 
 // Roots of order 2: their squares have the order 4.
+BOOST_AUTO_TEST_CASE(orders_that_alternate_go_to_and_fro) {
+    std::vector<Refinement> ladder;
+    double error = 1.0;
+    for (int i = 0; i < 9; ++i) {
+        ladder.push_back({.h = 0.25 / (1 << i), .error = error});
+        error /= std::exp2(i % 2 == 0 ? 2.58 : 1.42);
+    }
+    const auto remarks = order_remarks(measure_of(*Norm::named("theta_L2L2")), ladder, nullptr);
+    BOOST_REQUIRE(remarks.size() == 1U);
+    BOOST_TEST(remarks[0] == "theta_L2L2: order 2.58 up to s = 8; then it goes to and fro, between "
+                             "1.42 and 2.58; it has not settled, and why is not known.");
+    // A dip is none.
+    ladder.resize(4);
+    BOOST_TEST(order_remarks(measure_of(*Norm::named("theta_L2L2")), ladder, nullptr)[0].find(
+                   "to and fro") == std::string::npos);
+}
+
 BOOST_AUTO_TEST_CASE(of_a_square_both_orders_are_named) {
     std::vector<Refinement> roots;
     for (const double h : {0.1, 0.05, 0.025})
