@@ -20,7 +20,8 @@ namespace tvbeam {
 /// - the two-term fit takes it into its model (the reference of fit_two_term), so that a, b, p, q
 ///   are those of the error itself. It takes the reference's error for a small copy of the coarse
 ///   one, as the part that is smooth in x is, and for one at right angles to what is measured, as
-///   the part that oscillates in every element; the orders hold what either says (order_engine.hpp);
+///   the part that oscillates in every element; the orders hold what either says
+///   (order_engine.hpp);
 /// - predictions and verdicts of a ladder do the same;
 /// - observed orders of pairs do not. Near the reference they come out too high, and a remark of
 ///   the ladder says so;
