@@ -263,7 +263,11 @@ std::string in_lines(const std::string& inline_code, CodeLanguage language) {
 }
 
 std::string inline_number(double value, CodeLanguage language) {
-    const std::string text = literal_text(value, dialect_of(language).infix);
+    std::string text = literal_text(value, dialect_of(language).infix);
+    constexpr std::string_view as_real = ".0";
+    const bool is_python = language == CodeLanguage::python || language == CodeLanguage::ufl;
+    if (is_python && text.ends_with(as_real))
+        text.resize(text.size() - as_real.size()); // range(2.0) is none, and 1/2 a half
     return value < 0.0 && language != CodeLanguage::moose ? "(" + text + ")" : text;
 }
 

@@ -38,8 +38,8 @@ std::string inline_code(const DerivedSystem& derived, const DerivedFunction& fun
 /// long one goes on in lines of its own, in free form.
 std::string in_lines(const std::string& inline_code, CodeLanguage language);
 
-/// A number as an operand of that language: 2.0, (-2.0), in Fortran 2.0_dp. A file of MOOSE has
-/// values, where no brackets may be.
+/// A number as an operand of that language: 2.0, (-2.0), in Fortran 2.0_dp, in Python 2. A file of
+/// MOOSE has values, where no brackets may be.
 std::string inline_number(double value, CodeLanguage language);
 
 /// What a function is: "f = diff(u, t) - k*laplace(u) (heat.toml:9)".

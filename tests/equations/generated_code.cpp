@@ -495,7 +495,9 @@ BOOST_AUTO_TEST_CASE(a_long_expression_of_fortran_goes_on_in_lines_of_its_own) {
 
 BOOST_AUTO_TEST_CASE(a_number_for_templates_is_an_operand_of_its_language) {
     BOOST_TEST(inline_number(1.0, CodeLanguage::c) == "1.0");
-    BOOST_TEST(inline_number(-3.0, CodeLanguage::python) == "(-3.0)");
+    BOOST_TEST(inline_number(-3.0, CodeLanguage::python) == "(-3)");
+    BOOST_TEST(inline_number(3.0, CodeLanguage::python) == "3"); // as of range(3)
+    BOOST_TEST(inline_number(0.5, CodeLanguage::python) == "0.5");
     BOOST_TEST(inline_number(0.1, CodeLanguage::fortran) == "0.1_dp");
     BOOST_TEST(inline_number(-1e-300, CodeLanguage::fortran) == "(-1e-300_dp)");
     BOOST_TEST(inline_number(-3.0, CodeLanguage::moose) == "-3"); // as a value may be written
