@@ -27,7 +27,6 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <chrono>
 #include <sstream>
 
 using namespace tvbeam;
@@ -136,17 +135,6 @@ BOOST_AUTO_TEST_CASE(text_breaks_a_table_that_is_too_wide_and_repeats_its_key) {
     BOOST_TEST(has(narrow, "\n\n s   note\n10 failed\n20  a | b\n"), narrow);
     BOOST_TEST(parts_of(table(), 18).size() == 2u);
     BOOST_TEST(parts_of(table(), 80).size() == 1u);
-}
-
-BOOST_AUTO_TEST_CASE(the_time_of_a_table_grows_with_its_rows_and_not_their_square) {
-    constexpr std::size_t rows = 20'000;
-    Table table;
-    table.key.columns = {{"t", std::vector<std::string>(rows, "1.25e-3")}};
-    table.groups = {{"", {{"error", std::vector<std::string>(rows, "6.25e-2")}}}};
-    const auto begin = std::chrono::steady_clock::now();
-    BOOST_TEST(text_table(table).size() == (rows + 1) * std::string("1.25e-3 6.25e-2\n").size());
-    // Milliseconds; by the square it is seconds.
-    BOOST_TEST((std::chrono::steady_clock::now() - begin < std::chrono::seconds(1)));
 }
 
 BOOST_AUTO_TEST_CASE(latex_sets_points_and_powers_of_ten_below_each_other) {
