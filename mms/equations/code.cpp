@@ -253,13 +253,18 @@ std::string inline_code(const DerivedSystem& derived, const DerivedFunction& fun
            ")";
 }
 
-std::string in_lines(const std::string& inline_code, CodeLanguage language) {
-    if (language != CodeLanguage::fortran || !is_long(inline_code))
-        return inline_code;
-    // How much stands before it in its line is not known.
-    std::string lines = "&\n" + wrapped_code(std::string(8, ' ') + inline_code, 8, " &");
-    lines.pop_back(); // what follows in the template stands in the last line
-    return lines;
+bool is_code_of(CodeLanguage language, const std::string& file) {
+    static const std::map<CodeLanguage, std::vector<std::string>> endings{
+        {CodeLanguage::c, {".c", ".h"}},
+        {CodeLanguage::cpp, {".cpp", ".cc", ".cxx", ".C", ".hpp", ".hh", ".h"}},
+        {CodeLanguage::fortran, {".f90", ".F90", ".f95", ".f03", ".f08", ".f", ".F", ".for"}},
+        {CodeLanguage::python, {".py"}},
+        {CodeLanguage::julia, {".jl"}},
+        {CodeLanguage::freefem, {".edp", ".idp"}},
+        {CodeLanguage::ufl, {".py", ".ufl"}},
+        {CodeLanguage::moose, {}}}; // its input file has values
+    return std::ranges::any_of(endings.at(language),
+                               [&](const std::string& ending) { return file.ends_with(ending); });
 }
 
 std::string inline_number(double value, CodeLanguage language) {
@@ -268,7 +273,7 @@ std::string inline_number(double value, CodeLanguage language) {
     const bool is_python = language == CodeLanguage::python || language == CodeLanguage::ufl;
     if (is_python && text.ends_with(as_real))
         text.resize(text.size() - as_real.size()); // range(2.0) is none, and 1/2 a half
-    return value < 0.0 && language != CodeLanguage::moose ? "(" + text + ")" : text;
+    return value < 0.0 ? "(" + text + ")" : text;
 }
 
 } // namespace tvbeam

@@ -34,12 +34,10 @@ std::string system_code(const DerivedSystem& derived, CodeLanguage language);
 std::string inline_code(const DerivedSystem& derived, const DerivedFunction& function,
                         CodeLanguage language);
 
-/// The expression for a file of that language: in Fortran, whose lines end at 132 characters, a
-/// long one goes on in lines of its own, in free form.
-std::string in_lines(const std::string& inline_code, CodeLanguage language);
+/// Whether a file is code of that language, by the ending of its name, as .f90.
+bool is_code_of(CodeLanguage language, const std::string& file);
 
-/// A number as an operand of that language: 2.0, (-2.0), in Fortran 2.0_dp, in Python 2. A file of
-/// MOOSE has values, where no brackets may be.
+/// A number as an operand in code of that language: 2.0, (-2.0), in Fortran 2.0_dp, in Python 2.
 std::string inline_number(double value, CodeLanguage language);
 
 /// What a function is: "f = diff(u, t) - k*laplace(u) (heat.toml:9)".

@@ -12,7 +12,6 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
-#include <climits>
 #include <cstdlib>
 #include <fstream>
 #include <memory>
@@ -406,11 +405,13 @@ std::set<std::string> files_named_in(const std::string& word) {
         const bool is_root = root == at || (root < at + 3 && (word[at] == '-' || word[at] == '@'));
         if (!is_root || root > end_from(at))
             continue;
-        for (std::size_t end = end_from(root);; end = end_from(end + 1)) {
+        constexpr int most_parts = 16; // a script's text would be a path from each to its end
+        std::size_t end = end_from(root);
+        for (int part = 0; part < most_parts; ++part, end = end_from(end + 1)) {
             std::error_code error;
             if (fs::is_regular_file(word.substr(root, end - root), error))
                 files.insert(word.substr(root, end - root));
-            if (end == word.size() || end - root > PATH_MAX)
+            if (end == word.size())
                 break;
         }
     }

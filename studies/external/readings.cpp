@@ -389,21 +389,34 @@ std::string rest_behind(const std::string& pattern, const std::string& number,
     static const std::regex rest(R"(^(\d|\.\d|\.?[eEdD][+-]?\d))");
     static const std::regex exponent_of_three(
         R"(^[+-]\d{3}(?![\d.ijIJ]))"); // Fortran's, as 0.12-100
-    static const std::regex begins_thousands(R"(^[-+]?\d{1,3}$)");
-    static const std::regex thousands(R"(^(,\d{3})+(\.\d+)?(?![\d,]))"); // as 1,234.5
     const bool ends_as_one =
         !number.empty() &&
         (std::isdigit(static_cast<unsigned char>(number.back())) != 0 || number.back() == '.');
     const bool goes_on =
         ends_as_one &&
         (std::regex_search(behind, rest) ||
-         (std::regex_match(number, begins_thousands) && std::regex_search(behind, thousands)) ||
          (number.find('.') != std::string::npos && std::regex_search(behind, exponent_of_three)));
     const NamedBeside named = goes_on ? named_beside_the_group(pattern) : NamedBeside();
     // What is counted off, as (.{11}), is meant so.
     if (!goes_on || named.counts_itself || takes_some(named.behind, behind, false))
         return {};
     return behind.substr(0, behind.find_first_of(" \t\r"));
+}
+
+/// What follows the group's number as thousands do, ",234.5" behind 1, outside of a list or
+/// brackets, and is not named by the pattern; or empty.
+std::string thousands_behind(const std::string& pattern, const std::string& number,
+                             const std::string& before, const std::string& behind) {
+    static const std::regex begins(R"(^[-+]?[1-9]\d{0,2}$)");
+    static const std::regex thousands(R"(^(,\d{3})+(\.\d+)?(?![\d,\])}]))");
+    std::smatch match;
+    const bool is_in_list =
+        !before.empty() && std::string_view(",;([{").find(before.back()) != std::string_view::npos;
+    if (is_in_list || !std::regex_match(number, begins) ||
+        !std::regex_search(behind, match, thousands) ||
+        takes_some(named_beside_the_group(pattern).behind, behind, false))
+        return {};
+    return match.str();
 }
 
 /// What stands before the group's number and belongs to it, digits, a point or a minus, and is not
@@ -413,16 +426,21 @@ std::string begin_before(const std::string& pattern, const std::string& number,
     static const std::regex one(R"(^[-+]?(\d+\.?\d*|\.\d+)([eEdD][-+]?\d+)?$)");
     if (!std::regex_match(number, one))
         return {};
+    // A hyphen or a dot behind a letter, or behind another, leads to a number.
+    const auto begins_behind = [&](std::size_t size) {
+        const char last = size == before.size() ? ' ' : before[before.size() - size - 1];
+        return std::isalnum(static_cast<unsigned char>(last)) == 0 &&
+               std::string_view("-._)]").find(last) == std::string_view::npos;
+    };
     constexpr std::string_view minus_sign = "\u2212";
-    std::string belongs = before.ends_with(minus_sign) ? std::string(minus_sign) : "";
+    std::string belongs;
+    if (before.ends_with(minus_sign) && begins_behind(minus_sign.size()))
+        belongs = minus_sign;
     for (std::size_t size = 1; size <= std::min(before.size(), longest_number); ++size) {
         const std::string front = before.substr(before.size() - size);
-        // A hyphen or a dot behind a letter, or behind another, leads to a number.
-        const char last = size == before.size() ? ' ' : before[before.size() - size - 1];
-        const bool begins = std::isalnum(static_cast<unsigned char>(last)) == 0 &&
-                            std::string_view("-._)]").find(last) == std::string_view::npos;
-        const bool counts = front.find_first_of("0123456789") != std::string::npos ||
-                            (begins && (front == "-" || front == "." || front == "-."));
+        const bool counts =
+            front.find_first_of("0123456789") != std::string::npos ||
+            (begins_behind(size) && (front == "-" || front == "." || front == "-."));
         if (counts && std::regex_match(front + number, one))
             belongs = front;
     }
@@ -483,6 +501,7 @@ void OutputReading::take(const std::string& line) {
     const std::string rest = rest_behind(pattern_->text, *found_, behind);
     goes_on_ = rest.empty() ? rest : *found_ + rest;
     const std::string before(line.begin(), (*match)[1].first);
+    thousands_ = thousands_behind(pattern_->text, *found_, before, behind);
     const std::string begin = begin_before(pattern_->text, *found_, before);
     begins_before_ = begin.empty() ? begin : begin + *found_;
     was_cut_ = is_cut;
@@ -502,6 +521,11 @@ ReadFigure OutputReading::figure() const {
         return {{},
                 "of " + goes_on_ + ", " + pattern_->name + " would be " + *found_ + ": '" +
                     pattern_->text + "' ends within the number; (\\S+) takes it whole"};
+    if (!thousands_.empty())
+        return {{},
+                "'" + thousands_ + "' follows " + pattern_->name + " = " + *found_ +
+                    ": print it without separators, or, where another number begins there, put " +
+                    "the comma behind the group"};
     if (!begins_before_.empty())
         return {{},
                 "of " + begins_before_ + ", " + pattern_->name + " would be " + *found_ + ": '" +

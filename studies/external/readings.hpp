@@ -45,6 +45,7 @@ private:
     bool was_cut_ =
         false;            ///< the last line that matches, or a later one: OutputLines::longest_line
     std::string goes_on_; ///< the whole number, where the pattern takes only a part; or empty
+    std::string thousands_;     ///< what follows it so; or empty
     std::string begins_before_; ///< likewise, where it leaves its first part out
 };
 

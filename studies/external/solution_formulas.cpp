@@ -57,15 +57,13 @@ SolutionFormulas::SolutionFormulas(const std::filesystem::path& file, CodeLangua
 }
 
 std::string SolutionFormulas::text_of(const std::string& name, const Place& place,
-                                      bool is_in_file) const {
+                                      bool is_code) const {
     if (name == "functions")
         return system_code(derived_, language_);
-    if (const auto found = functions_.find(name); found != functions_.end()) {
-        const std::string code = inline_code(derived_, *found->second, language_);
-        return is_in_file ? in_lines(code, language_) : code;
-    }
+    if (const auto found = functions_.find(name); found != functions_.end())
+        return inline_code(derived_, *found->second, language_);
     if (const auto found = parameters_.find(name); found != parameters_.end())
-        return is_in_file ? inline_number(found->second, language_) : shortest(found->second);
+        return is_code ? inline_number(found->second, language_) : shortest(found->second);
     std::vector<std::string> names = {"functions"};
     for (const auto& [known, function] : functions_)
         names.push_back(known);
@@ -83,6 +81,12 @@ Template SolutionFormulas::filled(const Template& original) {
     result.text.clear();
     result.written = original.text;
     const std::string& text = original.text;
+    const std::string ending = ".in"; // of a template's name
+    const std::string& file = original.place.file;
+    const bool is_code =
+        original.is_file &&
+        is_code_of(language_,
+                   file.ends_with(ending) ? file.substr(0, file.size() - ending.size()) : file);
     for (std::size_t at = 0; at < text.size();) {
         const std::size_t brace = text.find('{', at);
         result.text.append(text, at, brace - at);
@@ -97,7 +101,7 @@ Template SolutionFormulas::filled(const Template& original) {
             at = brace + (doubled ? 2 : 1);
             continue;
         }
-        result.text += text_of(name, place_in(original, brace), original.is_file);
+        result.text += text_of(name, place_in(original, brace), is_code);
         used_ = true;
         at = end + 1;
         result.pieces.push_back({result.text.size(), at});

@@ -16,8 +16,8 @@ namespace tvbeam {
 ///     {exact.u}       the exact value; {exact.u_x}, {exact.u_y}, {exact.u_z}: its gradient
 ///     {boundary.q}    a boundary value
 ///     {initial.u}     an initial value
-///     {parameter.k}   the number: in a file as the language writes an operand (inline_number), in
-///                     the command bare
+///     {parameter.k}   the number: in code, by the file's name (is_code_of), as the language writes
+///                     an operand (inline_number), else bare
 ///     {functions}     the functions of `tvbeam derive --code`
 ///
 /// All but the last two are expressions in brackets, of the coordinates, in which parameters are
@@ -41,7 +41,7 @@ public:
 
 private:
     [[nodiscard]] std::string text_of(const std::string& name, const Place& place,
-                                      bool is_in_file) const;
+                                      bool is_code) const;
 
     DerivedSystem derived_;
     CodeLanguage language_;

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 
@@ -100,14 +101,16 @@ bool dips(const Sequence& orders, double level) {
                        [&](const Observed& seen) { return seen.order < level - steady; });
 }
 
-/// Whether the orders are two in turn, one after the other.
+/// Whether the orders are two in turn, one after the other, by which the error shrinks.
 bool go_to_and_fro(const Sequence& orders) {
     constexpr std::ptrdiff_t fewest = 4; // fewer are a dip, or a hump
-    for (auto at = orders.first + 1; at != orders.end; ++at)
-        if (std::abs(at->order - (at - 1)->order) <= steady ||
-            (at - orders.first > 1 && std::abs(at->order - (at - 2)->order) > steady))
+    if (orders.end - orders.first < fewest)
+        return false;
+    const std::array two{orders.first->order, (orders.first + 1)->order};
+    for (auto at = orders.first; at != orders.end; ++at)
+        if (std::abs(at->order - two.at(static_cast<std::size_t>(at - orders.first) % 2)) > steady)
             return false;
-    return orders.end - orders.first >= fewest;
+    return std::abs(two[0] - two[1]) > steady && two[0] + two[1] > steady;
 }
 
 /// The orders from the first that leaves on, in words: up or down, and how they end. Why is said

@@ -63,6 +63,40 @@ public:
         }
     }
 
+    [[nodiscard]] KnownOrderSizes sizes() const {
+        return sizes(Eigen::VectorXd::Ones(matrix_.rows()));
+    }
+
+    /// Those of a maximum over time.
+    [[nodiscard]] KnownOrderSizes sizes_of_maximum() const {
+        const KnownOrderSizes all = sizes();
+        if (!p_ || !q_)
+            return all;
+        if (!all.a || !all.b)
+            return {all.failure, {}, {}};
+        Eigen::ArrayXd ratio(matrix_.rows()); // of the term in Δt to that in h
+        for (Eigen::Index i = 0; i < ratio.size(); ++i) {
+            const Refinement& row = used_[static_cast<std::size_t>(i)];
+            ratio(i) = all.b->value * std::pow(row.dt, *q_) / (all.a->value * std::pow(row.h, *p_));
+        }
+        const auto widened = [&](const FittedSize& size,
+                                 std::optional<FittedSize> KnownOrderSizes::*which,
+                                 const Eigen::ArrayXd& other) -> std::optional<FittedSize> {
+            const auto its = sizes((1.0 + other.pow(8.0)).inverse().matrix()).*which;
+            const double least = other.minCoeff();
+            if (!its || !(least < 1.0))
+                return std::nullopt;
+            return FittedSize{size.value, size.uncertainty + std::abs(its->value - size.value) +
+                                              0.5 * least * least * size.value};
+        };
+        return {"", widened(*all.a, &KnownOrderSizes::a, ratio),
+                widened(*all.b, &KnownOrderSizes::b, ratio.inverse())};
+    }
+
+    [[nodiscard]] std::size_t rows() const { return used_.size(); }
+    [[nodiscard]] std::size_t columns() const { return columns_.size(); }
+
+private:
     [[nodiscard]] KnownOrderSizes sizes(const Eigen::VectorXd& weights) const {
         const Eigen::MatrixXd weighted = weights.asDiagonal() * matrix_;
         const Eigen::VectorXd norms = weighted.colwise().norm();
@@ -86,43 +120,6 @@ public:
         return result;
     }
 
-    [[nodiscard]] KnownOrderSizes sizes() const {
-        return sizes(Eigen::VectorXd::Ones(matrix_.rows()));
-    }
-
-    /// Those of a maximum over time.
-    [[nodiscard]] KnownOrderSizes sizes_of_maximum() const {
-        KnownOrderSizes result = sizes();
-        if (!p_ || !q_)
-            return result;
-        if (!result.a || !result.b)
-            return {result.failure, {}, {}};
-        Eigen::VectorXd ratio(matrix_.rows()); // of the term in Δt to that in h
-        for (Eigen::Index i = 0; i < ratio.size(); ++i) {
-            const Refinement& row = used_[static_cast<std::size_t>(i)];
-            ratio(i) =
-                result.b->value * std::pow(row.dt, *q_) / (result.a->value * std::pow(row.h, *p_));
-        }
-        const auto widened = [&](const FittedSize& size,
-                                 std::optional<FittedSize> KnownOrderSizes::*which,
-                                 const Eigen::VectorXd& other) -> std::optional<FittedSize> {
-            const KnownOrderSizes of_its_rows =
-                sizes((1.0 + other.array().pow(8.0)).inverse().matrix());
-            const auto& its = of_its_rows.*which;
-            if (!its)
-                return std::nullopt;
-            const double least = other.minCoeff();
-            return FittedSize{size.value, size.uncertainty + std::abs(its->value - size.value) +
-                                              least * least * size.value};
-        };
-        return {"", widened(*result.a, &KnownOrderSizes::a, ratio),
-                widened(*result.b, &KnownOrderSizes::b, ratio.cwiseInverse())};
-    }
-
-    [[nodiscard]] std::size_t rows() const { return used_.size(); }
-    [[nodiscard]] std::size_t columns() const { return columns_.size(); }
-
-private:
     std::optional<double> p_, q_;
     std::vector<std::pair<double, double>> columns_;
     std::vector<Refinement> used_;

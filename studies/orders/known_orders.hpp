@@ -31,9 +31,9 @@ struct KnownOrderSizes {
 ///
 /// Where e is a maximum over time ρ is not the same in all rows: one term is largest at one time,
 /// the other at another, and which of them counts changes with their ratio r. The size of a term is
-/// then known as far as the rows in which it is the larger one agree: its half-width is greater by
-/// the distance of the fit with weights 1/(1 + r⁸), r the other term over it, and by r² of the row
-/// that shows it best, for e = A + ρ_A B + O(B²/A).
+/// then known as far as the rows in which it is the larger one agree, if there are any: its
+/// half-width is greater by the distance of the fit with weights 1/(1 + r⁸), r the other term over
+/// it, and by r²/2 of itself in the row that shows it best, as e = A + ρB + (1 − ρ²)B²/2A + ….
 KnownOrderSizes fit_known_orders(std::span<const Refinement> records, std::optional<double> p,
                                  std::optional<double> q, bool is_maximum = false);
 

@@ -213,28 +213,36 @@ std::optional<OrderEnsemble::Mixture> OrderEnsemble::mix(const Functional& numbe
     for (const auto& other : in_squares_)
         if (const auto one = other->mix(number))
             all.push_back(*one);
-    double least = infinity;
+    return together(std::move(all));
+}
+
+/// Of what takes off a reference's error in one way or another. On three levels models agree by
+/// chance, and say nothing of which is right.
+std::optional<OrderEnsemble::Mixture> OrderEnsemble::together(std::vector<Mixture> all) const {
+    const bool may_choose = !has_width_of_few_levels();
     const auto unit_of = [&](const Mixture& one) {
-        return one.half - tuning_.narrowest + least_scatter;
+        return may_choose ? one.half - tuning_.narrowest + least_scatter : 1.0;
     };
+    double least = infinity;
     for (const auto& one : all)
         least = std::min(least, unit_of(one));
+    std::erase_if(all, [&](const Mixture& one) {
+        return !(unit_of(one) <= tuning_.drifts_from_reference * least);
+    });
     double weights = 0;
     double mean = 0;
-    double square = 0;
-    std::erase_if(all, [&](const Mixture& one) {
-        return unit_of(one) > tuning_.drifts_from_reference * least;
-    });
-    const auto weight_of = [&](const Mixture& one) { return 1 / (unit_of(one) * unit_of(one)); };
     for (const auto& one : all) {
-        weights += weight_of(one);
-        mean += weight_of(one) * one.value;
+        const double weight = 1 / (unit_of(one) * unit_of(one));
+        weights += weight;
+        mean += weight * one.value;
     }
     if (!(weights > 0))
         return std::nullopt;
     mean /= weights;
+    double square = 0;
     for (const auto& one : all)
-        square += weight_of(one) * ((one.value - mean) * (one.value - mean) + one.half * one.half);
+        square += ((one.value - mean) * (one.value - mean) + one.half * one.half) /
+                  (unit_of(one) * unit_of(one));
     return Mixture{mean, std::sqrt(square / weights)};
 }
 

@@ -20,7 +20,8 @@
 /// extrapolation gives (the models with next terms, where they are steadier than those without).
 /// Against a reference its own error is taken off, and whether that is smooth or oscillates in
 /// every element is not known (TermRows::in_squares): all of this is done for either, and the
-/// numbers are put together with weights 1/half², without those that drift far more. Where all of
+/// numbers are put together with weights 1/half², without those that drift far more; of three
+/// levels with equal ones. Where all of
 /// that is wide the order is not determined, nor where it still moves (order_motion.hpp), is steep
 /// and seen at two levels alone, or stands beside a constant that its few levels do not tell from
 /// it; the status says why. Where scatter, or a width of three levels, leaves open whether there is
@@ -119,6 +120,7 @@ private:
     int place_of(Eigen::Index width, double log_width) const;
     std::optional<Mixture> mix(const Functional& number) const;
     std::optional<Mixture> mix_of_members(const Functional& number) const;
+    std::optional<Mixture> together(std::vector<Mixture> all) const;
     bool is_settled(Eigen::Index width, const OrderInterval& order) const;
     /// Of a positive number, given its logarithms.
     OrderInterval mix_logarithms(const Functional& logarithm) const;

@@ -96,6 +96,17 @@ BOOST_AUTO_TEST_CASE(orders_that_alternate_go_to_and_fro) {
     ladder.resize(4);
     BOOST_TEST(order_remarks(measure_of(*Norm::named("theta_L2L2")), ladder, nullptr)[0].find(
                    "to and fro") == std::string::npos);
+    // Nor is an error that grows, or orders that rise from pair to pair.
+    const auto remark = [](const std::vector<double>& orders) {
+        std::vector<Refinement> rows{{.h = 0.25, .error = 1.0}};
+        for (const double order : orders)
+            rows.push_back(
+                {.h = rows.back().h / 2, .error = rows.back().error * std::exp2(-order)});
+        return order_remarks(measure_of(*Norm::named("theta_L2L2")), rows, nullptr).front();
+    };
+    BOOST_TEST(remark({1, -2, 1, -2, 1, -2}).find("no longer shrinks") != std::string::npos);
+    BOOST_TEST(remark({1, 0.8, 1.05, 0.85, 1.1, 0.9, 1.15, 0.95, 1.2, 1}).find("to and fro") ==
+               std::string::npos);
 }
 
 BOOST_AUTO_TEST_CASE(of_a_square_both_orders_are_named) {
