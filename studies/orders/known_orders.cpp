@@ -69,9 +69,9 @@ public:
 
     /// Those of a maximum over time.
     [[nodiscard]] KnownOrderSizes sizes_of_maximum() const {
-        const KnownOrderSizes all = sizes();
         if (!p_ || !q_)
-            return all;
+            return sizes();
+        const KnownOrderSizes all = sizes();
         if (!all.a || !all.b)
             return {all.failure, {}, {}};
         Eigen::ArrayXd ratio(matrix_.rows()); // of the term in Δt to that in h
