@@ -349,7 +349,9 @@ AdmissibleSolution::AdmissibleSolution(const Solution& solution, const Beam& bea
     : solution_(solution), beam_(beam), final_time_(require_final_time(final_time)),
       derived_(std::make_unique<DerivedSolution>(derive_on(solution, beam))),
       plain_(std::make_unique<PlainSolution>(solution, *derived_, beam, final_time)),
-      remarks_(AdmissibilityCheck(solution, *derived_, *plain_, beam_, final_time).run()) {}
+      remarks_(located(place(), "the solution", [&] {
+          return AdmissibilityCheck(solution, *derived_, *plain_, beam_, final_time).run();
+      })) {}
 
 AdmissibleSolution::~AdmissibleSolution() = default;
 
