@@ -2,8 +2,12 @@
 
 #include "core/space/deflection.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <stdexcept>
 #include <utility>
 
 namespace tvbeam {
@@ -68,7 +72,12 @@ Eigen::VectorXd ProbeReader::read(const Solver& solver, double t) const {
     };
     const auto energy = [&] {
         const Eigen::VectorXd theta = solver.temperature().segment(1, mesh_.elements() - 1);
-        return (theta.dot(mass_ * theta) + inner_product(mesh_, w, w)) / 2.0;
+        const double value = (theta.dot(mass_ * theta) + inner_product(mesh_, w, w)) / 2.0;
+        if (!std::isfinite(value))
+            throw std::domain_error(fmt::format("the energy is beyond the range of floating point "
+                                                "at t = {:g}: squares of the state are",
+                                                t));
+        return value;
     };
     Eigen::VectorXd values(static_cast<Eigen::Index>(probes_.size()));
     for (Eigen::Index k = 0; k < values.size(); ++k) {

@@ -115,8 +115,8 @@ RunResult march(const RunRequest& request, const ProblemData& data, const Mesh& 
         bad != result.errors.end())
         return failure(
             fmt::format("{} is not finite at the end of the run: formulas of the solution, or of "
-                        "its derivatives, have no value, or one whose square is too large, at a "
-                        "point of this mesh",
+                        "its derivatives, have no value at a point of this mesh, or the square of "
+                        "an error is too large",
                         request.norms[static_cast<std::size_t>(bad - result.errors.begin())].name),
             result.counters);
     return result;

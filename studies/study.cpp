@@ -148,6 +148,25 @@ std::string remark_on(const SeparationResult& separation) {
                      separation.reason + ".";
 }
 
+/// (25) forms the curvature as a small difference of terms as large as α θ̃, and a tip pressed on a
+/// stop carries what it lacks on.
+std::string remark_on_coupling(const Beam& beam) {
+    const double rounding = beam.alpha * std::numeric_limits<double>::epsilon();
+    constexpr double unseen = 1e-9;
+    if (!(rounding > unseen))
+        return {};
+    constexpr double all = 0.1;
+    const std::string follows = "what follows from it: the deflection, the contact stress and the "
+                                "energy.";
+    return rounding > all ? fmt::format("alpha = {:g} multiplies the rounding of the temperature to "
+                                        "all of its size: nothing is known of u_xx, and of {}",
+                                        beam.alpha, follows)
+                          : fmt::format("alpha = {:g} multiplies the rounding of the temperature: "
+                                        "up to about {:.1g} of its greatest value may be rounding "
+                                        "in u_xx, and in {}",
+                                        beam.alpha, rounding, follows);
+}
+
 /// Published figures stay those of the file's problem, meshes and steps.
 std::string remark_on_published(const Scene& scene) {
     const auto* ladder = scene.get<LadderBlock>();
@@ -213,6 +232,8 @@ StudyResult on_beam(const Scene& scene, const ProblemData& data, const Defects& 
         result.remarks = phase_remarks(scene, data);
         if (const std::string remark = remark_on(result.separation); !remark.empty())
             result.remarks.push_back(remark);
+        if (std::string remark = remark_on_coupling(scene.beam); !remark.empty())
+            result.remarks.push_back(std::move(remark));
         if (data.exact && data.exact->tip_is_sampled)
             result.remarks.emplace_back(
                 "That the exact solution's tip stays between the stops was seen at sampled times, "

@@ -1,9 +1,29 @@
 #include "core/certify/energy_law.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 
 namespace tvbeam {
+
+namespace {
+
+/// Also where its square is beyond the range of doubles.
+template <typename Values>
+double norm_of(const Mesh& mesh, const Values& values) {
+    constexpr double least = std::numeric_limits<double>::min();
+    constexpr double with_digits = least / std::numeric_limits<double>::epsilon();
+    const double square = certify::product(mesh, values, values);
+    if (square >= with_digits && std::isfinite(square))
+        return std::sqrt(square);
+    const double largest = values.abs().maxCoeff();
+    if (!(largest >= least))
+        return 0.0;
+    return largest * std::sqrt(certify::product(mesh, values / largest, values / largest));
+}
+
+} // namespace
 
 EnergyLaw::EnergyLaw(const Beam& beam, const Mesh& mesh, ThermalMass mass, double underflow)
     : beam_(beam), mesh_(mesh), mass_(mass), underflow_(underflow) {}
@@ -31,12 +51,13 @@ void EnergyLaw::add(const SolveRecord& record) {
     const double fluxes = dt * (((before.tail(s) - before.head(s)).array() / mesh_.lengths).abs() *
                                 (theta.head(s).array().abs() + theta.tail(s).array().abs()))
                                    .sum();
-    const double rate_change = certify::product(mesh_, c * change, change); // ‖ẇ‖²/c
-    const double viscosity = beam_.zeta * c_dt * rate_change;
+    const double moved = norm_of(mesh_, change); // ‖w − w*‖
+    const double viscosity = beam_.zeta * moved * c_dt * (c * moved);
     const double heating = dt * record.heat_load.dot(theta);
     const double load = c_dt * certify::product(mesh_, record.moment, change);
     const double theta_A = beam_.alpha * beam_.theta_A / record.unit;
     const double tip = c_dt * certify::tip_moment(mesh_, change);
+    spent_ += conduction + viscosity;
     balances_.push_back(conduction + viscosity - heating + load + (theta_A - record.stress) * tip);
 
     // |ẇ| ≤ c (|w| + |w*|) term by term.
@@ -45,7 +66,7 @@ void EnergyLaw::add(const SolveRecord& record) {
     const double forces = beam_.alpha * record.now.temperature_size +
                           record.moment.abs().maxCoeff() + std::abs(theta_A) +
                           std::abs(record.stress) +
-                          beam_.zeta * std::sqrt(c) * std::sqrt(rate_change);
+                          beam_.zeta * (c * moved);
     sizes_.push_back(conduction + fluxes + viscosity +
                      (c_dt + 4.0 * dt / mesh_.lengths.square().minCoeff()) *
                          record.now.temperature_size * underflow_ +
@@ -76,6 +97,11 @@ EnergyLaw::Dissipation EnergyLaw::dissipation(const SolveRecorder& recorder,
     return all;
 }
 
+double EnergyLaw::missed_part() const {
+    const double scale = greatest_ + spent_;
+    return scale > std::numeric_limits<double>::min() ? missed_ / scale : 0.0;
+}
+
 double EnergyLaw::end_step(const SolveRecorder& recorder, const SolveRecord& last) {
     const RecordedState& now = last.now;
     const RecordedState& before = recorder.before();
@@ -88,6 +114,7 @@ double EnergyLaw::end_step(const SolveRecorder& recorder, const SolveRecord& las
     } else if (!step.two_step) {
         energy_ = 0.5 * square(now);
         const double energy_before = 0.5 * square(before);
+        greatest_ = std::max({greatest_, energy_, energy_before});
         change = energy_ - energy_before;
         size = energy_ + energy_before;
         const Dissipation dissipated = dissipation(recorder, step);
@@ -109,6 +136,7 @@ double EnergyLaw::end_step(const SolveRecorder& recorder, const SolveRecord& las
         };
         energy_ = 0.25 * (square(now) + combined(2.0, -1.0, 0.0));
         const double energy_before = 0.25 * (square(before) + combined(0.0, 2.0, -1.0));
+        greatest_ = std::max({greatest_, energy_, energy_before});
         const double dissipated = 0.25 * combined(1.0, -2.0, 1.0);
         change = energy_ - energy_before + dissipated + balances_.front();
         size = energy_ + energy_before + dissipated + sizes_.front();
@@ -117,6 +145,10 @@ double EnergyLaw::end_step(const SolveRecorder& recorder, const SolveRecord& las
     sizes_.clear();
     // Below this squares have no digits of their own: what has decayed so far is nothing.
     size += std::numeric_limits<double>::min();
+    if (!std::isfinite(size) && std::isfinite(change))
+        throw std::domain_error("the terms of the energy law are beyond the range of floating "
+                                "point, and nothing can be certified");
+    missed_ += std::abs(change);
     return std::abs(change) / size;
 }
 

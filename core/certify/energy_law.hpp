@@ -33,8 +33,14 @@ public:
     /// What the identity leaves over a step, relative to the sum of the sizes of its terms. KΘ
     /// counts with the fluxes of KΘ*, from which a solve forms the increment; those in ẇ count with
     /// the terms that w is the sum of, the exchange α(Θ, ẇ) between the two equations, which
-    /// cancels, included. Call before SolveRecorder::end_step.
+    /// cancels, included. Call before SolveRecorder::end_step. Throws std::domain_error where these
+    /// sizes are beyond the range of doubles.
     double end_step(const SolveRecorder& recorder, const SolveRecord& last);
+
+    /// The sum of what the identity left over all steps, over the greatest energy and all that was
+    /// conducted away and lost to viscosity. Where α Θ is far larger than the w that it leaves, it
+    /// is not small though each step keeps the law to round-off of its terms.
+    [[nodiscard]] double missed_part() const;
 
     /// E of the last step; unit: the square of the record's.
     [[nodiscard]] double energy() const { return energy_; }
@@ -56,6 +62,9 @@ private:
     std::vector<double> balances_; // Δt (D − W) of each
     std::vector<double> sizes_;
     double energy_ = 0.0;
+    double greatest_ = 0.0; ///< energy
+    double spent_ = 0.0;    ///< Σ Δt D
+    double missed_ = 0.0;   ///< Σ of what the identity leaves
 };
 
 } // namespace tvbeam

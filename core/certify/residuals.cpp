@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 
 namespace tvbeam {
 
@@ -11,6 +12,9 @@ constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
 /// residual/(ε·size), where 0/0 is none.
 double in_round_off(double residual, double size) {
+    if (!std::isfinite(size) && !std::isinf(residual))
+        throw std::domain_error("the terms of the discrete equations are beyond the range of "
+                                "floating point, and nothing can be certified");
     return residual == 0.0 ? 0.0 : residual / (epsilon * size);
 }
 

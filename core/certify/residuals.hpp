@@ -7,7 +7,8 @@ namespace tvbeam {
 /// The largest residuals of the two discrete equations of a solve (SolveRecord), in units of
 /// round-off: of ε times the sum of the largest sizes of the terms; infinite where Θ is not zero at
 /// both ends. w counts with the terms that it
-/// is the sum of (RecordedState::curvature_size).
+/// is the sum of (RecordedState::curvature_size). Throws std::domain_error where these sizes are
+/// beyond the range of doubles.
 struct Residuals {
     double heat = 0.0; ///< over the inner nodes
     double beam = 0.0; ///< over both ends of every element

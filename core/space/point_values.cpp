@@ -93,13 +93,17 @@ PointValues piecewise_linear(const Mesh& mesh, const Eigen::VectorXd& nodal) {
     return between(mesh, ends);
 }
 
-PointValues without_projection(const Mesh& mesh, const PointValues& g) {
+DiscontinuousLinear project(const Mesh& mesh, const PointValues& g) {
     // The element mass matrix h/6 [2 1; 1 2] has the inverse 2/h [2 −1; −1 2].
     const Eigen::Array2Xd moments = end_moments(mesh, g);
-    Eigen::Array2Xd ends(2, mesh.elements());
+    DiscontinuousLinear ends(2, mesh.elements());
     ends.row(0) = 2.0 * (2.0 * moments.row(0) - moments.row(1)) / mesh.lengths.transpose();
     ends.row(1) = 2.0 * (2.0 * moments.row(1) - moments.row(0)) / mesh.lengths.transpose();
-    return g - between(mesh, ends);
+    return ends;
+}
+
+PointValues without_projection(const Mesh& mesh, const PointValues& g) {
+    return g - between(mesh, project(mesh, g));
 }
 
 PointValues point_weights(const Mesh& mesh) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/space/linear_elements.hpp"
 #include "core/space/mesh.hpp"
 
 #include <Eigen/Core>
@@ -27,7 +28,10 @@ Eigen::VectorXd hat_loads(const Mesh& mesh, const PointValues& g);
 /// The continuous piecewise linear function with these values at the nodes.
 PointValues piecewise_linear(const Mesh& mesh, const Eigen::VectorXd& nodal);
 
-/// g less its L² projection on P1disc.
+/// The L² projection of g on P1disc.
+DiscontinuousLinear project(const Mesh& mesh, const PointValues& g);
+
+/// g less that.
 PointValues without_projection(const Mesh& mesh, const PointValues& g);
 
 /// The weights of the integral over [0, 1].

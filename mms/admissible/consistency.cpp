@@ -1,6 +1,8 @@
 #include "mms/admissible/consistency.hpp"
 
 #include "core/space/mesh.hpp"
+#include "core/space/point_values.hpp"
+#include "core/space/quadrature.hpp"
 #include "core/time/time_scheme.hpp"
 #include "mms/expression/algebra.hpp"
 #include "mms/expression/piecewise_tape.hpp"
@@ -68,41 +70,47 @@ void finish(std::vector<Residual>& residuals, const std::vector<Sizes>& sizes) {
     }
 }
 
+/// What the residuals of one mesh are made with.
+struct MeshForms {
+    Mesh mesh;
+    Eigen::ArrayXd points; ///< element_points, one after the other
+    Tridiagonal mass, stiffness;
+    VectorXd weights; ///< of the lumped mass matrix
+
+    MeshForms(std::int64_t elements, ThermalMass kind)
+        : mesh(Mesh::uniform(elements)), points(element_points(mesh, 0, elements).reshaped()),
+          mass(thermal_mass_matrix(mesh, kind)), stiffness(stiffness_matrix(mesh)),
+          weights(thermal_mass_matrix(mesh, ThermalMass::lumped).diagonal) {}
+};
+
 /// The two residuals in space at one time; late: of the phase that begins there.
-Residual space_residual(const PiecewiseTape& tape, const Beam& beam, const Mesh& mesh,
-                        ThermalMass mass, double t, bool late) {
-    // All of them are integrated with the same points.
-    ArrayXd points;
-    Eigen::ArrayXXd values;
-    const auto row = [&](Row which) -> SpaceFunction {
-        return [&, which](const ArrayXd& x) -> ArrayXd {
-            if (points.size() != x.size() || (points != x).any()) {
-                points = x;
-                values = tape.at(x, t, late);
-            }
-            return values.row(which);
-        };
-    };
+Residual space_residual(const PiecewiseTape& tape, const Beam& beam, const MeshForms& forms,
+                        double t, bool late) {
+    const Mesh& mesh = forms.mesh;
     const Index s = mesh.elements();
+    const Eigen::ArrayXXd values = tape.at(forms.points, t, late);
+    const auto projected = [&](const auto& row) {
+        return project(mesh, PointValues(row.reshaped(element_rule_size, s)));
+    };
     const Eigen::ArrayXXd nodal = tape.at(mesh.nodes, t, late);
     const VectorXd homogeneous =
         (nodal.row(theta).transpose() - beam.theta_A * (1.0 - mesh.nodes)).matrix();
     const VectorXd rate = nodal.row(theta_t).transpose().matrix();
-    const DiscontinuousLinear curvature_rate = project(mesh, row(u_xxt));
-    const VectorXd loads = hat_loads(mesh, row(f)) + beam.alpha * hat_loads(mesh, curvature_rate);
-    const VectorXd residual = thermal_mass_matrix(mesh, mass) * VectorXd(rate.segment(1, s - 1)) +
-                              stiffness_matrix(mesh) * VectorXd(homogeneous.segment(1, s - 1)) -
+    const DiscontinuousLinear curvature_rate = projected(values.row(u_xxt));
+    const PointValues source = values.row(f).reshaped(element_rule_size, s);
+    const VectorXd loads = hat_loads(mesh, source) + beam.alpha * hat_loads(mesh, curvature_rate);
+    const VectorXd residual = forms.mass * VectorXd(rate.segment(1, s - 1)) +
+                              forms.stiffness * VectorXd(homogeneous.segment(1, s - 1)) -
                               loads.segment(1, s - 1);
-    const VectorXd weights = thermal_mass_matrix(mesh, ThermalMass::lumped).diagonal;
 
     DiscontinuousLinear balance =
-        project(mesh, row(u_xx)) + beam.zeta * curvature_rate + project(mesh, row(mu));
+        projected(values.row(u_xx) + values.row(mu)) + beam.zeta * curvature_rate;
     const ArrayXd at_nodes =
         beam.alpha * nodal.row(theta).transpose() - nodal(stress, 0) * (1.0 - mesh.nodes);
     balance.row(0) += at_nodes.head(s).transpose();
     balance.row(1) += at_nodes.tail(s).transpose();
     return {.count = s,
-            .heat = std::sqrt((residual.array().square() / weights.array()).sum()),
+            .heat = std::sqrt((residual.array().square() / forms.weights.array()).sum()),
             .beam = std::sqrt(inner_product(mesh, balance, balance)),
             .heat_order = std::nullopt,
             .beam_order = std::nullopt};
@@ -213,9 +221,9 @@ std::vector<Residual> space_residuals(const AdmissibleSolution& solution, Therma
         for (const double t : times)
             sizes = sizes.max(tape.at(grid, t, t == span.begin).abs().rowwise().maxCoeff());
         for (std::size_t i = 0; i < elements.size(); ++i) {
-            const Mesh mesh = Mesh::uniform(elements[i]);
+            const MeshForms forms(elements[i], mass);
             const Residual here = largest_residual(span, times, [&](double t) {
-                return space_residual(tape, beam, mesh, mass, t, t == span.begin);
+                return space_residual(tape, beam, forms, t, t == span.begin);
             });
             // K has entries of the size s, and the norm multiplies by s once more.
             const auto s = static_cast<double>(elements[i]);

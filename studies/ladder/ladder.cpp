@@ -164,8 +164,9 @@ LadderResult analyse_ladder(const LadderBlock& block, const Method& method,
             shown.remarks = order_remarks(
                 norm, roots, fit != nullptr ? &fit->model : nullptr,
                 solver.has_defect || !remark.empty() || is_coarsely_printed(result.rungs, k),
-                fit != nullptr ? std::pair(fit->p_uncertainty(), fit->q_uncertainty())
-                               : std::pair(0.0, 0.0));
+                fit != nullptr ? TermsKnown{fit->p_uncertainty(), fit->q_uncertainty(),
+                                            fit->a_uncertainty, fit->b_uncertainty}
+                               : TermsKnown{});
         if (result.analysis) {
             const ColumnAnalysis& column = result.analysis->columns[k];
             if (norm.is_value)

@@ -83,6 +83,8 @@ bool changes_proportions(std::span<const Refinement> roots) {
         const double in_dt = std::log(roots[i - 1].dt / roots[i].dt);
         if (!std::isfinite(in_h) || !std::isfinite(in_dt))
             return false; // one width alone
+        if (in_h == 0.0 && in_dt == 0.0)
+            continue; // a level once more
         const double proportion = in_h == 0.0 ? 1e9 : in_dt / in_h;
         if (!first)
             first = proportion;
@@ -107,8 +109,9 @@ bool go_to_and_fro(const Sequence& orders) {
     if (orders.end - orders.first < fewest)
         return false;
     const std::array two{orders.first->order, (orders.first + 1)->order};
+    const double alike = std::max(steady, 0.2 * std::abs(two[0] - two[1]));
     for (auto at = orders.first; at != orders.end; ++at)
-        if (std::abs(at->order - two.at(static_cast<std::size_t>(at - orders.first) % 2)) > steady)
+        if (std::abs(at->order - two.at(static_cast<std::size_t>(at - orders.first) % 2)) > alike)
             return false;
     return std::abs(two[0] - two[1]) > steady && two[0] + two[1] > steady;
 }
@@ -212,7 +215,7 @@ std::string from_what_stays(const Measure& norm, std::span<const Refinement> roo
 /// Why the orders are what they are: the faster term, of the higher order along the ladder, and the
 /// slower one, which remains in the end.
 std::string from_model(const Measure& norm, std::span<const Refinement> roots,
-                       const TwoTermModel& model, std::pair<double, double> halves) {
+                       const TwoTermModel& model, const TermsKnown& known) {
     const LadderForecast view = forecast(model, roots);
     if (model.a == 0.0 || model.b == 0.0)
         return {};
@@ -237,6 +240,9 @@ std::string from_model(const Measure& norm, std::span<const Refinement> roots,
     const std::string first = rung_name(roots, roots.front());
     const std::string last = rung_name(roots, roots.back());
     std::string text = norm.name + ": ";
+    const bool is_hidden = at_last < 0.5;
+    // The size of a term that is small on every level comes from what models leave of the other.
+    const bool has_size = !is_hidden || known.has_sizes();
     if (fast_order - slow_order < 0.1)
         return text + "space and time error fall alike along this ladder, with order" +
                (fast_order - slow_order < 0.03
@@ -245,10 +251,13 @@ std::string from_model(const Measure& norm, std::span<const Refinement> roots,
                ".";
     if (at_last < 1.0)
         text += fmt::format("the order {}{} is that of the {} error; the {} error, of order {} "
-                            "along this ladder, is {} times as large at {}{}",
+                            "along this ladder, is {} at {}{}",
                             order(fast_order), of_square(norm, fast_order), faster, slower,
-                            order(slow_order), times_text(at_last), last,
-                            at_last < 0.5 ? " and hidden." : ".");
+                            order(slow_order),
+                            has_size ? times_text(at_last) + " times as large" : "smaller", last,
+                            !is_hidden ? "."
+                            : has_size ? " and hidden."
+                                       : " and hidden; its size is not known.");
     else if (at_first < 1.0)
         text +=
             fmt::format("the {} error, of order {}{}, dominates the coarse levels; at {} the {} "
@@ -261,11 +270,14 @@ std::string from_model(const Measure& norm, std::span<const Refinement> roots,
                         "{} times as large as the {} error, of order {}, and {} times at {}.",
                         slower, order(slow_order), of_square(norm, slow_order), first,
                         times_text(at_first), faster, order(fast_order), times_text(at_last), last);
+    if (!has_size)
+        return text;
     // What lies past the ladder hangs on which order is the lower one.
     const double open =
-        view.spatial_order * halves.first / model.p + view.temporal_order * halves.second / model.q;
+        view.spatial_order * known.half_p / model.p + view.temporal_order * known.half_q / model.q;
     const bool are_told_apart = fast_order - slow_order > open;
-    if (view.cancellation && (view.cancellation->row < roots.size() || are_told_apart))
+    if (view.cancellation && known.are_opposed(model.rho) &&
+        (view.cancellation->row < roots.size() || are_told_apart))
         text += " The two have opposite signs and cancel in part about " +
                 rung_name(roots, {.h = 1 / to_two_digits(1 / view.cancellation->h),
                                   .dt = to_two_digits(view.cancellation->dt)}) +
@@ -297,7 +309,7 @@ std::string lone_zero(const Measure& norm, std::span<const Refinement> roots) {
 
 std::vector<std::string> order_remarks(const Measure& norm, std::span<const Refinement> roots,
                                        const TwoTermModel* model, bool is_explained,
-                                       std::pair<double, double> halves) {
+                                       const TermsKnown& terms) {
     const auto orders = observed_orders(roots);
     std::vector<Observed> known;
     for (std::size_t i = 0; i < orders.size(); ++i)
@@ -306,7 +318,7 @@ std::vector<std::string> order_remarks(const Measure& norm, std::span<const Refi
     const std::string zero = lone_zero(norm, roots);
     if (known.size() < 2)
         return zero.empty() ? std::vector<std::string>{} : std::vector{zero};
-    const std::string why = model != nullptr ? from_model(norm, roots, *model, halves) : "";
+    const std::string why = model != nullptr ? from_model(norm, roots, *model, terms) : "";
     // Orders of steps that are uneven are as uneven, and no news beside a model.
     const bool explained =
         is_explained || !why.empty() || (model != nullptr && !refines_evenly(roots));

@@ -6,21 +6,33 @@
 
 #include <span>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace tvbeam {
+
+/// How well a fit of the two-term model knows its terms.
+struct TermsKnown {
+    double half_p = 0, half_q = 0; ///< halves of the 95 % intervals of its orders
+    double part_a = 0, part_b = 0; ///< TwoTermFit::a_uncertainty and b_uncertainty
+
+    [[nodiscard]] bool has_sizes() const {
+        constexpr double widest = 0.5;
+        return part_a <= widest && part_b <= widest;
+    }
+    /// Terms at right angles have been fitted with correlations of −0.4.
+    [[nodiscard]] static bool are_opposed(double rho) { return rho <= -0.5; }
+};
 
 /// What the orders of one norm along a ladder mean, in sentences. With a two-term model: which term
 /// dominates, where the terms cancel, and which order the ladder shows in the end. Without: the
 /// range that the pairwise orders keep, and where they leave it by more than 0.15. Nothing for
 /// fewer than two orders. Also that a level between others has no error at all. roots: the records
 /// of the norm itself, also where the table shows its square; orders in the text are the table's.
-/// halves: of the 95 % intervals of the model's p and q; of orders that these do not tell apart
-/// nothing is said past the ladder. is_explained: no reason is guessed, as one is said elsewhere,
+/// terms: of orders that their intervals do not tell apart nothing is said past the ladder, and of
+/// the size of a hidden term nothing that is not known. is_explained: no reason is guessed, as one is said elsewhere,
 /// or the scheme is known to be wrong.
 std::vector<std::string> order_remarks(const Measure& norm, std::span<const Refinement> roots,
                                        const TwoTermModel* model, bool is_explained = false,
-                                       std::pair<double, double> halves = {});
+                                       const TermsKnown& terms = {});
 
 } // namespace tvbeam

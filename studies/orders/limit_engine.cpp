@@ -338,6 +338,33 @@ OrderInterval order_of_differences(const Rows& given, double from_models) {
     return order;
 }
 
+/// How many of the finest values are one, to the digits that they have, though the steps before show
+/// no such order: a solver that is exact from there on, or one that refines no more, or a maximum
+/// over nodes that stays at one of them. From a step to the next the order may double, as of what
+/// converges exponentially. 0 where the values move, or where they may have converged.
+std::size_t standing_still(const Rows& levels, double rounding) {
+    const auto resolution = [&](const ValueRow& row) {
+        constexpr double deviations = 3;
+        const double scatter = is_positive(row.sigma) ? deviations * row.sigma : 0.0;
+        return std::max({rounding, row.unit, scatter});
+    };
+    const auto& finest = levels.back();
+    std::size_t first = levels.size() - 1; // of those that are one
+    while (first > 0 && std::abs(levels[first - 1].value - finest.value) <= resolution(finest))
+        --first;
+    const std::size_t count = levels.size() - first;
+    if (count < 2 || first == 0)
+        return 0;
+    const double last = std::abs(levels[first].value - levels[first - 1].value);
+    constexpr std::size_t fewest_steps = 3; // two shrink by chance
+    const double before = first < fewest_steps
+                              ? last
+                              : std::abs(levels[first - 1].value - levels[first - 2].value);
+    const double shrinks = before > last ? last / before : 1.0;
+    constexpr double of_steps = 8;
+    return last * shrinks * shrinks > of_steps * resolution(finest) ? count : 0;
+}
+
 Rows with_scatter(Rows levels, double scatter) {
     for (auto& level : levels)
         if (std::isnan(level.sigma))
@@ -409,6 +436,13 @@ LimitEstimate estimate_limit(std::span<const ValueRow> rows, const LimitTuning& 
         result.uncertainty = half;
         result.basis = std::to_string(levels.size()) + " levels that are the same";
         result.order.status = "the values stand still";
+        return result;
+    }
+    if (const std::size_t count = standing_still(given, rounding); count > 0) {
+        result.limit.status = result.order.status = fmt::format(
+            "the {} finest values are the same, and the step before was {:.2g}: they are exact, or "
+            "no longer refined",
+            count, std::abs(given[given.size() - count].value - given[given.size() - count - 1].value));
         return result;
     }
     result.gci = gci_of(given);

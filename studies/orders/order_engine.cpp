@@ -353,6 +353,44 @@ double OrderEnsemble::distance_to_slow_terms(Index width, double order) const {
     return farthest;
 }
 
+/// How far from an order the one is that the orders of consecutive levels go to, where their
+/// differences shrink more slowly than those of a next term half an order on: as those of h^1.8
+/// beside h^2 do, which no model has. The slope of the order over ln h is taken to fall as h^gap,
+/// the gap being what the last two slopes show, and no less than least_gap. Of orders that go one
+/// way alone: others scatter, or have turned.
+double OrderEnsemble::distance_to_close_terms(double order) const {
+    constexpr std::size_t fewest = 4; // levels: two differences of orders
+    if (rows_.widths() != 1 || rows_.scatter > 0 || rows_.log_reference.size() > 0 ||
+        rows_.size() != static_cast<Index>(levels_.front().size()) ||
+        levels_.front().size() < fewest)
+        return 0;
+    std::vector<std::pair<double, double>> rows; // ln h and ln e, coarse to fine
+    for (Index r = 0; r < rows_.size(); ++r)
+        rows.emplace_back(rows_.log_widths(r, 0), rows_.log_errors[r]);
+    std::ranges::sort(rows, std::greater<>());
+    std::vector<double> orders, places;
+    for (std::size_t r = 1; r < rows.size(); ++r) {
+        orders.push_back((rows[r - 1].second - rows[r].second) /
+                         (rows[r - 1].first - rows[r].first));
+        places.push_back((rows[r - 1].first + rows[r].first) / 2);
+    }
+    const std::size_t n = orders.size();
+    if (!std::ranges::is_sorted(orders) && !std::ranges::is_sorted(orders, std::greater<>()))
+        return 0;
+    const double last = (orders[n - 1] - orders[n - 2]) / (places[n - 2] - places[n - 1]);
+    const double before = (orders[n - 2] - orders[n - 3]) / (places[n - 3] - places[n - 2]);
+    const double step = (places[n - 3] - places[n - 1]) / 2;
+    // Slopes of the order over ln h fall as h^gap, from the middle of two steps to that of the next.
+    constexpr double half_an_order = 0.5;
+    constexpr double least_gap = 0.05;
+    const double gap = std::max(std::log(before / last) / step, least_gap);
+    if (!(gap < half_an_order))
+        return 0;
+    const double rest = last / gap * std::exp(-gap * (places[n - 2] - places[n - 1]) / 2);
+    constexpr double margin = 1.5; // the gap shows too large where the two terms are as large
+    return std::abs(orders[n - 1] + margin * rest - order);
+}
+
 /// By the leading terms; where against a reference their search went on to no order at all
 /// (order_members.cpp), by all models.
 double OrderEnsemble::greatest_share(Index width) const {
@@ -475,7 +513,8 @@ std::vector<OrderInterval> OrderEnsemble::orders() const {
         });
         if (mixture) {
             const double half =
-                std::max(mixture->half, distance_to_slow_terms(width, mixture->value));
+                std::max({mixture->half, distance_to_slow_terms(width, mixture->value),
+                          distance_to_close_terms(mixture->value)});
             order.value = mixture->value;
             order.low = mixture->value - half;
             order.high = mixture->value + half;

@@ -139,6 +139,7 @@ private:
     double grid_factor() const;
     bool has_width_of_few_levels() const;
     double distance_to_slow_terms(Eigen::Index width, double order) const;
+    double distance_to_close_terms(double order) const;
 
     OrderTuning tuning_;
     TermRows rows_;

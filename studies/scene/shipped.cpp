@@ -87,12 +87,15 @@ std::filesystem::path find_file(Shipped kind, const std::string& name,
             throw InputError(place, "'" + path.string() + "' is no regular file");
         return path;
     }
-    std::vector<std::string> names;
-    for (const auto& file : shipped_files(kind)) {
-        if (file.name == name)
-            return file.path;
-        names.push_back(file.name);
+    const auto shipped = directory(kind);
+    if (std::error_code error; !shipped.empty() && !name.empty()) {
+        auto path = shipped / (name + ".toml");
+        if (std::filesystem::exists(path, error))
+            return path;
     }
+    std::vector<std::string> names;
+    for (const auto& file : shipped_files(kind))
+        names.push_back(file.name);
     if (names.empty())
         throw InputError(place, "there is no shipped " + word + " '" + name +
                                     "': what tvbeam ships is not found; TVBEAM_DATA names the "

@@ -138,21 +138,21 @@ namespace {
 
 /// h² and Δt/160 with Δt = h.
 std::vector<std::string> remarks_by_model(const std::vector<double>& elements,
-                                          std::pair<double, double> halves = {}) {
+                                          TermsKnown terms = {}) {
     const TwoTermModel model{.a = 1.0, .p = 2.0, .b = 1.0 / 160.0, .q = 1.0, .rho = 0.0};
     std::vector<Refinement> ladder;
     ladder.reserve(elements.size());
     for (const double s : elements)
         ladder.push_back({.h = 1.0 / s, .dt = 1.0 / s, .error = model.error(1.0 / s, 1.0 / s)});
-    return order_remarks(measure_of(*Norm::named("theta_L2L2")), ladder, &model, false, halves);
+    return order_remarks(measure_of(*Norm::named("theta_L2L2")), ladder, &model, false, terms);
 }
 
 } // namespace
 
 // Orders 2 ± 0.4 and 1 ± 0.7: which of the two remains nobody knows.
 BOOST_AUTO_TEST_CASE(past_the_ladder_nothing_is_said_of_orders_that_are_not_told_apart) {
-    const auto says_what_remains = [](std::pair<double, double> halves) {
-        return remarks_by_model({10.0, 20.0, 40.0}, halves).at(1).find("The order that remains") !=
+    const auto says_what_remains = [](TermsKnown terms) {
+        return remarks_by_model({10.0, 20.0, 40.0}, terms).at(1).find("The order that remains") !=
                std::string::npos;
     };
     BOOST_TEST(says_what_remains({0.4, 0.5}));
