@@ -33,7 +33,8 @@ public:
     ProbeReader(const Beam& beam, Mesh mesh, ThermalMass mass, std::vector<Probe> probes);
 
     /// One value a probe, at the state of the solver at time t. The tip, u at x = 1, is the
-    /// solver's own, which contact is decided by.
+    /// solver's own, which contact is decided by. Throws std::domain_error where the energy is
+    /// beyond the range of doubles.
     [[nodiscard]] Eigen::VectorXd read(const Solver& solver, double t) const;
 
 private:

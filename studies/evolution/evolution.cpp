@@ -165,8 +165,8 @@ EvolutionResult run_evolution(const Scene& scene, const EvolutionBlock& block,
         }
         if (step++ % block.every != 0)
             return;
-        result.t.push_back(t);
         const Eigen::VectorXd values = reader.read(solver, t);
+        result.t.push_back(t);
         for (std::size_t k = 0; k < block.probes.size(); ++k) {
             result.probes[k].values.push_back(values(static_cast<Eigen::Index>(k)));
             if (data.exact && block.probes[k].probe.quantity != Probe::Quantity::energy)

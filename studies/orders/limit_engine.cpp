@@ -338,10 +338,10 @@ OrderInterval order_of_differences(const Rows& given, double from_models) {
     return order;
 }
 
-/// How many of the finest values are one, to the digits that they have, though the steps before show
-/// no such order: a solver that is exact from there on, or one that refines no more, or a maximum
-/// over nodes that stays at one of them. From a step to the next the order may double, as of what
-/// converges exponentially. 0 where the values move, or where they may have converged.
+/// How many of the finest values are one, to the digits that they have, though the steps before
+/// show no such order: a solver that is exact from there on, or one that refines no more, or a
+/// maximum over nodes that stays at one of them. From a step to the next the order may double, as
+/// of what converges exponentially. 0 where the values move, or where they may have converged.
 std::size_t standing_still(const Rows& levels, double rounding) {
     const auto resolution = [&](const ValueRow& row) {
         constexpr double deviations = 3;
@@ -357,9 +357,8 @@ std::size_t standing_still(const Rows& levels, double rounding) {
         return 0;
     const double last = std::abs(levels[first].value - levels[first - 1].value);
     constexpr std::size_t fewest_steps = 3; // two shrink by chance
-    const double before = first < fewest_steps
-                              ? last
-                              : std::abs(levels[first - 1].value - levels[first - 2].value);
+    const double before =
+        first < fewest_steps ? last : std::abs(levels[first - 1].value - levels[first - 2].value);
     const double shrinks = before > last ? last / before : 1.0;
     constexpr double of_steps = 8;
     return last * shrinks * shrinks > of_steps * resolution(finest) ? count : 0;
@@ -442,7 +441,8 @@ LimitEstimate estimate_limit(std::span<const ValueRow> rows, const LimitTuning& 
         result.limit.status = result.order.status = fmt::format(
             "the {} finest values are the same, and the step before was {:.2g}: they are exact, or "
             "no longer refined",
-            count, std::abs(given[given.size() - count].value - given[given.size() - count - 1].value));
+            count,
+            std::abs(given[given.size() - count].value - given[given.size() - count - 1].value));
         return result;
     }
     result.gci = gci_of(given);

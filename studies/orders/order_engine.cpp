@@ -380,7 +380,8 @@ double OrderEnsemble::distance_to_close_terms(double order) const {
     const double last = (orders[n - 1] - orders[n - 2]) / (places[n - 2] - places[n - 1]);
     const double before = (orders[n - 2] - orders[n - 3]) / (places[n - 3] - places[n - 2]);
     const double step = (places[n - 3] - places[n - 1]) / 2;
-    // Slopes of the order over ln h fall as h^gap, from the middle of two steps to that of the next.
+    // Slopes of the order over ln h fall as h^gap, from the middle of two steps to that of the
+    // next.
     constexpr double half_an_order = 0.5;
     constexpr double least_gap = 0.05;
     const double gap = std::max(std::log(before / last) / step, least_gap);

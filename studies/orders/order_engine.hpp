@@ -2,12 +2,12 @@
 ///
 /// No single model or choice of rows is trusted. Many models (term_model.hpp: the leading terms
 /// alone; with next terms x or x² in one width or in all; with √x, a logarithm or a constant in one
-/// width, and in the others none or √x, x or x²; for one width also a floor; and each width alone
-/// on the rows where the others are finest) are fitted to many windows of rows (without the
-/// coarsest levels of each width, one after another). One whose next terms are of two kinds counts
-/// where none of the others has smaller residuals; none has a logarithm in two widths. A fit is
-/// believed as far as it stays the same when its window changes by one level, and as its standard
-/// error allows:
+/// width, and in the others none or √x, x or x²; all of them saturated; for one width also a floor;
+/// and each width alone on the rows where the others are finest) are fitted to many windows of rows
+/// (without the coarsest levels of each width, one after another). One whose next terms are of two
+/// kinds counts where none of the others has smaller residuals; none has a logarithm in two widths.
+/// A fit is believed as far as it stays the same when its window changes by one level, and as its
+/// standard error allows:
 ///
 ///     u_m² = max(t_{dof} s_m / 1.96, σ_m)² + (greatest change to a neighbouring window)²,
 ///     p = Σ w_m p_m / Σ w_m,      half² = Σ w_m ((p_m − p)² + u_m²) / Σ w_m,
@@ -25,10 +25,11 @@
 /// that is wide the order is not determined, nor where it still moves (order_motion.hpp), is steep
 /// and seen at two levels alone, or stands beside a constant that its few levels do not tell from
 /// it; the status says why. Where scatter, or a width of three levels, leaves open whether there is
-/// a logarithm or a next term half an order on, the interval reaches its order. In a width of three
-/// levels models with next terms do not count whose term in another width stands still. There is
-/// none where no model of all rows follows them. A width that changes no error by more than
-/// OrderTuning::idle of it is left out where the rest determines all orders. Constants:
+/// a logarithm or a next term half an order on, the interval reaches its order; and that which the
+/// orders of a sequence's levels go to, where they slow down less than by half an order. In a width
+/// of three levels models with next terms do not count whose term in another width stands still.
+/// There is none where no model of all rows follows them. A width that changes no error by more
+/// than OrderTuning::idle of it is left out where the rest determines all orders. Constants:
 /// OrderTuning. Ideas of others: model averaging by stability and the spread over models as
 /// uncertainty (Rider et al. 2016; Eça and Hoekstra 2014), many models times many windows (StREEQ,
 /// Sandia).

@@ -28,7 +28,8 @@ int most_dropped(std::size_t levels) {
 }
 
 /// The leading terms; next terms in one width; next terms in all; next terms half an order on,
-/// logarithms and constants, in one width, the others without or with next terms.
+/// logarithms and constants, in one width, the others without or with next terms; all of them
+/// saturated.
 std::vector<TermShape> shapes_of(std::size_t widths) {
     const std::vector<double> plain(widths, TermShape::none);
     std::vector<TermShape> shapes{{plain}};
@@ -57,10 +58,14 @@ std::vector<TermShape> shapes_of(std::size_t widths) {
             next[i] = of_one;
             shapes.push_back({next});
         }
+    shapes.push_back({.next = plain, .saturates = true});
     return shapes;
 }
 
+/// Or terms that saturate: a shape that counts where none of the others is as close.
 bool has_next_terms_of_two_kinds(const TermShape& shape) {
+    if (shape.saturates)
+        return true;
     std::vector<double> kinds = shape.next;
     std::erase(kinds, TermShape::none);
     return std::ranges::adjacent_find(kinds, std::ranges::not_equal_to()) != kinds.end();
@@ -209,6 +214,8 @@ void fit_all_widths(const TermRows& rows, const AllLevels& levels,
             const bool of_two_kinds = has_next_terms_of_two_kinds(shapes[k]);
             if (window.size() <= shapes[k].parameters() + (of_two_kinds ? fewest_spare : 0))
                 continue;
+            if (shapes[k].saturates && rows.log_reference.size() > 0)
+                continue; // what a reference takes off a sum is not that of the sum
             auto fit = search.fit(shapes[k], plain ? &*plain : nullptr,
                                   closest[k] ? &*closest[k] : nullptr);
             if (!fit || !is_believable(*fit, window))

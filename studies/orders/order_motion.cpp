@@ -173,6 +173,7 @@ std::optional<double> OrderMotion::greatest_of_a_rise() const {
     const bool has_reference = rows_.log_reference.size() > 0;
     const bool is_modelled = std::ranges::any_of(members_, [&](const EnsembleMember& member) {
         if (member.along >= 0 || member.place[static_cast<std::size_t>(width_)] > 0 ||
+            member.fit.shape.saturates || // its orders slow down as they rise
             !has_usual_terms(member) ||
             !(member.fit.next_part(width_, rows_.log_widths(rows.front(), width_)) >
               tuning_.least_left - 1))

@@ -20,6 +20,8 @@ public:
             next_.push_back(power == TermShape::none ? -1 : size_++);
         if (shape.floor)
             floor_ = size_++;
+        if (shape.saturates)
+            saturation_ = size_++;
     }
     Eigen::Index widths() const { return widths_; }
     Eigen::Index pair(Eigen::Index i, Eigen::Index j) const {
@@ -29,6 +31,7 @@ public:
     Eigen::Index next(Eigen::Index i) const { return next_[static_cast<std::size_t>(i)]; }
     double power(Eigen::Index i) const { return shape_.next[static_cast<std::size_t>(i)]; }
     Eigen::Index floor() const { return floor_; }
+    Eigen::Index saturation() const { return saturation_; }
     Eigen::Index size() const { return size_; }
 
 private:
@@ -37,6 +40,7 @@ private:
     Eigen::Index size_;
     std::vector<Eigen::Index> next_;
     Eigen::Index floor_ = -1;
+    Eigen::Index saturation_ = -1;
 };
 
 /// T_i at one row, and its derivatives by p_i and c_i; that by ln a_i is T_i itself.

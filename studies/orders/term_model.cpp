@@ -94,12 +94,28 @@ public:
             if (layout_.floor() >= 0)
                 gradient[layout_.floor() * stride] = floor_ / square;
         }
-        return square > 0 ? std::log(square) / 2 : std::numeric_limits<double>::quiet_NaN();
+        if (!(square > 0))
+            return std::numeric_limits<double>::quiet_NaN();
+        return std::log(square) / 2 - log_saturation(std::sqrt(square), gradient, stride);
     }
 
     static constexpr Eigen::Index most_widths = 8;
 
 private:
+    /// ln (1 + s e); what the gradient holds is that of ln e, and becomes that of the whole.
+    double log_saturation(double error, double* gradient, Eigen::Index stride) const {
+        const Eigen::Index k = layout_.saturation();
+        if (k < 0)
+            return 0;
+        const double factor = 1 + theta_[k] * error;
+        if (gradient != nullptr) {
+            for (Eigen::Index i = 0; i < k; ++i)
+                gradient[i * stride] /= factor;
+            gradient[k * stride] = -error / factor;
+        }
+        return std::log(factor); // NaN where the model has no error
+    }
+
     static constexpr Eigen::Index most_pairs = most_widths * (most_widths - 1) / 2;
 
     const Layout& layout_;

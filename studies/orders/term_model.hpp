@@ -7,9 +7,10 @@
 ///     g_i(x_i)),
 ///
 /// where g_i is the next term of the series, x_i^{k_i}, or ln x_i where the term has a logarithm,
-/// or x_i^{-p_i} where it has a constant, and T_f is a floor, which no width removes. For d = 2
-/// this is the model of two_term_model.hpp. It is fitted on ln e; x_i is in units of the geometric
-/// mean of its values.
+/// or x_i^{-p_i} where it has a constant, and T_f is a floor, which no width removes. Or all
+/// of that saturates, e / (1 + s e): x − s x² + … of a sum x of leading terms has their products.
+/// For d = 2 this is the model of two_term_model.hpp. It is fitted on ln e; x_i is in units of the
+/// geometric mean of its values.
 #pragma once
 
 #include "studies/orders/least_squares.hpp"
@@ -52,6 +53,7 @@ struct TermShape {
     /// One a width: the power k > 0 of the next term, `logarithm`, `constant`, or `none`.
     std::vector<double> next;
     bool floor = false;
+    bool saturates = false; ///< e / (1 + s e)
 
     int parameters() const;
     bool operator==(const TermShape&) const = default;
@@ -65,7 +67,7 @@ struct FittedNumber {
 
 struct TermFit {
     TermShape shape;
-    Eigen::VectorXd theta; ///< (ln a_i, p_i)…, arcsin ρ_ij…, c_i…, ln T_f in these units
+    Eigen::VectorXd theta; ///< (ln a_i, p_i)…, arcsin ρ_ij…, c_i…, ln T_f, s in these units
     Eigen::MatrixXd covariance; ///< of theta; infinite on its diagonal where it is not determined
     Eigen::MatrixXd root;       ///< covariance = root rootᵀ; empty where it is not determined
     Eigen::VectorXd log_centre; ///< ln of the unit of each width

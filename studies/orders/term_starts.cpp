@@ -186,6 +186,8 @@ Eigen::VectorXd in_units(const Layout& layout, const TermFit& fit, const Eigen::
     Eigen::VectorXd theta = fit.theta;
     if (layout.floor() >= 0)
         theta[layout.floor()] += fit.log_unit - log_unit;
+    if (layout.saturation() >= 0)
+        theta[layout.saturation()] *= std::exp(log_unit - fit.log_unit);
     for (Eigen::Index i = 0; i < layout.widths(); ++i) {
         const double shift = centre[i] - fit.log_centre[i];
         theta[2 * i] += fit.log_unit - log_unit + theta[2 * i + 1] * shift;

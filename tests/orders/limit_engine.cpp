@@ -541,6 +541,35 @@ BOOST_AUTO_TEST_CASE(
     BOOST_TEST(found.uncertainty == found.limit.half_width(), boost::test_tools::tolerance(1e-9));
 }
 
+// 1 + h², of a solver that refines no further than h = 1/4; a maximum over nodes that stays at one
+// of them, as a place that moves in steps of h. What converges by powers, or doubles its digits,
+// comes to stand still by itself.
+BOOST_AUTO_TEST_CASE(values_that_stop_far_from_where_their_steps_go_have_no_limit) {
+    const auto limit_of = [](const std::vector<double>& values) {
+        std::vector<ValueRow> rows;
+        for (const double value : values)
+            rows.push_back({std::exp2(-static_cast<double>(rows.size())), value});
+        return estimate_limit(rows).limit;
+    };
+    for (const auto& values :
+         std::vector<std::vector<double>>{{2.0, 1.25, 1.0625, 1.0625, 1.0625},
+                                          {2.0, 1.25, 1.0625, 1.0625},
+                                          {0.75, 0.8125, 0.78125, 0.78125, 0.78125},
+                                          {1.5, 1.0, 1.0, 1.0}}) {
+        const auto limit = limit_of(values);
+        BOOST_TEST(!limit.determined);
+        BOOST_TEST(limit.status.find("finest values are the same") != std::string::npos,
+                   limit.status);
+    }
+    std::vector<double> by_powers, by_doubling;
+    for (int k = 0; k < 8; ++k) {
+        by_powers.push_back(1 + std::pow(10.0, -3 * k));
+        by_doubling.push_back(2 + std::exp(-3 * std::exp2(k)));
+    }
+    BOOST_TEST(holds(limit_of(by_powers), 1.0));
+    BOOST_TEST(holds(limit_of(by_doubling), 2.0));
+}
+
 BOOST_AUTO_TEST_CASE(two_widths_have_no_limit_and_the_status_says_so) {
     const auto limit =
         estimate_limit(std::vector<ValueRow>{{0.1, 1.0}, {0.1, 1.1}, {0.05, 1.2}, {0.025, NAN}});

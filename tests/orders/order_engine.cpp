@@ -119,6 +119,54 @@ BOOST_DATA_TEST_CASE(a_pure_power_is_known_to_the_narrowest_interval,
     BOOST_TEST(order.half_width() < 1.1 * OrderTuning{}.narrowest);
 }
 
+// h^p + r h², p from 1.6 to 1.9: both terms are of one size where h is finest, and the pairwise
+// orders hardly move on their way to p.
+BOOST_AUTO_TEST_CASE(an_order_beside_a_close_one_is_held_or_not_determined) {
+    std::mt19937 generator(20261129);
+    const auto uniform = uniform_from(generator);
+    for (const auto& [levels, ratio] : {std::pair{4, 2.0}, {5, 2.0}, {7, 2.0}, {6, 1.4}}) {
+        Count count;
+        for (int table = 0; table < 60; ++table) {
+            const double p = uniform(1.6, 1.9);
+            const double finest = std::pow(ratio, 1 - levels);
+            const double r = std::exp(uniform(-1.2, 1.2)) * std::pow(finest, p - 2);
+            std::vector<ErrorRow> rows;
+            for (int k = 0; k < levels; ++k) {
+                const double h = std::pow(ratio, -k);
+                rows.push_back({{h}, std::pow(h, p) + r * h * h});
+            }
+            count.add(estimate_orders(rows).front(), p);
+        }
+        BOOST_TEST(count.is_chance(),
+                   levels << " levels: " << count.missed << " of " << count.determined);
+    }
+}
+
+// First order in both widths, of an error that saturates: x/(1 + x) and 1 − exp(−x) of
+// x = c (h + b dt) have products of the widths, which no next term of one has.
+BOOST_AUTO_TEST_CASE(orders_of_errors_that_saturate_are_held_on_grids) {
+    std::mt19937 generator(20261130);
+    const auto uniform = uniform_from(generator);
+    using Law = double (*)(double);
+    for (const Law law :
+         {Law([](double x) { return x / (1 + x); }), Law([](double x) { return 1 - std::exp(-x); }),
+          Law([](double x) { return std::sqrt(1 + 2 * x) - 1; })}) {
+        Count count;
+        for (int table = 0; table < (short_tests ? 4 : 20); ++table) {
+            const double c = std::exp(uniform(-2, 0.5));
+            const double b = std::exp(uniform(-1, 1));
+            std::vector<ErrorRow> rows;
+            for (int i = 0; i < 5; ++i)
+                for (int j = 0; j < 5; ++j)
+                    rows.push_back({{std::exp2(-i), std::exp2(-j)},
+                                    law(c * (std::exp2(-i) + b * std::exp2(-j)))});
+            for (const auto& order : estimate_orders(rows))
+                count.add(order, 1);
+        }
+        BOOST_TEST(count.is_chance(), count.missed << " of " << count.determined);
+    }
+}
+
 // Pairwise orders 0.911, 0.957, 0.979, which halve their distance to one: extrapolation gives 1.
 BOOST_AUTO_TEST_CASE(a_sequence_that_still_moves_holds_what_extrapolation_gives) {
     const auto order =

@@ -578,6 +578,54 @@ probes     = ["theta@0.5"]
         BOOST_TEST(std::isfinite(value));
 }
 
+// A temperature of 1e199 has a square that no double holds.
+BOOST_AUTO_TEST_CASE(an_energy_beyond_the_range_of_floating_point_ends_the_run) {
+    const EvolutionResult result = evolution_of(R"toml(
+[beam]
+alpha = 0.5
+zeta  = 0.1
+[data]
+heat_source = "1e200*t"
+[evolution]
+final_time = 0.2
+elements   = 7
+dt         = 0.01
+probes     = ["energy", "theta@0.5"]
+)toml");
+    BOOST_TEST(int(result.run.status == RungStatus::failed));
+    BOOST_TEST(result.run.reason.find("the energy is beyond the range") != std::string::npos,
+               result.run.reason);
+    BOOST_TEST(result.t.size() == result.probes[0].values.size());
+    for (const double value : result.probes[0].values)
+        BOOST_TEST(std::isfinite(value));
+}
+
+// ε α: of α = 1e4 less than any digit that is printed, of 1e8 2e-8, of 1e16 2.
+BOOST_AUTO_TEST_CASE(what_a_strong_coupling_makes_of_rounding_is_said) {
+    const TemporaryDirectory directory;
+    const auto remarks_of = [&](const std::string& alpha) {
+        const Scene scene = read_scene(directory.write("scene.toml", "[beam]\nalpha = " + alpha +
+                                                                         R"toml(
+zeta  = 0.0
+[data]
+theta0 = "sin(pi*x)"
+[evolution]
+final_time = 0.02
+elements   = 4
+dt         = 0.01
+probes     = ["u@1"]
+)toml"));
+        std::string text;
+        for (const auto& remark : run_study(scene).remarks)
+            text += remark;
+        return text;
+    };
+    BOOST_TEST(remarks_of("1e4").find("rounding") == std::string::npos);
+    BOOST_TEST(remarks_of("1e8").find("up to about 2e-08 of its greatest value") !=
+               std::string::npos);
+    BOOST_TEST(remarks_of("1e16").find("nothing is known of u_xx") != std::string::npos);
+}
+
 BOOST_AUTO_TEST_CASE(expectations_hold_every_figure_from_both_sides) {
     const auto figures = evolution(read_scene("figure1")).figures();
     BOOST_TEST(figures.at("onsets") == 10.0);

@@ -105,6 +105,10 @@ BOOST_AUTO_TEST_CASE(orders_that_alternate_go_to_and_fro) {
         return order_remarks(measure_of(*Norm::named("theta_L2L2")), rows, nullptr).front();
     };
     BOOST_TEST(remark({1, -2, 1, -2, 1, -2}).find("no longer shrinks") != std::string::npos);
+    // Those of an error that hangs on where a time level is have a scatter of their own.
+    const auto wild = remark({2.31, -0.68, 2.49, -0.39, 2.58});
+    BOOST_TEST(wild.find("to and fro, between -0.68 and 2.58") != std::string::npos, wild);
+    BOOST_TEST(wild.find("cancel") == std::string::npos, wild);
     BOOST_TEST(remark({1, 0.8, 1.05, 0.85, 1.1, 0.9, 1.15, 0.95, 1.2, 1}).find("to and fro") ==
                std::string::npos);
 }
@@ -168,6 +172,24 @@ BOOST_AUTO_TEST_CASE(the_slower_error_is_told_as_a_part_of_the_faster) {
         "of order 1.00 along this ladder, is 0.25 times as large at s = 40 and "
         "hidden.";
     BOOST_TEST(remarks[1].starts_with(said), remarks[1]);
+}
+
+// A size that is open by its half is none, and where the terms meet neither.
+BOOST_AUTO_TEST_CASE(of_a_hidden_error_no_size_is_said_that_is_not_known) {
+    const auto remarks = remarks_by_model({10.0, 20.0, 40.0}, {.part_a = 0.1, .part_b = 0.9});
+    BOOST_REQUIRE(remarks.size() == 2U);
+    BOOST_TEST(remarks[1] == "theta_L2L2: the order 2.00 is that of the space error; the time "
+                             "error, of order 1.00 along this ladder, is smaller at s = 40 and "
+                             "hidden; its size is not known.");
+}
+
+// Δt = 0.8 h on every level, one of which stands there twice.
+BOOST_AUTO_TEST_CASE(a_repeated_level_changes_no_proportions) {
+    std::vector<Refinement> ladder;
+    for (const auto& [s, error] : {std::pair{8.0, 1.0}, {16.0, 0.3}, {16.0, 0.3}, {32.0, 0.12}})
+        ladder.push_back({.h = 1 / s, .dt = 0.8 / s, .error = error});
+    const auto remarks = order_remarks(measure_of(*Norm::named("theta_L2L2")), ladder, nullptr);
+    BOOST_TEST(remarks.at(0).find("proportions") == std::string::npos, remarks.at(0));
 }
 
 // Ratios of 2 and 3: the orders between the rows are no order of the ladder.

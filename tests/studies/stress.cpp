@@ -150,6 +150,32 @@ BOOST_AUTO_TEST_CASE(outcomes_have_their_reasons) {
     BOOST_TEST(name_of(judge(tiny).outcome) == "stopped");
     BOOST_TEST(judge(tiny).reason.find("underflow") != std::string::npos);
     BOOST_TEST(!judge(tiny).checks.has_value()); // which would count among the greatest
+
+    // λ₁Δt = 987: each step leaves a thousandth of the mode, and 130 less than any double.
+    StressParameters decayed = ordinary;
+    decayed.load = 0.0;
+    decayed.initial = InitialData::smooth;
+    decayed.dt = 100.0;
+    decayed.steps = 130;
+    BOOST_TEST(name_of(judge(decayed).outcome) == "stopped");
+    BOOST_TEST(judge(decayed).reason.find("underflow") != std::string::npos);
+
+    // εα = 2: the curvature is the rounding of the temperature.
+    StressParameters coupled = ordinary;
+    coupled.load = 0.0;
+    coupled.initial = InitialData::smooth;
+    coupled.zeta = 0.0;
+    coupled.alpha = 1e16;
+    BOOST_TEST(name_of(judge(coupled).outcome) == "stopped");
+    BOOST_TEST(judge(coupled).reason.find("round-off") != std::string::npos);
+
+    // So viscous a beam moves by 1e-198 a step, whose square is none.
+    StressParameters viscous = ordinary;
+    viscous.alpha = 0.0;
+    viscous.zeta = 1e200;
+    viscous.dt = 100.0;
+    viscous.elements = 1;
+    BOOST_TEST(name_of(judge(viscous).outcome) == "certified", judge(viscous).reason);
 }
 
 BOOST_AUTO_TEST_CASE(contraction_is_measured_as_it_is_predicted_for_the_running_scheme) {
