@@ -241,8 +241,10 @@ std::string from_model(const Measure& norm, std::span<const Refinement> roots,
     const std::string last = rung_name(roots, roots.back());
     std::string text = norm.name + ": ";
     const bool is_hidden = at_last < 0.5;
-    // The size of a term that is small on every level comes from what models leave of the other.
-    const bool has_size = !is_hidden || known.has_sizes();
+    // The size of a term that is small on every level comes from what models leave of the other: of
+    // 128 sentences of such 46 were untrue, of 42 with larger ones none.
+    constexpr double small = 0.1;
+    const bool has_size = at_last >= small || known.has_sizes();
     if (fast_order - slow_order < 0.1)
         return text + "space and time error fall alike along this ladder, with order" +
                (fast_order - slow_order < 0.03

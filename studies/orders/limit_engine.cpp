@@ -340,8 +340,8 @@ OrderInterval order_of_differences(const Rows& given, double from_models) {
 
 /// How many of the finest values are one, to the digits that they have, though the steps before
 /// show no such order: a solver that is exact from there on, or one that refines no more, or a
-/// maximum over nodes that stays at one of them. From a step to the next the order may double, as
-/// of what converges exponentially. 0 where the values move, or where they may have converged.
+/// maximum over nodes that stays at one of them. Two steps show an order, and of three it may
+/// double, as of what converges exponentially. 0 where the values move, or may have converged.
 std::size_t standing_still(const Rows& levels, double rounding) {
     const auto resolution = [&](const ValueRow& row) {
         constexpr double deviations = 3;
@@ -353,15 +353,16 @@ std::size_t standing_still(const Rows& levels, double rounding) {
     while (first > 0 && std::abs(levels[first - 1].value - finest.value) <= resolution(finest))
         --first;
     const std::size_t count = levels.size() - first;
-    if (count < 2 || first == 0)
+    constexpr std::size_t fewest = 3; // of two every window has a step
+    if (count < fewest || first == 0)
         return 0;
     const double last = std::abs(levels[first].value - levels[first - 1].value);
-    constexpr std::size_t fewest_steps = 3; // two shrink by chance
     const double before =
-        first < fewest_steps ? last : std::abs(levels[first - 1].value - levels[first - 2].value);
+        first < 2 ? last : std::abs(levels[first - 1].value - levels[first - 2].value);
     const double shrinks = before > last ? last / before : 1.0;
+    const double next = last * (first < 3 ? shrinks : shrinks * shrinks);
     constexpr double of_steps = 8;
-    return last * shrinks * shrinks > of_steps * resolution(finest) ? count : 0;
+    return next > of_steps * resolution(finest) ? count : 0;
 }
 
 Rows with_scatter(Rows levels, double scatter) {
@@ -443,6 +444,7 @@ LimitEstimate estimate_limit(std::span<const ValueRow> rows, const LimitTuning& 
             "no longer refined",
             count,
             std::abs(given[given.size() - count].value - given[given.size() - count - 1].value));
+        result.finest_step.reset();
         return result;
     }
     result.gci = gci_of(given);

@@ -362,7 +362,7 @@ double OrderEnsemble::distance_to_close_terms(double order) const {
     constexpr std::size_t fewest = 4; // levels: two differences of orders
     if (rows_.widths() != 1 || rows_.scatter > 0 || rows_.log_reference.size() > 0 ||
         rows_.size() != static_cast<Index>(levels_.front().size()) ||
-        levels_.front().size() < fewest)
+        levels_.front().size() < fewest || motion_of(0).is_explained())
         return 0;
     std::vector<std::pair<double, double>> rows; // ln h and ln e, coarse to fine
     for (Index r = 0; r < rows_.size(); ++r)

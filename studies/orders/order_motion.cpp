@@ -51,8 +51,6 @@ bool OrderMotion::may_be_a_step() const {
            std::abs(last.value - before.value) > deviations * std::sqrt(variance);
 }
 
-/// Of a sequence: whether one model's order stands still over its windows, all but one, while that
-/// of the leading term alone moves: then that model says what it moves to.
 bool OrderMotion::is_explained() const {
     constexpr double still = 0.05; // over how far the leading term's order moves
     std::map<int, std::vector<double>> orders;

@@ -28,6 +28,9 @@ public:
     [[nodiscard]] bool goes_on(double order) const {
         return runs_away() || leaps(order) || greatest_of_a_rise().has_value();
     }
+    /// Of a sequence: whether one model's order stands still over its windows, all but one, while
+    /// that of the leading term alone moves: then that model says what it moves to.
+    [[nodiscard]] bool is_explained() const;
     /// As "it rises over finer windows, to 1.68"; empty where it moves to and fro, or not at all.
     [[nodiscard]] std::string words() const;
     /// The orders of the coarsest window and of the finest, where it falls from each to the next.
@@ -36,7 +39,6 @@ public:
 private:
     [[nodiscard]] double step_over_windows() const;
     [[nodiscard]] bool may_be_a_step() const;
-    [[nodiscard]] bool is_explained() const;
     [[nodiscard]] bool runs_away() const;
     [[nodiscard]] bool leaps(double order) const;
     [[nodiscard]] std::vector<Eigen::Index> finest_rows() const;

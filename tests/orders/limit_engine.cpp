@@ -553,7 +553,6 @@ BOOST_AUTO_TEST_CASE(values_that_stop_far_from_where_their_steps_go_have_no_limi
     };
     for (const auto& values :
          std::vector<std::vector<double>>{{2.0, 1.25, 1.0625, 1.0625, 1.0625},
-                                          {2.0, 1.25, 1.0625, 1.0625},
                                           {0.75, 0.8125, 0.78125, 0.78125, 0.78125},
                                           {1.5, 1.0, 1.0, 1.0}}) {
         const auto limit = limit_of(values);
