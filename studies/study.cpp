@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <memory>
 #include <utility>
@@ -148,23 +149,24 @@ std::string remark_on(const SeparationResult& separation) {
                      separation.reason + ".";
 }
 
-/// (25) forms the curvature as a small difference of terms as large as α θ̃, and a tip pressed on a
-/// stop carries what it lacks on.
+/// (25) forms the curvature as a small difference of terms as large as α θ̃, and a tip between near
+/// stops as a smaller one.
 std::string remark_on_coupling(const Beam& beam) {
     const double rounding = beam.alpha * std::numeric_limits<double>::epsilon();
+    const auto distance = [](double stop) { return stop == 0.0 ? 1.0 : std::abs(stop); };
+    const double nearest = std::min({1.0, distance(beam.stops.lower), distance(beam.stops.upper)});
     constexpr double unseen = 1e-9;
-    if (!(rounding > unseen))
+    if (!(rounding * std::max(1.0, std::abs(beam.theta_A)) > unseen * nearest))
         return {};
     constexpr double all = 0.1;
-    const std::string follows = "what follows from it: the deflection, the contact stress and the "
-                                "energy.";
-    return rounding > all ? fmt::format("alpha = {:g} multiplies the rounding of the temperature to "
-                                        "all of its size: nothing is known of u_xx, and of {}",
-                                        beam.alpha, follows)
-                          : fmt::format("alpha = {:g} multiplies the rounding of the temperature: "
-                                        "up to about {:.1g} of its greatest value may be rounding "
-                                        "in u_xx, and in {}",
-                                        beam.alpha, rounding, follows);
+    const std::string follows = "u_xx, the deflection, the contact stress and the energy";
+    if (rounding > all)
+        return fmt::format("alpha = {:g} multiplies the rounding of the temperature to all of its "
+                           "size: nothing is known of {}.",
+                           beam.alpha, follows);
+    return fmt::format("alpha = {:g} multiplies the rounding of the temperature to about {:.1g} of "
+                       "its greatest value: where {} are not far larger, they are rounding.",
+                       beam.alpha, rounding, follows);
 }
 
 /// Published figures stay those of the file's problem, meshes and steps.

@@ -65,8 +65,7 @@ void EnergyLaw::add(const SolveRecord& record) {
         c_dt * (record.now.curvature_size + record.star.curvature_size + underflow_);
     const double forces = beam_.alpha * record.now.temperature_size +
                           record.moment.abs().maxCoeff() + std::abs(theta_A) +
-                          std::abs(record.stress) +
-                          beam_.zeta * (c * moved);
+                          std::abs(record.stress) + beam_.zeta * (c * moved);
     sizes_.push_back(conduction + fluxes + viscosity +
                      (c_dt + 4.0 * dt / mesh_.lengths.square().minCoeff()) *
                          record.now.temperature_size * underflow_ +
@@ -99,7 +98,7 @@ EnergyLaw::Dissipation EnergyLaw::dissipation(const SolveRecorder& recorder,
 
 double EnergyLaw::missed_part() const {
     const double scale = greatest_ + spent_;
-    return scale > std::numeric_limits<double>::min() ? missed_ / scale : 0.0;
+    return scale > std::numeric_limits<double>::min() ? std::abs(missed_) / scale : 0.0;
 }
 
 double EnergyLaw::end_step(const SolveRecorder& recorder, const SolveRecord& last) {
@@ -145,10 +144,10 @@ double EnergyLaw::end_step(const SolveRecorder& recorder, const SolveRecord& las
     sizes_.clear();
     // Below this squares have no digits of their own: what has decayed so far is nothing.
     size += std::numeric_limits<double>::min();
-    if (!std::isfinite(size) && std::isfinite(change))
+    if (std::isinf(size) && now.is_finite())
         throw std::domain_error("the terms of the energy law are beyond the range of floating "
                                 "point, and nothing can be certified");
-    missed_ += std::abs(change);
+    missed_ += change;
     return std::abs(change) / size;
 }
 

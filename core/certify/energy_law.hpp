@@ -37,7 +37,7 @@ public:
     /// sizes are beyond the range of doubles.
     double end_step(const SolveRecorder& recorder, const SolveRecord& last);
 
-    /// The sum of what the identity left over all steps, over the greatest energy and all that was
+    /// |Σ of what the identity left over all steps| over the greatest energy and all that was
     /// conducted away and lost to viscosity. Where α Θ is far larger than the w that it leaves, it
     /// is not small though each step keeps the law to round-off of its terms.
     [[nodiscard]] double missed_part() const;
@@ -64,7 +64,7 @@ private:
     double energy_ = 0.0;
     double greatest_ = 0.0; ///< energy
     double spent_ = 0.0;    ///< Σ Δt D
-    double missed_ = 0.0;   ///< Σ of what the identity leaves
+    double missed_ = 0.0;   ///< Σ of what the identity leaves, with its signs
 };
 
 } // namespace tvbeam

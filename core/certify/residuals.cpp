@@ -10,9 +10,9 @@ namespace {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
-/// residual/(ε·size), where 0/0 is none.
-double in_round_off(double residual, double size) {
-    if (!std::isfinite(size) && !std::isinf(residual))
+/// residual/(ε·size), where 0/0 is none; of a state that is no number neither is that.
+double in_round_off(double residual, double size, const RecordedState& now) {
+    if (std::isinf(size) && now.is_finite())
         throw std::domain_error("the terms of the discrete equations are beyond the range of "
                                 "floating point, and nothing can be certified");
     return residual == 0.0 ? 0.0 : residual / (epsilon * size);
@@ -50,7 +50,7 @@ double heat_residual(const Beam& beam, const Mesh& mesh, ThermalMass mass,
         c * h * temperature + 4.0 / mesh.lengths.minCoeff() * temperature +
         beam.alpha * c * h * (record.now.curvature_size + record.star.curvature_size + underflow) +
         record.heat_load.cwiseAbs().maxCoeff() + underflow;
-    return in_round_off(residual, size);
+    return in_round_off(residual, size, record.now);
 }
 
 double beam_residual(const Beam& beam, const Mesh& mesh, const SolveRecord& record,
@@ -71,7 +71,7 @@ double beam_residual(const Beam& beam, const Mesh& mesh, const SolveRecord& reco
     const double size = now + viscous * (now + record.star.curvature_size + underflow) +
                         beam.alpha * (record.now.temperature_size + std::abs(unit_theta_A)) +
                         record.moment.abs().maxCoeff() + std::abs(record.stress) + underflow;
-    return in_round_off(largest.maxCoeff<Eigen::PropagateNaN>(), size);
+    return in_round_off(largest.maxCoeff<Eigen::PropagateNaN>(), size, record.now);
 }
 
 } // namespace

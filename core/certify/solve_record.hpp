@@ -33,6 +33,8 @@ struct RecordedState {
     double temperature_size = 0.0;
     double terms_size = 0.0; ///< P = (1 − κ) P* + κF, F = α(|Θ| + |Θ*| + |θ_A|) + |Πμ| + |λ|
     double curvature_size = 0.0; ///< (1 − κ) curvature_size* + P* + κF: the round-off of w
+
+    [[nodiscard]] bool is_finite() const { return theta.allFinite() && w.allFinite(); }
 };
 
 /// One solve seen from outside: what the two discrete equations

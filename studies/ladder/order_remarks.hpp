@@ -29,8 +29,8 @@ struct TermsKnown {
 /// fewer than two orders. Also that a level between others has no error at all. roots: the records
 /// of the norm itself, also where the table shows its square; orders in the text are the table's.
 /// terms: of orders that their intervals do not tell apart nothing is said past the ladder, and of
-/// the size of a hidden term nothing that is not known. is_explained: no reason is guessed, as one is said elsewhere,
-/// or the scheme is known to be wrong.
+/// the size of a hidden term nothing that is not known. is_explained: no reason is guessed, as one
+/// is said elsewhere, or the scheme is known to be wrong.
 std::vector<std::string> order_remarks(const Measure& norm, std::span<const Refinement> roots,
                                        const TwoTermModel* model, bool is_explained = false,
                                        const TermsKnown& terms = {});

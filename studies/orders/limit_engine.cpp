@@ -340,29 +340,33 @@ OrderInterval order_of_differences(const Rows& given, double from_models) {
 
 /// How many of the finest values are one, to the digits that they have, though the steps before
 /// show no such order: a solver that is exact from there on, or one that refines no more, or a
-/// maximum over nodes that stays at one of them. Two steps show an order, and of three it may
-/// double, as of what converges exponentially. 0 where the values move, or may have converged.
+/// maximum over nodes that stays at one of them. After one step every order that a method has may
+/// have led there; of two steps the order goes on; and from three on it may grow as that of what
+/// converges exponentially, like exp(−c/h). 0 where the values move, or may have converged.
 std::size_t standing_still(const Rows& levels, double rounding) {
-    const auto resolution = [&](const ValueRow& row) {
-        constexpr double deviations = 3;
-        const double scatter = is_positive(row.sigma) ? deviations * row.sigma : 0.0;
-        return std::max({rounding, row.unit, scatter});
-    };
     const auto& finest = levels.back();
+    const auto is_same = [&](const ValueRow& row) {
+        return std::abs(row.value - finest.value) <= std::max(rounding, finest.unit / 2);
+    };
     std::size_t first = levels.size() - 1; // of those that are one
-    while (first > 0 && std::abs(levels[first - 1].value - finest.value) <= resolution(finest))
+    while (first > 0 && is_same(levels[first - 1]))
         --first;
     const std::size_t count = levels.size() - first;
     constexpr std::size_t fewest = 3; // of two every window has a step
     if (count < fewest || first == 0)
         return 0;
+    constexpr double deviations = 3;
+    const double scatter = is_positive(finest.sigma) ? deviations * finest.sigma : 0.0;
+    const double resolution = std::max({rounding, finest.unit, scatter});
     const double last = std::abs(levels[first].value - levels[first - 1].value);
-    const double before =
-        first < 2 ? last : std::abs(levels[first - 1].value - levels[first - 2].value);
+    const double ratio = levels[first - 1].h / levels[first].h;
+    if (first == 1)
+        return last > resolution * std::pow(ratio, greatest_order) ? count : 0;
+    const double before = std::abs(levels[first - 1].value - levels[first - 2].value);
     const double shrinks = before > last ? last / before : 1.0;
-    const double next = last * (first < 3 ? shrinks : shrinks * shrinks);
+    const double next = last * std::pow(shrinks, first < 3 ? 1.0 : std::max(2.0, ratio));
     constexpr double of_steps = 8;
-    return next > of_steps * resolution(finest) ? count : 0;
+    return next > of_steps * resolution ? count : 0;
 }
 
 Rows with_scatter(Rows levels, double scatter) {

@@ -364,6 +364,18 @@ double OrderEnsemble::distance_to_close_terms(double order) const {
         rows_.size() != static_cast<Index>(levels_.front().size()) ||
         levels_.front().size() < fewest || motion_of(0).is_explained())
         return 0;
+    // A next term an order or two on leaves a millionth of what the leading one leaves alone, a
+    // close one a sixth.
+    double leading = 0;
+    double with_next = infinity;
+    for (const auto& member : members_)
+        if (is_of_all_rows(member) && member.family == 0)
+            leading = member.fit.scale;
+        else if (is_of_all_rows(member) && member.fit.shape.next.front() >= 1)
+            with_next = std::min(with_next, member.fit.scale);
+    constexpr double all_but = 0.1;
+    if (with_next < all_but * leading)
+        return 0;
     std::vector<std::pair<double, double>> rows; // ln h and ln e, coarse to fine
     for (Index r = 0; r < rows_.size(); ++r)
         rows.emplace_back(rows_.log_widths(r, 0), rows_.log_errors[r]);

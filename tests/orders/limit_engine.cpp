@@ -560,6 +560,18 @@ BOOST_AUTO_TEST_CASE(values_that_stop_far_from_where_their_steps_go_have_no_limi
         BOOST_TEST(limit.status.find("finest values are the same") != std::string::npos,
                    limit.status);
     }
+    // Of few digits values come to stand still, too, and those that scatter are not the same.
+    const auto printed = [](const std::vector<double>& values, double unit, double sigma) {
+        std::vector<ValueRow> rows;
+        for (const double value : values)
+            rows.push_back({std::exp2(-static_cast<double>(rows.size())), value, sigma, unit});
+        return estimate_limit(rows).limit;
+    };
+    constexpr double none = std::numeric_limits<double>::quiet_NaN();
+    BOOST_TEST(holds(printed({2.520, 2.501, 2.500, 2.500}, 1e-3, none), 2.5));
+    BOOST_TEST(holds(printed({0.927, 0.907, 0.907, 0.907, 0.907}, 1e-3, none), 0.907));
+    BOOST_TEST(holds(
+        printed({-2.373, -1.9326, -1.9288, -1.9313, -1.9299, -1.9303, -1.9284}, 0, 0.0026), -1.93));
     std::vector<double> by_powers, by_doubling;
     for (int k = 0; k < 8; ++k) {
         by_powers.push_back(1 + std::pow(10.0, -3 * k));

@@ -142,6 +142,20 @@ BOOST_AUTO_TEST_CASE(an_order_beside_a_close_one_is_held_or_not_determined) {
     }
 }
 
+// h² + 20 h³ and h + 13 h² on four levels: the next term is larger than the leading one where h is
+// coarsest, and a model has it.
+BOOST_AUTO_TEST_CASE(an_order_beside_a_large_next_term_stays_determined) {
+    for (const auto& [p, c] : {std::pair{2.0, 20.0}, {1.0, 13.0}}) {
+        std::vector<ErrorRow> rows;
+        for (const double h : {0.1, 0.05, 0.025, 0.0125})
+            rows.push_back({{h}, std::pow(h, p) * (1 + c * h)});
+        const auto order = estimate_orders(rows).front();
+        BOOST_TEST(order.determined, order.status);
+        BOOST_TEST(holds(order, p));
+        BOOST_TEST(order.half_width() < 0.2);
+    }
+}
+
 // First order in both widths, of an error that saturates: x/(1 + x) and 1 − exp(−x) of
 // x = c (h + b dt) have products of the widths, which no next term of one has.
 BOOST_AUTO_TEST_CASE(orders_of_errors_that_saturate_are_held_on_grids) {

@@ -180,11 +180,34 @@ BOOST_AUTO_TEST_CASE(of_a_hidden_error_no_size_is_said_that_is_not_known) {
     const auto remarks = remarks_by_model({2.0, 4.0, 8.0}, terms); // 8/160 = 0.05 of the other
     BOOST_REQUIRE(remarks.size() == 2U);
     // Of what is larger it is seen.
-    BOOST_TEST(remarks_by_model({10.0, 20.0, 40.0}, terms).at(1).find("0.25 times as large") !=
+    BOOST_TEST(remarks_by_model({20.0, 40.0, 80.0}, terms).at(1).find("0.50 times as large") !=
                std::string::npos);
     BOOST_TEST(remarks[1] == "theta_L2L2: the order 2.00 is that of the space error; the time "
                              "error, of order 1.00 along this ladder, is smaller at s = 8 and "
                              "hidden; its size is not known.");
+}
+
+// Nor of the space error where that of Δt is 200 times as large, on the whole ladder or beside what
+// stays along it.
+BOOST_AUTO_TEST_CASE(of_what_a_slower_error_hides_no_size_is_said_that_is_not_known) {
+    const TwoTermModel model{.a = 1.0, .p = 2.0, .b = 50.0, .q = 1.0, .rho = 0.0};
+    for (const bool stays : {false, true}) {
+        std::vector<Refinement> ladder;
+        for (const double s : {4.0, 8.0, 16.0}) {
+            const double dt = stays ? 1.0 / 4 : 1.0 / s;
+            ladder.push_back({.h = 1 / s, .dt = dt, .error = model.error(1 / s, dt)});
+        }
+        const auto said = [&](const TermsKnown& terms) {
+            return order_remarks(measure_of(*Norm::named("theta_L2L2")), ladder, &model, false,
+                                 terms)
+                .at(1);
+        };
+        const auto open = said({.part_a = 30.0, .part_b = 0.1});
+        BOOST_TEST(open.find("size is not known") != std::string::npos, open);
+        BOOST_TEST(open.find("times as large") == std::string::npos, open);
+        const auto known = said({.part_a = 0.1, .part_b = 0.1});
+        BOOST_TEST(known.find("times as large") != std::string::npos, known);
+    }
 }
 
 // Δt = 0.8 h on every level, one of which stands there twice.
