@@ -16,6 +16,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 
 using namespace tvbeam;
 namespace data = boost::unit_test::data;
@@ -152,6 +153,17 @@ BOOST_DATA_TEST_CASE(a_result_wrong_in_the_tenth_digit_is_noticed, data::make(di
     const auto not_a_number = [](SolveRecord& r) { r.now.theta(1) = std::nan(""); };
     BOOST_TEST(std::isnan(spoilt(not_a_number).heat));
     BOOST_TEST(std::isnan(spoilt(not_a_number).beam));
+    // Its sizes are none, or beyond the range, and it is no reason to refuse the case.
+    for (const double size : {std::nan(""), std::numeric_limits<double>::infinity()})
+        BOOST_TEST(std::isnan(spoilt([size](SolveRecord& r) {
+                                  r.now.theta(1) = std::nan("");
+                                  r.now.temperature_size = size;
+                              }).heat));
+    // Terms beyond the range of doubles of a state within it are.
+    BOOST_CHECK_THROW(spoilt([](SolveRecord& r) {
+                          r.now.temperature_size = std::numeric_limits<double>::infinity();
+                      }),
+                      std::domain_error);
 }
 
 // A tip at rest, closer to one of the stops. A reaction of that stop pushes away from it; one that
