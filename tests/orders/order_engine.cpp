@@ -126,7 +126,7 @@ BOOST_AUTO_TEST_CASE(an_order_beside_a_close_one_is_held_or_not_determined) {
     const auto uniform = uniform_from(generator);
     for (const auto& [levels, ratio] : {std::pair{4, 2.0}, {5, 2.0}, {7, 2.0}, {6, 1.4}}) {
         Count count;
-        for (int table = 0; table < 60; ++table) {
+        for (int table = 0; table < (short_tests ? 6 : 60); ++table) {
             const double p = uniform(1.6, 1.9);
             const double finest = std::pow(ratio, 1 - levels);
             const double r = std::exp(uniform(-1.2, 1.2)) * std::pow(finest, p - 2);
@@ -166,7 +166,7 @@ BOOST_AUTO_TEST_CASE(orders_of_errors_that_saturate_are_held_on_grids) {
          {Law([](double x) { return x / (1 + x); }), Law([](double x) { return 1 - std::exp(-x); }),
           Law([](double x) { return std::sqrt(1 + 2 * x) - 1; })}) {
         Count count;
-        for (int table = 0; table < (short_tests ? 4 : 20); ++table) {
+        for (int table = 0; table < (short_tests ? 1 : 20); ++table) {
             const double c = std::exp(uniform(-2, 0.5));
             const double b = std::exp(uniform(-1, 1));
             std::vector<ErrorRow> rows;
