@@ -365,7 +365,7 @@ std::size_t standing_still(const Rows& levels, double rounding) {
     const double before = std::abs(levels[first - 1].value - levels[first - 2].value);
     const double shrinks = before > last ? last / before : 1.0;
     const double next = last * std::pow(shrinks, first < 3 ? 1.0 : std::max(2.0, ratio));
-    constexpr double of_steps = 8;
+    constexpr double of_steps = 3; // rounding moves each step by one
     return next > of_steps * resolution ? count : 0;
 }
 

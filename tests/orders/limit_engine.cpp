@@ -572,6 +572,8 @@ BOOST_AUTO_TEST_CASE(values_that_stop_far_from_where_their_steps_go_have_no_limi
     BOOST_TEST(holds(printed({0.927, 0.907, 0.907, 0.907, 0.907}, 1e-3, none), 0.907));
     BOOST_TEST(holds(
         printed({-2.373, -1.9326, -1.9288, -1.9313, -1.9299, -1.9303, -1.9284}, 0, 0.0026), -1.93));
+    // The next step would be 0.032, three units and more.
+    BOOST_TEST(!printed({3.0, 2.2, 2.04, 2.04, 2.04}, 1e-2, none).determined);
     std::vector<double> by_powers, by_doubling;
     for (int k = 0; k < 8; ++k) {
         by_powers.push_back(1 + std::pow(10.0, -3 * k));
