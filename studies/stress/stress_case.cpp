@@ -33,6 +33,9 @@ constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
 /// Checks that allow for more than this part of the curvature see too little.
 constexpr double largest_allowance = 1e-3;
+/// Of EnergyLaw::missed_part. What is missed is chance, and another compiler's is up to ten times
+/// as much: the bound is well below what would matter.
+constexpr double largest_missed_part = 5e-6;
 /// The beam residual of the fixed points of `stress-beam` is up to 3.1 times the predicted floor,
 /// their initial state and energy law less; the tip, an unknown of that form, has no part of it.
 constexpr double allowed_floors = 10.0;
@@ -376,9 +379,9 @@ void compare_as(const StressChecks& before, StressChecks& checks) {
     checks.order_defect = before.order_defect;
 }
 
-std::string round_off_words(const StressParameters& parameters, double missed_part) {
-    const std::string left = "round-off: over all steps the energy law leaves " +
-                             text_of(missed_part) + " of the energy";
+std::string round_off_words(const StressParameters& parameters, double bound) {
+    const std::string left = "round-off: over all steps the energy law leaves more than " +
+                             text_of(bound) + " of the energy";
     constexpr double unseen = 1e-9;
     return parameters.alpha * epsilon > unseen
                ? left + ", of the rounding of the temperature, which alpha multiplies"
@@ -419,8 +422,9 @@ void run_case(StressCase& result) {
         if (reason.empty() && before)
             return stop(result, "underflow: the solution falls below " + text_of(least) +
                                     ", where floating point loses its digits");
-        if (reason.empty() && marched.missed_part > largest_allowance)
-            return stop(result, round_off_words(parameters, marched.missed_part));
+        const double bound = std::max(largest_missed_part, marched.checks.allowance);
+        if (reason.empty() && marched.missed_part > bound)
+            return stop(result, round_off_words(parameters, bound));
         result.outcome = reason.empty() ? Outcome::certified : Outcome::failed;
         result.reason = reason;
         if (reason.empty())
