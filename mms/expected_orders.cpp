@@ -515,7 +515,11 @@ std::vector<std::string> reasons(const ExpectedOrders& known, const Beam& beam) 
     if (known.kink)
         text.push_back(words_of(*known.kink) +
                        ": where that is within an element, not between two, errors of u fall more "
-                       "slowly in h.");
+                       "slowly in h." +
+                       (known.kink->derivative == 2
+                            ? " The formula of G lacks a delta function there, which the moments "
+                              "that runs take have."
+                            : ""));
     if (!coupled)
         text.emplace_back("alpha = 0: heat and bending do not see each other's errors, and u has "
                           "higher orders in the weaker norms.");

@@ -140,26 +140,33 @@ private:
     void require_no_jump_within(std::size_t i) const {
         const DerivedPhase& phase = derived_.derived[i];
         const SolutionPhase& source = solution_.phases[i];
-        constexpr std::array names{"theta", "theta_x", "u", "u_x", "u_xx"};
+        constexpr std::array names{"theta", "theta_x", "u", "u_x", "u_xx", "sigma"};
         const Tape tape = located(source.theta, "theta", [&] {
-            return compile_tape({phase.theta, phase.theta_x, phase.u, phase.u_x, phase.u_xx});
+            return compile_tape(
+                {phase.theta, phase.theta_x, phase.u, phase.u_x, phase.u_xx, phase.sigma});
         });
         const auto refuse = [&](std::size_t row, double jump, double x, double t,
                                 const std::string& derivative) {
-            throw InputError((row < 2 ? source.theta : source.u).begin(),
-                             jump_text(names.at(row), jump, t, x) + "the formula of its " +
-                                 derivative + " lacks a delta function there, and the " +
-                                 (row < 2 ? "heat source" : "load") + " with it");
+            const SourceText& text = row < 2    ? source.theta
+                                     : row == 5 ? source.sigma.value_or(source.u)
+                                                : source.u;
+            const std::string load = row < 2 ? "heat source" : row == 5 ? "body force" : "load";
+            throw InputError(text.begin(), jump_text(names.at(row), jump, t, x) +
+                                               "the formula of its " + derivative +
+                                               " lacks a delta function there, and the " + load +
+                                               " with it");
         };
         const double begin = derived_.phases[i].begin_value;
         const double end = std::min(derived_.phases[i].end_value, final_time_);
         constexpr std::array<std::size_t, 2> in_t{0, 4};
         const bool is_expected = may_jump(phase.theta) || may_jump(phase.u);
         const double least = least_jump(is_expected);
-        for (const double part : parts_to_search(is_expected)) {
+        std::vector<std::array<std::size_t, 2>> pairs{{0, 2}, {1, 3}};
+        if (may_jump(phase.sigma))
+            pairs.push_back({5, 5});
+        for (const double part : parts_to_search(is_expected || may_jump(phase.sigma))) {
             const ArrayXd t = ArrayXd::Constant(1, begin + part * (end - begin));
-            for (const std::array<std::size_t, 2> in_x :
-                 {std::array<std::size_t, 2>{0, 2}, {1, 3}}) {
+            for (const auto& in_x : pairs) {
                 const auto in_space = [&](const ArrayXd& x) -> Eigen::ArrayXXd {
                     return tape.evaluate(x, t)(in_x, Eigen::all);
                 };

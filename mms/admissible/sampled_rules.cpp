@@ -17,6 +17,11 @@ using Eigen::Index;
 
 namespace {
 
+constexpr double level = 1.4;    // |s - a|^(-1/4) grows as much in a fourth of the width
+constexpr int least_growths = 6; // of some 22; noise has set its records before
+constexpr double least_growth = 1e3;
+constexpr double narrowest_look = 1e-13; // narrower, the rounding of s - a is seen
+
 /// The size of sample k, a greatest one, or where that stands far above those beside it, theirs: it
 /// is a pole then but for rounding, and as large from afar as from near.
 double size_off_pole(const ArrayXd& sizes, Index k) {
@@ -26,19 +31,32 @@ double size_off_pole(const ArrayXd& sizes, Index k) {
     return sizes(k) > far_above * beside ? beside : sizes(k);
 }
 
+/// What |g| does as a look closes in on a place.
+struct CloserLook {
+    double first;
+    double largest = first;
+    int growths = 0;
+
+    /// Whether the greatest of a look is more than that of those before.
+    bool add(double off_pole) {
+        const bool grows = off_pole > level * largest;
+        growths += grows ? 1 : 0;
+        largest = std::max(largest, off_pole);
+        return grows;
+    }
+    [[nodiscard]] bool is_bounded() const {
+        return growths < least_growths || largest < least_growth * first;
+    }
+};
+
 /// Where |g| grows towards a point between two, however near it is looked at, as at a pole; without
 /// value where it does not.
 ///
 /// @param largest |g| at a point between them, or next to it
 std::optional<double> unbounded_between(const std::function<ArrayXd(const ArrayXd&)>& g,
                                         double begin, double end, double largest) {
-    constexpr double level = 1.4;    // |s - a|^(-1/4) grows as much in a fourth of the width
-    constexpr int least_growths = 6; // of some 22; noise has set its records before
-    constexpr double least_growth = 1e3;
-    constexpr double narrowest = 1e-13; // narrower, the rounding of s - a is seen
-    const double width = narrowest * std::max({std::abs(begin), std::abs(end), end - begin});
-    const double first = largest;
-    int growths = 0;
+    const double width = narrowest_look * std::max({std::abs(begin), std::abs(end), end - begin});
+    CloserLook growth{largest};
     CloseLook look{begin, end};
     while (look.end - look.begin > width) {
         const ArrayXd s = look.samples();
@@ -48,16 +66,46 @@ std::optional<double> unbounded_between(const std::function<ArrayXd(const ArrayX
                 return s(k);
         Index at = 0;
         const double greatest = sizes.maxCoeff(&at);
-        const double off_pole = size_off_pole(sizes, at);
-        const bool grows = off_pole > level * largest;
+        const bool grows = growth.add(size_off_pole(sizes, at));
         if (!grows && greatest <= level * sizes.minCoeff())
             return std::nullopt;
-        growths += grows ? 1 : 0;
-        largest = std::max(largest, off_pole);
         look = look.next_to(s(at), look.spacing());
     }
-    const bool is_bounded = growths < least_growths || largest < least_growth * first;
-    return is_bounded ? std::nullopt : std::optional(std::midpoint(look.begin, look.end));
+    return growth.is_bounded() ? std::nullopt : std::optional(std::midpoint(look.begin, look.end));
+}
+
+struct PlanePoint {
+    double x, t;
+};
+
+/// As unbounded_between, of both variables at once: (x - a)^2 + (t - b)^2 is 0 at one point.
+std::optional<PlanePoint> unbounded_beside(const SpaceTimeFunction& g, CloseLook in_x,
+                                           CloseLook in_t, double largest) {
+    CloserLook growth{largest};
+    const double width_t = narrowest_look * in_t.end;
+    while (in_x.end - in_x.begin > narrowest_look || in_t.end - in_t.begin > width_t) {
+        const ArrayXd x = in_x.samples();
+        const ArrayXd t = in_t.samples();
+        ArrayXXd sizes(x.size(), t.size());
+        for (Index j = 0; j < t.size(); ++j)
+            sizes.col(j) = g(x, t(j)).abs();
+        Index row = 0;
+        Index column = 0;
+        if (!sizes.isFinite().all()) {
+            (!sizes.isFinite()).cast<double>().maxCoeff(&row, &column);
+            return PlanePoint{x(row), t(column)};
+        }
+        const double greatest = sizes.maxCoeff(&row, &column);
+        const bool grows = growth.add(
+            std::max(size_off_pole(sizes.col(column), row), size_off_pole(sizes.row(row), column)));
+        if (!grows && greatest <= level * sizes.minCoeff())
+            return std::nullopt;
+        in_x = in_x.next_to(x(row), in_x.spacing());
+        in_t = in_t.next_to(t(column), in_t.spacing());
+    }
+    return growth.is_bounded() ? std::nullopt
+                               : std::optional(PlanePoint{std::midpoint(in_x.begin, in_x.end),
+                                                          std::midpoint(in_t.begin, in_t.end)});
 }
 
 /// The first time at which values are not all finite, as they are at `begin` and not at `end`.
@@ -124,6 +172,11 @@ double largest_on_grid(const SpaceTimeFunction& g, const ArrayXd& times, double 
     };
     if (const auto a = unbounded_on(times, values.row(row), in_t))
         refuse(x(row), *a, at(x(row), *a));
+    const auto around = [](const ArrayXd& grid, Index k) {
+        return CloseLook{grid(std::max<Index>(k - 1, 0)), grid(std::min(k + 1, grid.size() - 1))};
+    };
+    if (const auto a = unbounded_beside(g, around(x, row), around(times, column), largest))
+        refuse(a->x, a->t, at(a->x, a->t));
     return largest;
 }
 

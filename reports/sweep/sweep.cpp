@@ -33,6 +33,16 @@ bool is_word(const std::string& text) {
     });
 }
 
+/// A word that no file of the sweep itself has, and no name of another directory: of those with a
+/// dot numbers alone.
+bool is_directory_name(const std::string& text) {
+    double number = 0.0;
+    const char* const end = text.data() + text.size();
+    return is_word(text) && text != "plots" &&
+           (text.find('.') == std::string::npos ||
+            std::from_chars(text.data() + (text.front() == '+' ? 1 : 0), end, number).ptr == end);
+}
+
 /// Without the quotes of TOML around it, if it has some.
 std::string unquoted(const std::string& text) {
     const bool quoted = text.size() > 2 && (text.front() == '"' || text.front() == '\'') &&
@@ -355,7 +365,7 @@ std::vector<std::string> Sweep::overrides(const std::string& value) const {
 }
 
 std::string Sweep::directory(std::size_t i) const {
-    return is_word(values[i]) ? values[i] : fmt::format("{}-of-{}", i + 1, values.size());
+    return is_directory_name(values[i]) ? values[i] : fmt::format("{}-of-{}", i + 1, values.size());
 }
 
 std::optional<Sweep> sweep_in(const std::vector<std::string>& overrides) {

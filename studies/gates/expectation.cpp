@@ -12,6 +12,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <map>
 #include <set>
 #include <sstream>
 
@@ -29,12 +31,50 @@ const std::vector<RungResult>& runs_of(const StudyResult& result, const std::str
             })->results;
 }
 
-std::vector<std::string> texts_of(const std::vector<double>& numbers) {
-    std::vector<std::string> texts;
-    texts.reserve(numbers.size());
-    for (const double number : numbers)
-        texts.push_back(metric_text(number));
+constexpr int shown_digits = 6;
+
+/// In so many digits.
+std::string in_digits(double number, int digits) {
+    return fmt::format("{:.{}g}", number, digits);
+}
+
+struct Texts {
+    std::vector<std::string> wanted, found;
+};
+
+/// As metric_text, or in so many digits that no number found looks like another that is wanted.
+Texts texts_of(const std::vector<double>& wanted, const std::vector<double>& found) {
+    Texts texts;
+    const auto look_alike = [&] {
+        for (std::size_t i = 0; i < wanted.size(); ++i)
+            for (std::size_t k = 0; k < found.size(); ++k)
+                if (texts.wanted[i] == texts.found[k] && wanted[i] != found[k])
+                    return true;
+        return false;
+    };
+    const auto all_of = [](const std::vector<double>& numbers, int digits) {
+        std::vector<std::string> all;
+        for (const double number : numbers)
+            all.push_back(digits == shown_digits ? metric_text(number) : in_digits(number, digits));
+        return all;
+    };
+    for (int digits = shown_digits; digits <= std::numeric_limits<double>::max_digits10; ++digits) {
+        texts = {all_of(wanted, digits), all_of(found, digits)};
+        if (!look_alike())
+            break;
+    }
     return texts;
+}
+
+/// Whole numbers are the same to the last digit, others to all that are written, at least six.
+bool is_as_written(double wanted, double found) {
+    if (std::rint(wanted) == wanted && std::rint(found) == found)
+        return found == wanted;
+    constexpr int most = std::numeric_limits<double>::max_digits10;
+    int digits = shown_digits;
+    while (digits < most && std::stod(in_digits(wanted, digits)) != wanted)
+        ++digits;
+    return in_digits(wanted, digits) == in_digits(found, digits);
 }
 
 /// Words held against those that are expected, all of them.
@@ -92,9 +132,11 @@ InputError not_measured(const TableReader& table, const std::string& name,
 } // namespace
 
 CheckedExpectation held(const Metric& metric, double lowest, double highest, const Place& place) {
+    const auto texts = texts_of({lowest, highest},
+                                metric.value ? std::vector{*metric.value} : std::vector<double>());
     return {.what = metric.what,
-            .expected = metric_text(lowest) + " to " + metric_text(highest),
-            .found = metric.value ? metric_text(*metric.value) : metric.absence,
+            .expected = texts.wanted[0] + " to " + texts.wanted[1],
+            .found = metric.value ? texts.found[0] : metric.absence,
             .place = place,
             // A figure that is not a number lies in no band.
             .holds = metric.value && *metric.value >= lowest && *metric.value <= highest};
@@ -106,7 +148,7 @@ std::string what_of(const TableReader& table, const std::string& key) {
 
 std::string metric_text(double value) {
     std::ostringstream text;
-    text.precision(6);
+    text.precision(shown_digits);
     text << value;
     return text.str();
 }
@@ -192,10 +234,17 @@ void expect_sentences(TableReader& table, const std::string& key,
 
 void expect_numbers(TableReader& table, const std::string& key,
                     std::vector<Expectation>& expectations, const Numbers& found) {
-    if (const auto wanted = table.numbers(key))
-        expectations.push_back(
-            all_of(table, key, texts_of(*wanted),
-                   [found](const StudyResult& result) { return texts_of(found(result)); }));
+    const auto wanted = table.numbers(key);
+    if (!wanted)
+        return;
+    expectations.push_back([what = what_of(table, key), wanted = *wanted, found,
+                            place = table.place(key)](const StudyResult& result) {
+        const auto numbers = found(result);
+        const auto texts = texts_of(wanted, numbers);
+        auto checked = same(what, texts.wanted, texts.found, place);
+        checked.holds = std::ranges::equal(wanted, numbers, is_as_written);
+        return std::vector{checked};
+    });
 }
 
 void expect_refined(TableReader& table, const std::string& study,
@@ -242,12 +291,13 @@ void expect_interval(TableReader& table, const std::string& key,
     if (const auto number = table.number(key + "_holds"))
         add([unknown, number, place = table.place(key + "_holds")](
                 const std::string& what, const OrderInterval& interval) -> CheckedExpectation {
-            return {what + ", interval", "one that holds " + metric_text(*number),
-                    interval.determined
-                        ? metric_text(interval.low) + " to " + metric_text(interval.high)
-                        : unknown(interval),
-                    place,
-                    interval.determined && interval.low <= *number && *number <= interval.high};
+            const auto texts =
+                texts_of({*number}, interval.determined ? std::vector{interval.low, interval.high}
+                                                        : std::vector<double>());
+            return {
+                what + ", interval", "one that holds " + texts.wanted[0],
+                interval.determined ? texts.found[0] + " to " + texts.found[1] : unknown(interval),
+                place, interval.determined && interval.low <= *number && *number <= interval.high};
         });
     if (const auto band = table.band(key + "_half_width"))
         add([unknown, band, place = table.place(key + "_half_width")](
@@ -274,6 +324,11 @@ void expect_orders(TableReader& table, const Series& series, std::size_t k,
     });
 }
 
+/// To the last digit.
+std::string count_text(double count) {
+    return fmt::format("{:.17g}", count);
+}
+
 /// A counter of each run; where none has it, what they count.
 std::vector<std::string> counts_of(const std::string& name, const std::vector<RungResult>& runs) {
     std::vector<std::string> counts;
@@ -285,7 +340,7 @@ std::vector<std::string> counts_of(const std::string& name, const std::vector<Ru
             if (std::ranges::find(names, one.name) == names.end())
                 names.push_back(one.name);
             if (one.name == name) {
-                counts.back() = metric_text(static_cast<double>(one.value));
+                counts.back() = count_text(static_cast<double>(one.value));
                 is_known = true;
             }
         }
@@ -306,9 +361,9 @@ void expect_counters(TableReader& table, const Series& series,
         if (!wanted)
             continue;
         require_count(*counters, name, wanted->size(), rungs_of(series));
-        std::vector<std::string> counts; // whole numbers, to the last digit
+        std::vector<std::string> counts;
         for (const double count : *wanted)
-            counts.push_back(fmt::format("{}", count));
+            counts.push_back(count_text(count));
         expectations.push_back(
             all_of(*counters, name, counts, [series, name](const StudyResult& result) {
                 return counts_of(name, runs_of(result, series.study));

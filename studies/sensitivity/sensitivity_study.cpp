@@ -52,12 +52,12 @@ struct SensitivityStudy final : KindOf<SensitivityBlock, SensitivityResult> {
     Ending ending(const std::any& record) const override {
         return {.failed = false, .interrupted = record_in(record).interrupted, .reason = {}};
     }
-    /// What is caught at the smallest factor already has no least one.
+    /// The least of the factors tried that is caught.
     std::map<std::string, double> figures(const std::any& record) const override {
         const SensitivityResult& result = record_in(record);
         std::map<std::string, double> figures;
         const auto add = [&](const std::string& name, const std::optional<double>& least) {
-            if (least && *least > result.smallest)
+            if (least)
                 figures[name] = *least;
         };
         for (const auto& defect : result.defects) {

@@ -159,6 +159,27 @@ BOOST_AUTO_TEST_CASE(a_sweep_gives_a_row_a_value) {
     BOOST_TEST(call(directory, "run sheared --set beam.zeta=1,2 --set beam.alpha=1,2").exit == 2);
 }
 
+// Values that are names of what the sweep writes, or of other directories.
+BOOST_AUTO_TEST_CASE(a_row_of_a_sweep_stays_within_the_directory_that_is_named) {
+    const TemporaryDirectory directory;
+    directory.write("scene.toml", "[solver]\ncommand = [\"echo\", \"e = 1 {elements} {c}\"]\n"
+                                  "parameters = {c = 1}\nerrors = {e = '^e = (\\S+)'}\n"
+                                  "[ladder]\nelements = [4, 8]\nnorms = [\"e\"]\n");
+    std::filesystem::create_directory(directory.path() / "beside");
+    directory.write("beside/table.md", "mine");
+    const Called called =
+        call(directory, "run " + (directory.path() / "scene.toml").string() +
+                            " --set solver.parameters.c=..,.,plots,result.json,1 --quiet --out " +
+                            (directory.path() / "beside" / "out").string());
+    BOOST_TEST(called.exit == 0, called.errors);
+    BOOST_TEST(directory.read("beside/table.md") == "mine");
+    BOOST_TEST(!std::filesystem::exists(directory.path() / "beside" / "result.json"));
+    for (const std::string row : {"1-of-5", "2-of-5", "3-of-5", "4-of-5", "1"})
+        BOOST_TEST(
+            std::filesystem::exists(directory.path() / "beside" / "out" / row / "result.json"),
+            row);
+}
+
 // At α = 1e200 every run fails; the norm that a row has not got was not asked for.
 BOOST_AUTO_TEST_CASE(a_row_of_a_sweep_has_nothing_of_what_it_was_not_asked_for) {
     const TemporaryDirectory directory;
