@@ -15,7 +15,7 @@ std::string check_report(const CheckedScene& scene, bool coloured = false);
 std::string check_markdown(const std::vector<CheckedScene>& scenes);
 
 /// Appends Markdown to the file that $GITHUB_STEP_SUMMARY names; nothing where it is not set.
-/// Throws OutputError where it cannot be written.
+/// Throws OutputError where it cannot be written; an empty text only asks.
 void add_to_step_summary(const std::string& markdown);
 
 } // namespace tvbeam

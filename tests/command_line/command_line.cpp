@@ -336,6 +336,12 @@ BOOST_AUTO_TEST_CASE(analyse_writes_and_gates_as_a_scene_does) {
     const Called good = call(directory, analyse + files + "--expect 'L2.order = [3.9, 4.1]'",
                              "GITHUB_STEP_SUMMARY=" + in + "summary.md ");
     BOOST_TEST(good.exit == 0);
+    for (const std::string& command : {analyse, std::string("check sheared ")}) {
+        const Called nowhere =
+            call(directory, command, "GITHUB_STEP_SUMMARY=" + in + "no/such.md ");
+        BOOST_TEST(nowhere.exit == 2);
+        BOOST_TEST(nowhere.output.empty(), nowhere.output);
+    }
     BOOST_TEST(has(good.output, "h = ndofs^(-1/2)"));
     BOOST_TEST(has(good.output, "order in h 4.000"));
     const auto text_of = [&](const std::string& name) {

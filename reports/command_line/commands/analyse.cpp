@@ -62,6 +62,7 @@ int analyse_command(const AnalyseOptions& options) {
     Destination csv = destination(options.csv);
     Destination junit = destination(options.junit);
     Destination record = destination(options.record);
+    opened([] { add_to_step_summary({}); });
     if (out)
         if (const std::string left_out = out->write(reported(analysis)); !left_out.empty())
             say(left_out);

@@ -95,6 +95,7 @@ int check_command(const CheckOptions& options) {
                                     ? std::string()
                                     : earlier_baseline(options.record);
     Destination record = destination(options.record);
+    opened([] { add_to_step_summary({}); });
 
     std::vector<StudyResult> results;
     std::vector<BaselineEntry> entries; // to be recorded
