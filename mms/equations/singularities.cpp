@@ -227,37 +227,9 @@ private:
             text_of(point)};
     }
 
-    /// The first step that a double loses the digits of, where an output then has not its value:
-    /// (1e-200 x)^2*1e300.
-    void look_for_underflow(const std::vector<long double>& values, const DomainPoint& point) {
-        constexpr long double least = std::numeric_limits<double>::min();
-        const auto below = std::ranges::find_if(
-            values, [&](long double value) { return value != 0 && std::abs(value) < least; });
-        if (overflow_ || below == values.end())
-            return;
-        std::map<std::string, double> names;
-        for (const auto& [name, value] : names_at(derived_, point))
-            names[name] = static_cast<double>(value);
-        const auto outputs = program_.evaluate(names);
-        const auto wide = program_.evaluate(names_at(derived_, point));
-        constexpr long double most_lost = 1e-3L;
-        for (std::size_t k = 0; k < wide.size(); ++k)
-            if (is_held(wide[k]) && std::abs(wide[k]) >= least &&
-                std::abs(outputs[k] - wide[k]) > most_lost * std::abs(wide[k])) {
-                overflow_ =
-                    Singularity{Singularity::Kind::overflow,
-                                readable_text(program_, static_cast<int>(below - values.begin()),
-                                              longest_quoted) +
-                                    " is below the range of doubles " + text_of(point),
-                                text_of(point)};
-                return;
-            }
-    }
-
     void look_at(const DomainPoint& point) {
         const auto values = program_.values(names_at(derived_, point));
         look_for_overflow(values, point);
-        look_for_underflow(values, point);
         for (std::size_t k = 0; k < criticals_.size(); ++k) {
             const long double here =
                 margin(criticals_[k], values[static_cast<std::size_t>(criticals_[k].operand)]);

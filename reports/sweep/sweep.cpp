@@ -34,11 +34,12 @@ bool is_word(const std::string& text) {
 }
 
 /// A word that no file of the sweep itself has, and no name of another directory: of those with a
-/// dot numbers alone.
+/// dot numbers alone, and none as those of values that are not words.
 bool is_directory_name(const std::string& text) {
     double number = 0.0;
     const char* const end = text.data() + text.size();
-    return is_word(text) && text != "plots" &&
+    return is_word(text) && text != "plots" && text.front() != '.' &&
+           text.find("-of-") == std::string::npos &&
            (text.find('.') == std::string::npos ||
             std::from_chars(text.data() + (text.front() == '+' ? 1 : 0), end, number).ptr == end);
 }

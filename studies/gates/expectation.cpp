@@ -54,6 +54,7 @@ Texts texts_of(const std::vector<double>& wanted, const std::vector<double>& fou
     };
     const auto all_of = [](const std::vector<double>& numbers, int digits) {
         std::vector<std::string> all;
+        all.reserve(numbers.size());
         for (const double number : numbers)
             all.push_back(digits == shown_digits ? metric_text(number) : in_digits(number, digits));
         return all;

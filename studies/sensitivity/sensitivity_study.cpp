@@ -52,13 +52,13 @@ struct SensitivityStudy final : KindOf<SensitivityBlock, SensitivityResult> {
     Ending ending(const std::any& record) const override {
         return {.failed = false, .interrupted = record_in(record).interrupted, .reason = {}};
     }
-    /// The least of the factors tried that is caught.
+    /// The least factor that is caught; 0 where that may be any below the smallest that is tried.
     std::map<std::string, double> figures(const std::any& record) const override {
         const SensitivityResult& result = record_in(record);
         std::map<std::string, double> figures;
         const auto add = [&](const std::string& name, const std::optional<double>& least) {
             if (least)
-                figures[name] = *least;
+                figures[name] = *least > result.smallest ? *least : 0.0;
         };
         for (const auto& defect : result.defects) {
             add(defect.name, defect.least_of_all());

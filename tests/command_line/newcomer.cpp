@@ -167,14 +167,14 @@ BOOST_AUTO_TEST_CASE(a_row_of_a_sweep_stays_within_the_directory_that_is_named) 
                                   "[ladder]\nelements = [4, 8]\nnorms = [\"e\"]\n");
     std::filesystem::create_directory(directory.path() / "beside");
     directory.write("beside/table.md", "mine");
-    const Called called =
-        call(directory, "run " + (directory.path() / "scene.toml").string() +
-                            " --set solver.parameters.c=..,.,plots,result.json,1 --quiet --out " +
-                            (directory.path() / "beside" / "out").string());
+    const Called called = call(
+        directory, "run " + (directory.path() / "scene.toml").string() +
+                       " --set solver.parameters.c=..,.,plots,result.json,5-of-6,1 --quiet --out " +
+                       (directory.path() / "beside" / "out").string());
     BOOST_TEST(called.exit == 0, called.errors);
     BOOST_TEST(directory.read("beside/table.md") == "mine");
     BOOST_TEST(!std::filesystem::exists(directory.path() / "beside" / "result.json"));
-    for (const std::string row : {"1-of-5", "2-of-5", "3-of-5", "4-of-5", "1"})
+    for (const std::string row : {"1-of-6", "2-of-6", "3-of-6", "4-of-6", "5-of-6", "1"})
         BOOST_TEST(
             std::filesystem::exists(directory.path() / "beside" / "out" / row / "result.json"),
             row);
