@@ -81,7 +81,8 @@ std::string points_of(const DataColumn& width, const ColumnAnalysis& column) {
     std::string rows;
     const std::size_t step = 1 + column.numbers.size() / most_points;
     for (std::size_t i = 0; i < column.numbers.size(); i += step)
-        rows += fmt::format("{} {}\n", width.numbers[i], column.numbers[i]);
+        if (is_drawable(column.numbers[i], !column.is_value))
+            rows += fmt::format("{} {}\n", width.numbers[i], column.numbers[i]);
     return rows;
 }
 
@@ -89,7 +90,7 @@ std::string points_of(const DataColumn& width, const ColumnAnalysis& column) {
 void add_order_line(const DataColumn& width, const ColumnAnalysis& column,
                     const OrderInterval& order, const SeriesStyle& style, Drawing& drawing) {
     std::size_t last = column.numbers.size();
-    while (last > 0 && !is_positive(column.numbers[last - 1]))
+    while (last > 0 && !is_drawable(column.numbers[last - 1], true))
         --last;
     if (!order.determined || column.two_term || last == 0)
         return;
@@ -207,10 +208,13 @@ std::vector<Plot> analysis_plots(const DataAnalysis& analysis) {
         const auto& column = analysis.columns[k];
         if (column.is_value)
             continue;
-        std::copy_if(column.numbers.begin(), column.numbers.end(), std::back_inserter(errors),
-                     is_positive);
+        std::ranges::copy_if(column.numbers, std::back_inserter(errors),
+                             [](double error) { return is_drawable(error, true); });
+        const std::string points = points_of(width, column);
+        if (points.empty())
+            continue;
         const SeriesStyle style = series_style(k);
-        drawing.add_curve({.block = drawing.add_block(column.name, points_of(width, column))},
+        drawing.add_curve({.block = drawing.add_block(column.name, points)},
                           look_of(style, CurveLook::Kind::points), column.name);
         add_order_line(width, column, column.by_width[along], style, drawing);
     }

@@ -28,7 +28,8 @@ struct Reported;
 /// where one cannot be given its name, none is, on file systems that can exchange two files. A
 /// file of an earlier result is replaced, and its plots and CSV files go where this result has none
 /// of their names. Kinds of files that a block leaves out stay as they are; figures for LaTeX go
-/// unless they are asked for again, as a paper would go on to show what they were.
+/// unless they are asked for again, and PDFs where plots are written without them, as a paper would
+/// go on to show what they were.
 class ReportDirectory {
 public:
     /// Makes the directory where it is missing, and keeps others from writing there as long as the

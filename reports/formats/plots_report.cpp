@@ -29,7 +29,7 @@ struct PlotsFormat final : ReportFormat {
     earlier_files(const std::filesystem::path& directory) const override {
         std::vector<std::filesystem::path> files;
         for (const auto& name : earlier_drawn_figures(directory))
-            for (const char* ending : {".gp", ".dat", ".svg", ".png"})
+            for (const char* ending : {".gp", ".dat", ".svg", ".png", ".pdf"})
                 files.emplace_back("plots/" + name + ending);
         return files;
     }

@@ -67,8 +67,9 @@ struct LadderWidths {
     bool in_time = false;
 };
 
+/// That can be drawn.
 std::optional<double> positive_error(const RungResult& rung, std::size_t k) {
-    return !rung.errors.empty() && rung.errors[k] > 0.0 && std::isfinite(rung.errors[k])
+    return !rung.errors.empty() && is_drawable(rung.errors[k], true)
                ? std::optional(rung.errors[k])
                : std::nullopt;
 }

@@ -124,6 +124,11 @@ std::vector<Tick> value_ticks(std::vector<double> values, std::size_t most) {
     return labelled(std::move(values), most, short_texts);
 }
 
+bool is_drawable(double number, bool on_logarithmic_axis) {
+    constexpr double greatest = 1e300;
+    return std::abs(number) <= greatest && (!on_logarithmic_axis || number >= 1.0 / greatest);
+}
+
 std::pair<double, double> range_of(const std::vector<double>& values, double room) {
     const auto [least, greatest] = std::minmax_element(values.begin(), values.end());
     return {*least / room, *greatest * room};

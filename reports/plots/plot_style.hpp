@@ -39,6 +39,10 @@ std::vector<Tick> thinned(const std::vector<Tick>& ticks, std::size_t most);
 std::vector<Tick> width_ticks(std::vector<double> widths, std::size_t most);
 std::vector<Tick> value_ticks(std::vector<double> values, std::size_t most);
 
+/// Whether a number can be drawn: next to the greatest double, and on a logarithmic axis to the
+/// least, gnuplot has no room for the ends of an axis.
+bool is_drawable(double number, bool on_logarithmic_axis = false);
+
 /// All values, and a factor's room on both sides.
 std::pair<double, double> range_of(const std::vector<double>& values, double room);
 

@@ -485,7 +485,36 @@ DataAnalysis analyse(const DataFile& data) {
         analysis.columns.push_back(analyse_errors(analysis, in_order(errors, order), sigma));
     for (const auto& values : data.values)
         analysis.columns.push_back(analyse_values(analysis, in_order(values, order), sigma));
+    for (auto& column : analysis.columns)
+        if (finest_failed(analysis, column) &&
+            std::ranges::any_of(column.numbers, [](double number) { return std::isfinite(number); }))
+            column.findings.push_back(column.name + ": the finest row has no " +
+                                      (column.is_value ? "value" : "error") +
+                                      "; what is said is of the rows before it");
     return analysis;
+}
+
+bool has_failed(const ColumnAnalysis& column, std::size_t row) {
+    const double number = column.numbers[row];
+    return !(std::isfinite(number) && (column.is_value || number >= 0)) &&
+           (column.missing.empty() || !column.missing[row]);
+}
+
+bool finest_failed(const DataAnalysis& analysis, const ColumnAnalysis& column) {
+    const auto is_as_fine = [&](std::size_t row, std::size_t as) {
+        return std::ranges::all_of(analysis.widths, [&](const DataColumn& width) {
+            return width.numbers[row] <= width.numbers[as];
+        });
+    };
+    for (std::size_t row = 0; row < analysis.rows(); ++row) {
+        bool is_finest = has_failed(column, row);
+        for (std::size_t other = analysis.rows(); other-- > 0 && is_finest;) // finest first
+            is_finest = !std::isfinite(column.numbers[other]) || has_failed(column, other) ||
+                        !is_as_fine(other, row);
+        if (is_finest)
+            return true;
+    }
+    return false;
 }
 
 bool vanishes_at_the_finest(const DataAnalysis& analysis, const ColumnAnalysis& column) {

@@ -39,6 +39,14 @@ struct DataAnalysis {
 
 DataAnalysis analyse(const DataFile& data);
 
+/// Whether the number of a row is none that a run can end with: NaN, infinite, a negative error; but
+/// not one that the table leaves out.
+bool has_failed(const ColumnAnalysis& column, std::size_t row);
+
+/// Whether a row failed that no other is as fine as in all widths: what is said is then of the rows
+/// before it.
+bool finest_failed(const DataAnalysis& analysis, const ColumnAnalysis& column);
+
 /// vanishes_at_the_finest() of a column of errors.
 bool vanishes_at_the_finest(const DataAnalysis& analysis, const ColumnAnalysis& column);
 

@@ -27,7 +27,7 @@ public:
     ColumnCheck(const DataAnalysis& analysis, const ColumnAnalysis& column, TableReader& table,
                 std::vector<CheckedExpectation>& checked)
         : analysis_(analysis), column_(column), table_(table), checked_(checked),
-          finest_failed_(finest_failed()), vanishes_(vanishes_at_the_finest(analysis, column)) {}
+          finest_failed_(finest_failed(analysis, column)), vanishes_(vanishes_at_the_finest(analysis, column)) {}
 
     void run() {
         const std::size_t before = checked_.size();
@@ -57,30 +57,6 @@ private:
             metric.what = column_.name + ": " + metric.what;
             checked_.push_back(held(metric, band->lowest, band->highest, table.place(key)));
         }
-    }
-
-    bool has_failed(std::size_t row) const {
-        const double number = column_.numbers[row];
-        return !(std::isfinite(number) && (column_.is_value || number >= 0)) &&
-               (column_.missing.empty() || !column_.missing[row]);
-    }
-
-    /// Whether a run failed, so that its number is none, that no other is as fine as in all widths.
-    bool finest_failed() const {
-        const auto is_as_fine = [&](std::size_t row, std::size_t as) {
-            return std::ranges::all_of(analysis_.widths, [&](const DataColumn& width) {
-                return width.numbers[row] <= width.numbers[as];
-            });
-        };
-        for (std::size_t row = 0; row < analysis_.rows(); ++row) {
-            bool is_finest = has_failed(row);
-            for (std::size_t other = analysis_.rows(); other-- > 0 && is_finest;) // finest first
-                is_finest = !std::isfinite(column_.numbers[other]) || has_failed(other) ||
-                            !is_as_fine(other, row);
-            if (is_finest)
-                return true;
-        }
-        return false;
     }
 
     /// As a gate, an order or a limit must not pass because the finest run failed.

@@ -130,8 +130,9 @@ BOOST_AUTO_TEST_CASE(what_another_scene_has_left_goes_and_what_is_not_ours_stays
     directory.write("r/plots/mine.svg", "<svg/>");
     BOOST_TEST(call(directory, small + out(directory)).exit == 0);
     const auto names = written(directory);
-    for (const std::string gone : {"contraction.csv", "plots/contraction.svg",
-                                   "plots/contraction.png", "plots/contraction.dat"})
+    for (const std::string gone :
+         {"contraction.csv", "plots/contraction.svg", "plots/contraction.png",
+          "plots/contraction.pdf", "plots/contraction.dat"})
         BOOST_TEST(!names.contains(gone), gone);
     for (const std::string kept : {"stress.csv", "plots/mine.gp", "plots/mine.svg", "ladder.csv"})
         BOOST_TEST(names.contains(kept), kept);
@@ -213,6 +214,30 @@ BOOST_AUTO_TEST_CASE(without_gnuplot_scripts_and_data_are_written_and_a_sentence
     BOOST_TEST(names.contains("plots/convergence.dat"));
     BOOST_TEST(!names.contains("plots/convergence.svg"));
     BOOST_TEST(has(directory.read("r/report.html"), "gnuplot is not installed"));
+}
+
+BOOST_AUTO_TEST_CASE(what_cannot_be_drawn_has_no_figure) {
+    const TemporaryDirectory directory;
+    const auto solver = [&](const std::string& name, const std::string& program) {
+        return directory.write(name, "[solver]\n"
+                                     "command = [\"awk\", \"BEGIN {{ " +
+                                         program +
+                                         " }}\"]\n"
+                                         "errors  = { L2 = 'error (\\S+)' }\n"
+                                         "values  = { v = 'value (\\S+)' }\n"
+                                         "[ladder]\nelements = [4, 8, 16, 32]\n"
+                                         "norms = ['L2']\nvalues = ['v']\n");
+    };
+    // Next to the greatest double an axis has no room for its ends.
+    const std::string great =
+        solver("great.toml", R"(print \"value 1.7{elements}e308\"; print \"error 1e-320\")");
+    for (const auto& [scene, exit] : {std::pair{great, 0}, {solver("failing.toml", "exit 1"), 3}}) {
+        const Called called =
+            call(directory, "run " + scene + " " + files("'plots'") + out(directory));
+        BOOST_TEST(called.exit == exit, called.errors);
+        BOOST_TEST(!has(called.errors, "gnuplot"), called.errors);
+        BOOST_TEST(!std::filesystem::exists(directory.path() / "r/plots"));
+    }
 }
 
 BOOST_AUTO_TEST_CASE(a_script_run_by_hand_draws_the_same_picture) {

@@ -15,6 +15,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <mutex>
@@ -43,9 +44,14 @@ struct CheckOptions {
 
 std::string recorded_report(const std::vector<BaselineEntry>& entries, const std::string& file) {
     std::string text;
-    for (const auto& entry : entries)
-        text += fmt::format("recorded {} numbers of {} in {}\n", entry.figures.size(),
+    for (const auto& entry : entries) {
+        const auto failed = std::ranges::count_if(
+            entry.figures, [](const auto& figure) { return !std::isfinite(figure.second); });
+        text += fmt::format("recorded {} numbers{} of {} in {}\n",
+                            entry.figures.size() - static_cast<std::size_t>(failed),
+                            failed > 0 ? fmt::format(" and {} that failed", failed) : "",
                             visible(entry.name), visible(file));
+    }
     return text;
 }
 
