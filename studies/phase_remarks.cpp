@@ -22,7 +22,8 @@ using Eigen::ArrayXd;
 
 namespace {
 
-constexpr double tolerance = 1e-9; ///< of a jump, relative to what jumps
+constexpr double tolerance = 1e-9; ///< of a jump, relative to what jumps, in all the time before
+constexpr int looks = 8;           ///< at that time
 constexpr std::size_t most_listed = 5;
 
 using Decreasing = std::set<double, std::greater<>>;
@@ -50,7 +51,9 @@ RateJump rate_jump(const ProblemData& data, double end) {
     const auto jump = [&](const auto& of) -> ArrayXd {
         const ArrayXd left = of(end);
         const ArrayXd right = of(after);
-        const double size = left.abs().max(right.abs()).maxCoeff();
+        double size = right.abs().maxCoeff();
+        for (int k = 0; k <= looks; ++k) // what vanishes there leaves its rounding
+            size = std::max(size, of(end * k / looks).abs().maxCoeff());
         const ArrayXd difference = right - left;
         return difference.abs().maxCoeff() > tolerance * size ? difference
                                                               : ArrayXd::Zero(x.size());

@@ -69,9 +69,8 @@ struct LadderWidths {
 
 /// That can be drawn.
 std::optional<double> positive_error(const RungResult& rung, std::size_t k) {
-    return !rung.errors.empty() && is_drawable(rung.errors[k], true)
-               ? std::optional(rung.errors[k])
-               : std::nullopt;
+    return !rung.errors.empty() && is_drawable(rung.errors[k], true) ? std::optional(rung.errors[k])
+                                                                     : std::nullopt;
 }
 
 /// The order of the rows of a ladder that agree; none where none do: what is not determined is not

@@ -398,6 +398,34 @@ bool is_one_path(const std::vector<DataColumn>& widths, std::size_t along) {
     return true;
 }
 
+/// The units of the last digits printed, as they are seen in the values: those of the width change
+/// a value by its slope there, which is no more than the steeper one to the rows beside it. None
+/// where all is exact.
+std::vector<double> units_seen_in_values(const DataColumn& width, const DataColumn& values) {
+    auto units = values.units;
+    if (width.units.empty())
+        return units;
+    units.resize(values.numbers.size());
+    std::optional<std::size_t> before;
+    std::vector<double> slopes(units.size());
+    for (std::size_t r = 0; r < units.size(); ++r) {
+        if (!std::isfinite(values.numbers[r]))
+            continue;
+        if (before && width.numbers[*before] != width.numbers[r]) {
+            const double slope = std::abs((values.numbers[r] - values.numbers[*before]) /
+                                          (width.numbers[r] - width.numbers[*before]));
+            slopes[*before] = std::max(slopes[*before], slope);
+            slopes[r] = slope;
+        } else if (before) {
+            slopes[r] = slopes[*before];
+        }
+        before = r;
+    }
+    for (std::size_t r = 0; r < units.size(); ++r)
+        units[r] = std::hypot(units[r], slopes[r] * width.units[r]);
+    return units;
+}
+
 ColumnAnalysis analyse_values(const DataAnalysis& data, const DataColumn& values,
                               const std::vector<double>& sigma) {
     ColumnAnalysis column;
@@ -409,12 +437,13 @@ ColumnAnalysis analyse_values(const DataAnalysis& data, const DataColumn& values
     const auto used = refined(data.widths);
     const std::size_t along = used.empty() ? 0 : used.front();
     std::vector<ValueRow> rows(data.rows());
+    const auto units = units_seen_in_values(data.widths[along], values);
     for (std::size_t r = 0; r < rows.size(); ++r) {
         rows[r] = {data.widths[along].numbers[r], column.numbers[r]};
         if (!sigma.empty())
             rows[r].sigma = sigma[r];
-        else if (!values.units.empty())
-            rows[r].unit = values.units[r];
+        else if (!units.empty())
+            rows[r].unit = units[r];
     }
     const bool on_one_path = is_one_path(data.widths, along);
     std::string still;
@@ -487,7 +516,8 @@ DataAnalysis analyse(const DataFile& data) {
         analysis.columns.push_back(analyse_values(analysis, in_order(values, order), sigma));
     for (auto& column : analysis.columns)
         if (finest_failed(analysis, column) &&
-            std::ranges::any_of(column.numbers, [](double number) { return std::isfinite(number); }))
+            std::ranges::any_of(column.numbers,
+                                [](double number) { return std::isfinite(number); }))
             column.findings.push_back(column.name + ": the finest row has no " +
                                       (column.is_value ? "value" : "error") +
                                       "; what is said is of the rows before it");

@@ -39,8 +39,8 @@ struct DataAnalysis {
 
 DataAnalysis analyse(const DataFile& data);
 
-/// Whether the number of a row is none that a run can end with: NaN, infinite, a negative error; but
-/// not one that the table leaves out.
+/// Whether the number of a row is none that a run can end with: NaN, infinite, a negative error;
+/// but not one that the table leaves out.
 bool has_failed(const ColumnAnalysis& column, std::size_t row);
 
 /// Whether a row failed that no other is as fine as in all widths: what is said is then of the rows

@@ -27,7 +27,8 @@ public:
     ColumnCheck(const DataAnalysis& analysis, const ColumnAnalysis& column, TableReader& table,
                 std::vector<CheckedExpectation>& checked)
         : analysis_(analysis), column_(column), table_(table), checked_(checked),
-          finest_failed_(finest_failed(analysis, column)), vanishes_(vanishes_at_the_finest(analysis, column)) {}
+          finest_failed_(finest_failed(analysis, column)),
+          vanishes_(vanishes_at_the_finest(analysis, column)) {}
 
     void run() {
         const std::size_t before = checked_.size();
@@ -148,6 +149,20 @@ private:
             }
     }
 
+    /// Any row before it that has an error, or is at equal widths: of h and dt refined in turns a
+    /// row is often coarser than the one before it and finer than another.
+    bool refines_another(std::size_t row) const {
+        for (std::size_t other = 0; other < row; ++other) {
+            const bool is_coarser =
+                std::ranges::any_of(analysis_.widths, [&](const DataColumn& width) {
+                    return width.numbers[row] > width.numbers[other];
+                });
+            if (is_positive(column_.numbers[other]) && !is_coarser)
+                return true;
+        }
+        return row == 0;
+    }
+
     void check_rows() {
         for (const char* key : {"orders", "verdicts"})
             if (column_.is_value && table_.has(key))
@@ -158,12 +173,15 @@ private:
                                " are those from one row to the next, and these rows are a grid; "
                                "order.WIDTH is that of all rows in one width");
         std::vector<Metric> metrics;
-        // Rows of one width have one order between them; a row without an error has none, and is
-        // not passed over.
-        for (std::size_t row = 0; row < column_.orders.size(); ++row)
-            if (column_.orders[row] || !is_positive(column_.numbers[row]))
+        // Rows of one width have one order between them. A row without an error has none, nor one
+        // that is coarser in some width than each before it: these are not passed over.
+        for (std::size_t row = 0; row < column_.orders.size(); ++row) {
+            const bool has_error = is_positive(column_.numbers[row]);
+            if (column_.orders[row] || !has_error || !refines_another(row))
                 metrics.push_back({"observed order" + row_text(analysis_, row), column_.orders[row],
-                                   "none: the error is not a positive number"});
+                                   has_error ? "none: it refines no row before it"
+                                             : "none: the error is not a positive number"});
+        }
         if (metrics.empty())
             metrics.push_back({"observed order", std::nullopt, "none: no row refines another"});
         hold(table_, "orders", std::move(metrics));

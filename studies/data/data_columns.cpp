@@ -7,8 +7,9 @@
 #include <boost/algorithm/string/predicate.hpp>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
-#include <initializer_list>
+#include <functional>
 #include <set>
 #include <tuple>
 
@@ -16,28 +17,50 @@ namespace tvbeam {
 
 namespace {
 
-bool is_among(std::initializer_list<const char*> names, const std::string& name) {
-    return std::any_of(names.begin(), names.end(),
-                       [&](const char* one) { return boost::algorithm::iequals(one, name); });
+/// The words of a name, in small letters: n and dofs of n_dofs, n-Dofs and nDofs.
+std::vector<std::string> parts_of(const std::string& name) {
+    std::vector<std::string> words(1);
+    bool was_small = false;
+    for (const char c : name) {
+        const auto letter = static_cast<unsigned char>(c);
+        const bool is_of_a_word = std::isalnum(letter) != 0 || letter >= 0x80U;
+        if (!is_of_a_word || (was_small && std::isupper(letter) != 0))
+            words.emplace_back();
+        if (is_of_a_word)
+            words.back() += static_cast<char>(std::tolower(letter));
+        was_small = std::islower(letter) != 0;
+    }
+    std::erase(words, "");
+    return words;
 }
 
-/// Names that counts of things go by; h = n^(-1/d) of them.
-bool is_count(const std::string& name) {
-    return is_among({"elements", "cells", "ndofs", "ndof", "dofs", "dof", "n", "nx", "nodes",
-                     "nelem", "ncell", "ncells", "unknowns", "points", "size"},
-                    name);
+bool has_one_of(const std::set<std::string>& these, const std::vector<std::string>& words) {
+    return std::ranges::any_of(words,
+                               [&](const std::string& word) { return these.contains(word); });
 }
 
-/// Names of widths, which no dimension turns into others.
-bool is_width(const std::string& name) {
-    return is_among({"h", "hx", "hy", "hz", "hmax", "hmin", "h_max", "h_min", "dx", "dy", "dz",
-                     "width", "spacing"},
-                    name);
-}
+/// What a name says of the numbers in its column.
+enum class Meaning { width, count, unsaid };
 
-/// Names of numbers of time steps; Δt = 1/n of them.
-bool is_step_count(const std::string& name) {
-    return is_among({"steps", "nsteps", "n_steps", "timesteps", "nt"}, name);
+/// Of n things in a domain of dimension d, h = n^(-1/d); of n steps up to the time 1, Δt = 1/n.
+Meaning meaning_of(const std::string& name) {
+    static const std::set<std::string> numbers{"n", "num", "number", "count", "counts"};
+    static const std::set<std::string> things{
+        "elements", "elems",     "nelem",  "nelems",  "nelements", "nel",      "ne",
+        "cells",    "ncell",     "ncells", "dofs",    "dof",       "ndof",     "ndofs",
+        "nodes",    "nnodes",    "points", "npoints", "unknowns",  "vertices", "faces",
+        "nx",       "ny",        "nz",     "nr",      "intervals", "steps",    "nsteps",
+        "nstep",    "timesteps", "nt"};
+    static const std::set<std::string> widths{
+        "h",  "hx",  "hy",    "hz",      "hmax", "hmin",  "dx",   "dy",       "dz",      "dr",
+        "dt", "tau", "width", "spacing", "step", "delta", "diam", "diameter", "timestep"};
+    const auto words = parts_of(name);
+    if (words == std::vector<std::string>{"size"} || has_one_of(numbers, words))
+        return Meaning::count;
+    const bool says_width = has_one_of(widths, words);
+    return has_one_of(things, words) == says_width ? Meaning::unsaid
+           : says_width                            ? Meaning::width
+                                                   : Meaning::count;
 }
 
 /// The widths that a choice names, or those that need no name.
@@ -50,11 +73,13 @@ void choose_widths(const ColumnNames& names, const DataChoice& choice, DataFile&
                 sizes.emplace_back(name);
     for (const auto& size : sizes) {
         ColumnUse use{names.need(size, "--size"), true};
-        if (choice.dimension && is_width(size))
+        const Meaning meaning = meaning_of(size);
+        if (choice.dimension && meaning == Meaning::width)
             throw InputError(names.place, "column " + size +
                                               " is a width already; --dimension is for numbers of "
                                               "cells or unknowns");
-        const bool counts = choice.dimension || is_count(size);
+        const bool counts = choice.dimension || meaning == Meaning::count;
+        use.is_unsaid = !counts && meaning == Meaning::unsaid;
         const std::string name = !counts ? size : sizes.size() == 1 ? "h" : "h_" + size;
         if (counts) {
             const double dimension = choice.dimension.value_or(1.0);
@@ -74,11 +99,13 @@ void choose_widths(const ColumnNames& names, const DataChoice& choice, DataFile&
     if (step && std::none_of(uses.begin(), uses.end(),
                              [&](const ColumnUse& use) { return use.column == *step; })) {
         const std::string name = choice.step.value_or("dt");
-        const bool counts = is_step_count(name);
+        const Meaning meaning = meaning_of(name);
+        const bool counts = meaning == Meaning::count;
         if (counts)
             data.remarks.push_back("dt = 1/" + name + ": the time 1 was assumed");
         data.widths.push_back({counts ? "dt" : name, {}});
         uses.push_back({*step, true, counts ? -1.0 : 1.0});
+        uses.back().is_unsaid = meaning == Meaning::unsaid;
     }
     if (uses.empty())
         throw InputError(names.place, "no column h, elements or dt among " +
@@ -162,21 +189,6 @@ void require_one_column_each(const ColumnNames& names, const DataFile& data) {
         add(value.name);
 }
 
-/// Whether an error is less where the number is the greatest than where it is the least, of the
-/// rows that have one.
-bool falls_with(const DataColumn& errors, const std::vector<double>& numbers) {
-    std::optional<std::size_t> coarsest;
-    std::optional<std::size_t> finest;
-    for (std::size_t i = 0; i < numbers.size(); ++i) {
-        if (!std::isfinite(errors.numbers[i]))
-            continue;
-        coarsest = !coarsest || numbers[i] < numbers[*coarsest] ? i : *coarsest;
-        finest = !finest || numbers[i] > numbers[*finest] ? i : *finest;
-    }
-    return coarsest && numbers[*coarsest] < numbers[*finest] &&
-           errors.numbers[*finest] < errors.numbers[*coarsest];
-}
-
 } // namespace
 
 std::optional<std::size_t> ColumnNames::find(const std::string& name) const {
@@ -212,33 +224,30 @@ std::vector<ColumnUse> choose_columns(const ColumnNames& names, const DataChoice
     return uses;
 }
 
-void take_whole_sizes_for_counts(const DataChoice& choice, DataFile& data) {
-    const auto named = [&](const std::string& name) {
-        return std::ranges::find_if(data.widths, [&](const auto& one) { return one.name == name; });
-    };
-    for (const auto& size : choice.sizes) {
-        const auto width = named(size);
-        if (width == data.widths.end() || is_width(size) ||
-            !std::ranges::all_of(width->numbers, [](double number) {
+void require_sizes_that_are_known(const ColumnNames& names, const std::vector<ColumnUse>& uses,
+                                  DataFile& data) {
+    for (const auto& use : uses) {
+        if (!use.is_unsaid)
+            continue;
+        const auto& numbers = use.target->numbers;
+        if (std::ranges::adjacent_find(numbers, std::not_equal_to()) == numbers.end())
+            continue; // nothing is refined
+        const std::string& name = names.all[use.column];
+        if (std::ranges::all_of(numbers, [](double number) {
                 return number >= 1.0 && std::floor(number) == number;
             }))
-            continue;
-        if (data.errors.empty())
-            data.remarks.push_back(size + " was taken for a width; --dimension D says that it "
-                                          "counts what fills a domain");
-        if (std::ranges::none_of(data.errors, [&](const DataColumn& errors) {
-                return falls_with(errors, width->numbers);
-            }))
-            continue;
-        for (double& number : width->numbers)
-            number = 1.0 / number;
-        width->units.clear();
-        const std::string name = choice.sizes.size() == 1 ? "h" : "h_" + size;
-        if (named(name) == data.widths.end())
-            width->name = name;
-        data.remarks.push_back(width->name + " = 1/" + size +
-                               ", as its numbers are whole: dimension 1 was assumed; --dimension D "
-                               "says another, a name as h or dx that they are widths");
+            throw InputError(
+                names.place,
+                "column " + name +
+                    " has whole numbers, and its name does not say whether they are widths or "
+                    "count something. Call it h or n_" +
+                    name +
+                    ", a step in time dt or n_steps; or say with --dimension D that it "
+                    "counts what fills D dimensions");
+        data.remarks.push_back(name +
+                               " was taken for a width; --dimension D says that it counts "
+                               "what fills a domain, as a name like n_" +
+                               name + " does");
     }
 }
 

@@ -28,7 +28,8 @@ struct ColumnNames {
 struct ColumnUse {
     std::size_t column = 0;
     bool is_width = false;
-    double power = 1; ///< the width is the number to this power
+    double power = 1;       ///< the width is the number to this power
+    bool is_unsaid = false; ///< the name of a width says neither width nor count
     DataColumn* target = nullptr;
     std::vector<double>* plain = nullptr;    ///< in place of it, of deviations
     std::vector<PrintedDigits> printed = {}; ///< one a record
@@ -41,8 +42,10 @@ struct ColumnUse {
 std::vector<ColumnUse> choose_columns(const ColumnNames& names, const DataChoice& choice,
                                       DataFile& data);
 
-/// Sizes by a name that is not known count something where all are whole and from 2 on, and errors
-/// fall as they grow: h = 1/n then. Of values nobody can tell: they stay widths, which is said.
-void take_whole_sizes_for_counts(const DataChoice& choice, DataFile& data);
+/// Sizes and steps whose names say neither width nor count: widths, which is said, or, where all
+/// are whole, not known. Throws InputError there: what falls with the one grows with the other, and
+/// by which it does a solver that converges is told from one that does not.
+void require_sizes_that_are_known(const ColumnNames& names, const std::vector<ColumnUse>& uses,
+                                  DataFile& data);
 
 } // namespace tvbeam

@@ -12,6 +12,8 @@
 
 #include <boost/algorithm/string/replace.hpp>
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -314,6 +316,27 @@ void require_squares_of(const DataFile& data) {
     }
 }
 
+/// Widths that differ by rounding are one, which nothing refines: 0.01 and 0.1*0.1. So are all of a
+/// column that differ by so little that it refines nothing, as the mean steps of a solver that
+/// chooses them; this is said.
+void unite_alike(DataColumn& column, DataFile& data) {
+    constexpr double rounding = 1e-9;
+    constexpr double little = 0.05;
+    auto& widths = column.numbers;
+    std::vector<double> sorted = widths;
+    std::ranges::sort(sorted);
+    const double range = sorted.back() / sorted.front() - 1.0;
+    if (range > rounding && range <= little) {
+        data.remarks.push_back(fmt::format("{} changes by no more than {:.1g} % and was taken for "
+                                           "one width",
+                                           column.name, 100 * range));
+        std::ranges::fill(widths, sorted[sorted.size() / 2]);
+        return;
+    }
+    for (double& width : widths)
+        width = *std::ranges::lower_bound(sorted, width * (1.0 - rounding));
+}
+
 bool is_error(const DataFile& data, const ColumnUse& use) {
     return std::ranges::any_of(data.errors,
                                [&](const DataColumn& column) { return &column == use.target; });
@@ -368,7 +391,9 @@ DataFile read_data(const std::string& file, const DataChoice& choice) {
     for (const auto& use : uses)
         if (use.is_width && use.power == 1)
             use.target->units = printed_units_of_widths(use.target->numbers, use.printed);
-    take_whole_sizes_for_counts(choice, data);
+    require_sizes_that_are_known(names, uses, data);
+    for (auto& width : data.widths)
+        unite_alike(width, data);
     require_one_series(data, head.place, unread);
     require_squares_of(data);
     for (const auto& use : uses)

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <utility>
 
 namespace tvbeam {
 
@@ -81,8 +82,27 @@ std::vector<double> printed_units_of_errors(const std::vector<double>& errors,
     return units;
 }
 
+namespace {
+
+/// What widths are refined by, where it is not a power: 2, 3, 4, 5, 5/2 and (k + 1)/k, as 1/h is
+/// 10, 20, 30, 40 or 20, 50, 100.
+bool is_of_a_refinement(double least, double most) {
+    for (const double ratio : {2.0, 2.5, 3.0, 4.0, 5.0})
+        if (least <= ratio && ratio <= most)
+            return true;
+    for (int k = 2; k <= 12; ++k)
+        if (least <= (k + 1.0) / k && (k + 1.0) / k <= most)
+            return true;
+    return false;
+}
+
+} // namespace
+
 std::vector<double> printed_units_of_widths(const std::vector<double>& widths,
                                             const std::vector<PrintedDigits>& digits) {
+    const auto units = printed_units(widths, digits);
+    if (units.empty())
+        return {};
     constexpr int greatest_denominator = 12;
     constexpr double rounding = 1e-12;
     const auto is_fraction = [](double ratio) {
@@ -93,13 +113,29 @@ std::vector<double> printed_units_of_widths(const std::vector<double>& widths,
         }
         return false;
     };
-    auto sorted = widths;
+    std::vector<std::pair<double, double>> sorted; // widths and halves of their units
+    for (std::size_t i = 0; i < widths.size(); ++i)
+        sorted.emplace_back(widths[i], units[i] / 2);
     std::ranges::sort(sorted, std::greater());
     sorted.erase(std::unique(sorted.begin(), sorted.end()), sorted.end());
-    std::size_t others = 0;
-    for (std::size_t i = 1; i < sorted.size(); ++i)
-        others += is_fraction(sorted[i - 1] / sorted[i]) ? 0 : 1;
-    return 2 * others > sorted.size() - 1 ? printed_units(widths, digits) : std::vector<double>();
+    std::size_t no_fractions = 0;
+    bool all_exact = true;
+    // One digit is a choice: a format has two.
+    bool all_of_refinements =
+        std::ranges::any_of(digits, [](const PrintedDigits& one) { return one.significant > 1; });
+    for (std::size_t i = 1; i < sorted.size(); ++i) {
+        const auto& [coarse, half] = sorted[i - 1];
+        const auto& [fine, its_half] = sorted[i];
+        const double ratio = coarse / fine;
+        no_fractions += is_fraction(ratio) ? 0 : 1;
+        all_exact = all_exact && is_of_a_refinement(ratio * (1 - rounding), ratio * (1 + rounding));
+        all_of_refinements =
+            all_of_refinements && is_of_a_refinement((coarse - half) / (fine + its_half),
+                                                     (coarse + half) / (fine - its_half));
+    }
+    return 2 * no_fractions > sorted.size() - 1 || (all_of_refinements && !all_exact)
+               ? units
+               : std::vector<double>();
 }
 
 std::vector<double> deviations_of_rounding(const std::vector<double>& errors,

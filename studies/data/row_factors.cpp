@@ -28,13 +28,22 @@ bool is_among(std::string_view name, std::span<const std::string_view> names) {
         names, [&](std::string_view one) { return boost::algorithm::iequals(one, name); });
 }
 
-bool is_no_factor(const std::string& name) {
-    // Labels of replicates, also as a part of a name: sample_id, run-name.
-    constexpr std::array<std::string_view, 20> labels{
-        "seed",   "run",      "rep",     "replica", "replicate", "repeat",      "repetition",
-        "sample", "trial",    "batch",   "attempt", "draw",      "realization", "realisation",
-        "host",   "hostname", "machine", "commit",  "date",      "id"};
-    // What a run shows of itself, likewise: newton_iterations, wall_time.
+/// What a column may tell beside a series.
+enum class Told {
+    series,     ///< rows of one value and those of another may be two
+    replicates, ///< they are of one, at equal widths its scatter
+    outcome     ///< what a run shows of itself
+};
+
+Told told_by(const std::string& name) {
+    // Also with a word that says no more: sample_id, run-name; what run_type tells are series.
+    constexpr std::array<std::string_view, 17> labels{
+        "seed",        "run",         "rep",     "replica", "replicate", "repeat",
+        "repetition",  "sample",      "trial",   "batch",   "attempt",   "draw",
+        "realization", "realisation", "machine", "host",    "hostname"};
+    constexpr std::array<std::string_view, 8> of_labels{"id",    "name", "no",     "nr",
+                                                        "index", "num",  "number", "n"};
+    // Also as a part of a name: newton_iterations, wall_time.
     constexpr std::array<std::string_view, 18> outcomes{
         "seconds", "sec",        "cpu",  "wall",    "walltime", "runtime",
         "elapsed", "iterations", "iter", "its",     "niter",    "eoc",
@@ -43,9 +52,20 @@ bool is_no_factor(const std::string& name) {
     boost::algorithm::split(parts, name, [](char c) {
         return std::string_view("_-. ").find(c) != std::string_view::npos;
     });
-    return std::ranges::any_of(parts, [&](const std::string& part) {
-        return is_among(part, labels) || is_among(part, outcomes);
-    });
+    const auto any = [&](const auto& names) {
+        return std::ranges::any_of(parts,
+                                   [&](const std::string& part) { return is_among(part, names); });
+    };
+    if (any(outcomes))
+        return Told::outcome;
+    const bool is_label = any(labels) || boost::algorithm::iequals(name, "id");
+    return is_label && std::ranges::all_of(parts,
+                                           [&](const std::string& part) {
+                                               return is_among(part, labels) ||
+                                                      is_among(part, of_labels);
+                                           })
+               ? Told::replicates
+               : Told::series;
 }
 
 /// The records of one value of a column.
@@ -91,7 +111,7 @@ std::vector<Group> series_by(const UnreadColumn& column, const DataFile& data) {
     return series;
 }
 
-/// Says which texts of a column, of which one has several rows, are read as one series.
+/// Says which values of a column, of which one has several rows, are read as one series.
 void name_merged(const UnreadColumn& column, DataFile& data) {
     std::set<std::string_view> texts;
     std::vector<std::string> named;
@@ -104,10 +124,10 @@ void name_merged(const UnreadColumn& column, DataFile& data) {
         }
     if (texts.size() < 2 || texts.size() == rows)
         return;
-    data.remarks.push_back(fmt::format("rows of several {} are read as one series: {}{}; one alone "
-                                       "with --where '{}=…'",
-                                       column.name, boost::algorithm::join(named, ", "),
-                                       texts.size() == named.size() ? "" : ", …", column.name));
+    data.remarks.push_back(fmt::format(
+        "rows of several {} are read as {}: {}{}; one alone with --where '{}=…'", column.name,
+        column.is_of_replicates ? "replicates" : "one series", boost::algorithm::join(named, ", "),
+        texts.size() == named.size() ? "" : ", …", column.name));
 }
 
 /// Whether each width of both takes values in a range of some length in common.
@@ -216,8 +236,10 @@ std::vector<UnreadColumn> unread_columns(const ColumnNames& names,
     for (std::size_t column = 0; column < names.all.size(); ++column) {
         const auto is_it = [&](const auto& one) { return one.column == column; };
         if (std::ranges::none_of(uses, is_it) && std::ranges::none_of(conditions, is_it) &&
-            !is_no_factor(names.all[column]))
-            columns.push_back({column, names.all[column]});
+            told_by(names.all[column]) != Told::outcome)
+            columns.push_back({.column = column,
+                               .name = names.all[column],
+                               .is_of_replicates = told_by(names.all[column]) == Told::replicates});
     }
     return columns;
 }
@@ -227,6 +249,10 @@ void require_one_series(DataFile& data, const Place& names,
     // Of very many values the first show as much as all, and all pairs of them would take minutes.
     constexpr std::size_t most_compared = 200;
     for (const auto& column : columns) {
+        if (column.is_of_replicates) {
+            name_merged(column, data);
+            continue;
+        }
         auto series = series_by(column, data);
         series.resize(std::min(series.size(), most_compared));
         bool is_number = true;

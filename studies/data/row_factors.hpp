@@ -41,10 +41,11 @@ struct UnreadColumn {
     std::string name;
     std::vector<std::string_view> texts = {};        ///< one a record
     std::vector<std::optional<double>> numbers = {}; ///< what these are; none where they are none
+    bool is_of_replicates = false;                   ///< by its name, as seed or sample_id
 };
 
-/// All columns but those that are used, named by a condition, or by their names no factors: labels
-/// of replicates, as seed, and what a run shows of itself, as seconds.
+/// All columns but those that are used, named by a condition, or by their names what a run shows of
+/// itself, as seconds.
 std::vector<UnreadColumn> unread_columns(const ColumnNames& names,
                                          const std::vector<ColumnUse>& uses,
                                          const std::vector<RowCondition>& conditions);
@@ -53,7 +54,7 @@ std::vector<UnreadColumn> unread_columns(const ColumnNames& names,
 /// or more and another at two of the same; one number at three and another, and the ranges of both
 /// overlap; or one text and another, and the ranges overlap, or both refine all that the table
 /// does. Only records with a figure count. Adds to the data's remarks which texts, each of some
-/// rows and not enough to be a series, are read together.
+/// rows and not enough to be a series, are read together, and those of replicates.
 void require_one_series(DataFile& data, const Place& names,
                         const std::vector<UnreadColumn>& columns);
 

@@ -6,7 +6,9 @@
 #include <Eigen/QR>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -126,16 +128,53 @@ private:
     Eigen::MatrixXd matrix_; ///< a row a record, in parts of its e²
 };
 
+std::optional<KnownOrderSizes> sizes_of(std::span<const Refinement> records,
+                                        std::optional<double> p, std::optional<double> q,
+                                        bool is_maximum) {
+    const KnownOrderFit fit(records, p, q);
+    if (fit.rows() < fit.columns() + 2)
+        return std::nullopt;
+    return is_maximum ? fit.sizes_of_maximum() : fit.sizes();
+}
+
+/// Without the coarsest level of a width.
+std::vector<Refinement> finer_of(std::span<const Refinement> records, double Refinement::*width) {
+    double coarsest = 0.0;
+    for (const auto& record : records)
+        if (record.error > 0.0)
+            coarsest = std::max(coarsest, record.*width);
+    std::vector<Refinement> finer(records.begin(), records.end());
+    std::erase_if(finer, [&](const Refinement& record) { return record.*width == coarsest; });
+    return finer;
+}
+
+/// A size is known as far as it is that of finer rows, to what is known of that.
+void widen(std::optional<FittedSize>& size, const std::optional<FittedSize>& finer) {
+    if (size)
+        size->uncertainty = std::max(
+            size->uncertainty,
+            finer ? std::abs(finer->value - size->value) - finer->uncertainty : size->value);
+}
+
 } // namespace
 
 KnownOrderSizes fit_known_orders(std::span<const Refinement> records, std::optional<double> p,
                                  std::optional<double> q, bool is_maximum) {
     if (!p && !q)
         return {};
-    const KnownOrderFit fit(records, p, q);
-    if (fit.rows() < fit.columns() + 2)
+    const auto all = sizes_of(records, p, q, is_maximum);
+    if (!all) {
+        const KnownOrderFit fit(records, p, q);
         return {fmt::format("{} runs; the fit takes {}", fit.rows(), fit.columns() + 2), {}, {}};
-    return is_maximum ? fit.sizes_of_maximum() : fit.sizes();
+    }
+    KnownOrderSizes result = *all;
+    for (const auto& [size, width, is_there] :
+         {std::tuple(&KnownOrderSizes::a, &Refinement::h, p.has_value()),
+          {&KnownOrderSizes::b, &Refinement::dt, q.has_value()}})
+        if (is_there)
+            if (const auto finer = sizes_of(finer_of(records, width), p, q, is_maximum))
+                widen(result.*size, (*finer).*size);
+    return result;
 }
 
 } // namespace tvbeam

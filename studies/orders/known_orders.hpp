@@ -26,8 +26,10 @@ struct KnownOrderSizes {
 ///     e² = a² h^2p (1 + … h²) + 2ρab h^p Δt^q (1 + … h² + … Δt) + b² Δt^2q (1 + … Δt)
 ///
 /// for norms e; the three corrections of the next order take up what the coarse rows have more than
-/// their leading terms. p or q none: no such term. Records that are not finite are passed over; it
-/// takes two more than there are columns.
+/// their leading terms. What they leave is no scatter: the half-width of a size is no less than
+/// what the size differs by, beyond its own half-width, without the coarsest level of its width.
+/// p or q none: no such term. Records that are not finite are passed over; it takes two more than
+/// there are columns.
 ///
 /// Where e is a maximum over time ρ is not the same in all rows: one term is largest at one time,
 /// the other at another, and which of them counts changes with their ratio r. The size of a term is

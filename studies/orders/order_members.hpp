@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 
+#include <algorithm>
 #include <vector>
 
 namespace tvbeam {
@@ -16,6 +17,10 @@ struct EnsembleMember {
     int family = 0;          ///< members of one family have one model
     std::vector<int> place;  ///< the window; neighbours differ by one in one number
     Eigen::Index along = -1; ///< the one width that it knows; -1: all
+
+    bool is_of_all_rows() const {
+        return along < 0 && std::ranges::all_of(place, [](int dropped) { return dropped == 0; });
+    }
 };
 
 /// Families of members are the models of all widths, and, from this on for each width in turn,

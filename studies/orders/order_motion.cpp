@@ -129,6 +129,69 @@ std::vector<Eigen::Index> OrderMotion::finest_rows() const {
     return rows;
 }
 
+/// The orders from each of these rows to the next, by what says the logarithm of a row's error.
+std::vector<double>
+OrderMotion::local_orders(const std::vector<Eigen::Index>& rows,
+                          const std::function<double(Eigen::Index)>& log_error) const {
+    std::vector<double> orders;
+    for (std::size_t i = 0; i + 1 < rows.size(); ++i)
+        orders.push_back(
+            (log_error(rows[i]) - log_error(rows[i + 1])) /
+            (rows_.log_widths(rows[i], width_) - rows_.log_widths(rows[i + 1], width_)));
+    return orders;
+}
+
+/// Whether each of these rows has nearly the error of the one that is coarser by a level in another
+/// width: what is left of the other terms is then less.
+bool OrderMotion::others_change_nothing(const std::vector<Eigen::Index>& rows) const {
+    const auto level = [&](Eigen::Index r, Eigen::Index i) {
+        return level_of(levels_[static_cast<std::size_t>(i)], rows_.log_widths(r, i));
+    };
+    for (Eigen::Index other = 0; other < rows_.widths(); ++other) {
+        if (other == width_)
+            continue;
+        for (const auto row : rows) {
+            bool is_like_a_coarser_one = false;
+            for (Eigen::Index r = 0; r < rows_.size() && !is_like_a_coarser_one; ++r) {
+                bool is_beside = level(r, other) + 1 == level(row, other);
+                for (Eigen::Index i = 0; i < rows_.widths(); ++i)
+                    is_beside = is_beside && (i == other || level(r, i) == level(row, i));
+                is_like_a_coarser_one =
+                    is_beside &&
+                    std::abs(rows_.log_errors[r] - rows_.log_errors[row]) <= tuning_.unchanged;
+            }
+            if (!is_like_a_coarser_one)
+                return false;
+        }
+    }
+    return true;
+}
+
+std::optional<double> OrderMotion::rises_past(double high) const {
+    if (rows_.widths() == 1 || rows_.log_reference.size() > 0)
+        return std::nullopt;
+    const auto rows = finest_rows();
+    const auto orders = local_orders(rows, [&](Eigen::Index r) { return rows_.log_errors[r]; });
+    if (orders.size() < 2 || !others_change_nothing(rows))
+        return std::nullopt;
+    // Five levels show a constant, as of a reference that is not named, that a model has to this.
+    constexpr std::size_t of_five_levels = 4;
+    constexpr double exactly = 1e-5;
+    if (orders.size() >= of_five_levels &&
+        std::ranges::any_of(members_, [&](const EnsembleMember& member) {
+            return member.family == 0 && member.is_of_all_rows() && member.fit.scale <= exactly;
+        }))
+        return std::nullopt;
+    for (std::size_t i = 1; i < orders.size(); ++i)
+        if (!(orders[i] - orders[i - 1] > tuning_.narrowest))
+            return std::nullopt;
+    constexpr double deviations = 2;
+    const double step =
+        rows_.log_widths(rows[rows.size() - 2], width_) - rows_.log_widths(rows.back(), width_);
+    const double least = tuning_.explained + deviations * std::sqrt(2.0) * rows_.scatter / step;
+    return orders.back() - high > least ? std::optional(orders.back()) : std::nullopt;
+}
+
 /// Whether the fit is one of terms that a method may have: without any bound on their orders next
 /// terms follow exp(−1/h), too. Of leading terms alone one may be a constant that the error is
 /// above or below.
@@ -153,13 +216,7 @@ std::optional<double> OrderMotion::greatest_of_a_rise() const {
     const auto step = [&](std::size_t i) {
         return rows_.log_widths(rows[i], width_) - rows_.log_widths(rows[i + 1], width_);
     };
-    const auto local_orders = [&](const auto& log_error) {
-        std::vector<double> orders;
-        for (std::size_t i = 0; i + 1 < rows.size(); ++i)
-            orders.push_back((log_error(rows[i]) - log_error(rows[i + 1])) / step(i));
-        return orders;
-    };
-    const auto orders = local_orders([&](Eigen::Index r) { return rows_.log_errors[r]; });
+    const auto orders = local_orders(rows, [&](Eigen::Index r) { return rows_.log_errors[r]; });
     const auto at = static_cast<std::size_t>(std::ranges::max_element(orders) - orders.begin());
     if (orders.empty() || at < 1)
         return std::nullopt;
@@ -176,7 +233,7 @@ std::optional<double> OrderMotion::greatest_of_a_rise() const {
             !(member.fit.next_part(width_, rows_.log_widths(rows.front(), width_)) >
               tuning_.least_left - 1))
             return false;
-        const auto modelled = local_orders([&](Eigen::Index r) {
+        const auto modelled = local_orders(rows, [&](Eigen::Index r) {
             return member.fit.log_error(rows_.log_widths.row(r).transpose(), has_reference).value;
         });
         for (std::size_t i = 0; i < orders.size(); ++i)

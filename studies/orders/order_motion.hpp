@@ -8,6 +8,7 @@
 
 #include <Eigen/Core>
 
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -28,6 +29,10 @@ public:
     [[nodiscard]] bool goes_on(double order) const {
         return runs_away() || leaps(order) || greatest_of_a_rise().has_value();
     }
+    /// Of a grid against the exact solution: the last of its local orders where the other widths
+    /// are finest and change next to nothing, where they rise from level to level to more than
+    /// `high`: a model that says less has a constant of the opposite sign, which no method has.
+    [[nodiscard]] std::optional<double> rises_past(double high) const;
     /// Of a sequence: whether one model's order stands still over its windows, all but one, while
     /// that of the leading term alone moves: then that model says what it moves to.
     [[nodiscard]] bool is_explained() const;
@@ -42,6 +47,10 @@ private:
     [[nodiscard]] bool runs_away() const;
     [[nodiscard]] bool leaps(double order) const;
     [[nodiscard]] std::vector<Eigen::Index> finest_rows() const;
+    [[nodiscard]] std::vector<double>
+    local_orders(const std::vector<Eigen::Index>& rows,
+                 const std::function<double(Eigen::Index)>& log_error) const;
+    [[nodiscard]] bool others_change_nothing(const std::vector<Eigen::Index>& rows) const;
     [[nodiscard]] bool has_usual_terms(const EnsembleMember& member) const;
     [[nodiscard]] std::optional<double> greatest_of_a_rise() const;
 

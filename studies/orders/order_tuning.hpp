@@ -95,6 +95,8 @@ struct OrderTuning {
     /// A model follows rows that stand off it by no more than this (root of mean square), or thrice
     /// known scatter.
     double followed = 0.15;
+    /// Errors that differ by no more than this part show no other term beside them.
+    double unchanged = 0.1;
     /// A width that changes no error by more than this part is left out: what the orders of others
     /// could owe to it is far below `narrowest`.
     double idle = 1e-4;

@@ -175,7 +175,7 @@ private:
 
     RowVerdict past_the_window(std::size_t i, const Run& run, double least) const {
         if (!orders_[i])
-            return {Verdict::pre_asymptotic, "nothing is refined against the row before"};
+            return {Verdict::pre_asymptotic, "not finer than the row before in all that changes"};
         const double order = *orders_[i];
         if (order < 0 && levels_[i].mean.error > tuning.floor_scatter * least)
             return {
@@ -274,7 +274,7 @@ private:
                 : size() == 1
                     ? RowVerdict{Verdict::pre_asymptotic, "one level alone shows no order"}
                     : RowVerdict{Verdict::pre_asymptotic,
-                                 "nothing is refined against the row before"});
+                                 "not finer than the row before in all that changes"});
         // The first level is one end of the pair that is judged in the second.
         if (size() > 1 && orders_[1])
             verdicts_[0] = verdicts_[1];

@@ -1,0 +1,227 @@
+// Why an order is not determined, or its interval wider than members agree (order_engine.hpp).
+#include "studies/orders/order_engine.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace tvbeam {
+
+using Index = Eigen::Index;
+
+/// How far from an order that of a logarithm, or of a next term half an order on, is, where
+/// scatter, or a width of a grid with three levels, leaves open whether there is one: of all models
+/// of all rows with one that follow them about as closely as any. With its 95 % where the size of
+/// that term is told from zero; at zero it and the order have nearly one derivative, and the
+/// order's error says nothing.
+double OrderEnsemble::distance_to_slow_terms(Index width, double order) const {
+    if (!(rows_.scatter > 0) && (rows_.widths() == 1 || !has_width_of_few_levels()))
+        return 0;
+    const auto at = static_cast<std::size_t>(width);
+    double closest = infinity;
+    for (const auto& member : members_)
+        if (member.is_of_all_rows())
+            closest = std::min(closest, member.fit.scale);
+    const double most =
+        tuning_.about_as_closely * std::max({closest, rows_.scatter, least_scatter});
+    double farthest = 0;
+    for (const double slow : {TermShape::logarithm, 0.5}) {
+        TermShape alone{std::vector<double>(levels_.size(), TermShape::none)};
+        alone.next[at] = slow;
+        // A logarithm that is lost without terms beside it (order_members.cpp) is none.
+        if (std::ranges::none_of(members_, [&](const EnsembleMember& member) {
+                return member.is_of_all_rows() && member.fit.shape == alone;
+            }))
+            continue;
+        for (const auto& member : members_) {
+            const TermFit& fit = member.fit;
+            if (!member.is_of_all_rows() || fit.shape.next[at] != slow || fit.scale > most)
+                continue;
+            const auto [own, error] = fit.order(width);
+            const auto size = fit.next(width);
+            const bool is_told = std::abs(size.value) > 1.96 * size.error;
+            farthest = std::max(farthest, std::abs(own - order) + (is_told ? 1.96 * error : 0.0) +
+                                              tuning_.narrowest);
+        }
+    }
+    return farthest;
+}
+
+/// How far from an order the one is that the orders of consecutive levels go to, where their
+/// differences shrink more slowly than those of a next term half an order on: as those of h^1.8
+/// beside h^2 do, which no model has. The slope of the order over ln h is taken to fall as h^gap,
+/// the gap being what the last two slopes show, and no less than least_gap. Of orders that go one
+/// way alone: others scatter, or have turned.
+double OrderEnsemble::distance_to_close_terms(double order) const {
+    constexpr std::size_t fewest = 4; // levels: two differences of orders
+    if (rows_.widths() != 1 || rows_.scatter > 0 || rows_.log_reference.size() > 0 ||
+        rows_.size() != static_cast<Index>(levels_.front().size()) ||
+        levels_.front().size() < fewest || motion_of(0).is_explained())
+        return 0;
+    // A next term an order or two on leaves a millionth of what the leading one leaves alone, a
+    // close one a sixth.
+    double leading = 0;
+    double with_next = infinity;
+    for (const auto& member : members_)
+        if (member.is_of_all_rows() && member.family == 0)
+            leading = member.fit.scale;
+        else if (member.is_of_all_rows() && member.fit.shape.next.front() >= 1)
+            with_next = std::min(with_next, member.fit.scale);
+    constexpr double all_but = 0.1;
+    if (with_next < all_but * leading)
+        return 0;
+    std::vector<std::pair<double, double>> rows; // ln h and ln e, coarse to fine
+    for (Index r = 0; r < rows_.size(); ++r)
+        rows.emplace_back(rows_.log_widths(r, 0), rows_.log_errors[r]);
+    std::ranges::sort(rows, std::greater<>());
+    std::vector<double> orders, places;
+    for (std::size_t r = 1; r < rows.size(); ++r) {
+        orders.push_back((rows[r - 1].second - rows[r].second) /
+                         (rows[r - 1].first - rows[r].first));
+        places.push_back((rows[r - 1].first + rows[r].first) / 2);
+    }
+    const std::size_t n = orders.size();
+    if (!std::ranges::is_sorted(orders) && !std::ranges::is_sorted(orders, std::greater<>()))
+        return 0;
+    const double last = (orders[n - 1] - orders[n - 2]) / (places[n - 2] - places[n - 1]);
+    const double before = (orders[n - 2] - orders[n - 3]) / (places[n - 3] - places[n - 2]);
+    const double step = (places[n - 3] - places[n - 1]) / 2;
+    // Slopes of the order over ln h fall as h^gap, from the middle of two steps to that of the
+    // next.
+    constexpr double half_an_order = 0.5;
+    constexpr double least_gap = 0.05;
+    const double gap = std::max(std::log(before / last) / step, least_gap);
+    if (!(gap < half_an_order))
+        return 0;
+    const double rest = last / gap * std::exp(-gap * (places[n - 2] - places[n - 1]) / 2);
+    constexpr double margin = 1.5; // the gap shows too large where the two terms are as large
+    return std::abs(orders[n - 1] + margin * rest - order);
+}
+
+/// By the leading terms; where against a reference their search went on to no order at all
+/// (order_members.cpp), by all models.
+double OrderEnsemble::greatest_share(Index width) const {
+    const auto counts = [&](const EnsembleMember& member) {
+        return member.along < 0 &&
+               (rows_.log_reference.size() == 0 || std::isfinite(member.fit.order(width).error));
+    };
+    const bool by_leading = std::ranges::any_of(members_, [&](const EnsembleMember& member) {
+        return member.family == 0 && counts(member);
+    });
+    double share = 0;
+    for (const auto& member : members_)
+        if (counts(member) && (member.family == 0 || !by_leading))
+            share = std::max(share, share_of_errors(member.fit, width, rows_));
+    return share;
+}
+
+/// Whether a model of all rows follows them: of what none follows windows say this and that.
+bool OrderEnsemble::is_followed() const {
+    constexpr double deviations = 3;
+    return rows_.widths() == 1 || std::ranges::any_of(members_, [&](const EnsembleMember& member) {
+               return member.is_of_all_rows() &&
+                      member.fit.scale <= std::max(tuning_.followed, deviations * rows_.scatter);
+           });
+}
+
+/// Whether another width's term stands still in a fit and is this part of an error.
+bool OrderEnsemble::has_constant_beside(const EnsembleMember& member, Index width,
+                                        double share) const {
+    for (Index i = 0; i < rows_.widths(); ++i)
+        if (i != width && std::abs(member.fit.order(i).value) < tuning_.constant &&
+            share_of_errors(member.fit, i, rows_) >= share)
+            return true;
+    return false;
+}
+
+/// Whether a next term's order in a width of three levels goes with a constant that is seen. Three
+/// levels do not tell it from a next term, and so many models have one that they outweigh those
+/// that do not. Against a reference, which has it, too, there is none.
+bool OrderEnsemble::leans_on_a_constant(const EnsembleMember& member, Index width) const {
+    return member.along < 0 && member.family != 0 && rows_.log_reference.size() == 0 &&
+           levels_[static_cast<std::size_t>(width)].size() == fewest_levels &&
+           has_constant_beside(member, width, tuning_.seen);
+}
+
+/// Whether another order may follow the levels of a width as well, with another correlation between
+/// it and a constant that is most of the error: four levels have no more to say than these two, a
+/// size and the constant. Of h^p + f on four levels 64 of 116 of the orders 3 and 4 were wrong, as
+/// low as 1.6, and none of order 1.
+bool OrderEnsemble::is_ambiguous(Index width) const {
+    constexpr std::size_t numbers = 4;
+    constexpr double most_of_it = 0.5;
+    constexpr double single = 1; // orders up to this
+    if (rows_.widths() == 1 || rows_.log_reference.size() > 0 ||
+        levels_[static_cast<std::size_t>(width)].size() > numbers)
+        return false;
+    return std::ranges::any_of(members_, [&](const EnsembleMember& member) {
+        return member.family == 0 && member.along < 0 &&
+               member.fit.order(width).value > single + tuning_.narrowest &&
+               has_constant_beside(member, width, most_of_it);
+    });
+}
+
+/// Whether a steep order is seen at three levels: two show how the error falls between them, and
+/// not that it falls so again. A smaller part of the error than this is not seen, however well
+/// models follow it: those of exp(−1/h) do, too.
+bool OrderEnsemble::is_seen_as_a_power(Index width, const OrderInterval& order) const {
+    if (!(order.value > tuning_.steep) || rows_.widths() == 1)
+        return true;
+    const auto& levels = levels_[static_cast<std::size_t>(width)];
+    for (const auto& member : members_) {
+        if (member.family != 0 ||
+            std::abs(member.fit.order(width).value - order.value) > tuning_.widest)
+            continue;
+        std::vector<bool> seen(levels.size(), false);
+        for (Index r = 0; r < rows_.size(); ++r) {
+            const double log_width = rows_.log_widths(r, width);
+            const int level = level_of(levels, log_width);
+            if (level >= member.place[static_cast<std::size_t>(width)] &&
+                member.fit.measured_term(width, log_width) >=
+                    tuning_.seen * std::exp(rows_.log_errors[r]))
+                seen[static_cast<std::size_t>(level)] = true;
+        }
+        if (std::ranges::count(seen, true) >= static_cast<int>(fewest_levels))
+            return true;
+    }
+    return false;
+}
+
+bool OrderEnsemble::is_settled(Index width, const OrderInterval& order) const {
+    const OrderMotion motion = motion_of(width);
+    return !motion.goes_on(order.value) && !motion.rises_past(order.high) && is_followed() &&
+           !is_ambiguous(width) && is_seen_as_a_power(width, order);
+}
+
+std::string OrderEnsemble::status_of(Index width, const OrderInterval& order) const {
+    if (order.share < tuning_.least_share)
+        return "hidden: its term is less than 15 % of every error";
+    if ((std::abs(order.value) <= 2 * tuning_.narrowest && order.half_width() <= tuning_.widest) ||
+        stands_still())
+        return "the error stands still";
+    if (order.high <= 0)
+        return fmt::format("the error grows under refinement, order {:.2f}", order.value);
+    if (is_ambiguous(width))
+        return fmt::format("beside a constant {} levels have more than one",
+                           levels_[static_cast<std::size_t>(width)].size());
+    std::string moves = motion_of(width).words();
+    if (const auto last = motion_of(width).rises_past(order.high))
+        moves = fmt::format("it rises from level to level where the others are finest, to {:.2f}",
+                            *last);
+    if (moves.empty() && !is_seen_as_a_power(width, order))
+        return fmt::format("no window shows an order of {:.1f} at three levels", order.value);
+    if (!moves.empty())
+        return moves;
+    return is_followed() ? "models and windows do not agree" : "no model follows all rows";
+}
+
+bool OrderEnsemble::stands_still() const {
+    const auto range = [](const Eigen::VectorXd& logs) {
+        return logs.maxCoeff() - logs.minCoeff();
+    };
+    return rows_.widths() == 1 &&
+           range(rows_.log_errors) <= 2 * tuning_.narrowest * range(rows_.log_widths.col(0));
+}
+
+} // namespace tvbeam
