@@ -264,6 +264,10 @@ LeadingTerm leading_term(const Norm& norm, double order, const Squares& squares)
         for (std::size_t q = 0; q < quantity_count; ++q)
             if (part.quantities[q] && squares.orders[q] == order)
                 values += squares.values[q];
+        if (part.kind == TimeNorm::Kind::Linf && norm.parts.size() == 1) {
+            const ArrayXd roots = values.sqrt();
+            return {order, roots.maxCoeff(), {roots.begin(), roots.end()}, squares.t(1)};
+        }
         if (part.kind == TimeNorm::Kind::Linf)
             sum += values.maxCoeff();
         else
@@ -429,6 +433,18 @@ void settle(const std::vector<ForecastMethod>& methods, const Forecaster& foreca
 }
 
 } // namespace
+
+double LeadingTerm::seen_by(double step) const {
+    if (over_time.empty())
+        return 1.0;
+    const double end = time_step * static_cast<double>(over_time.size() - 1);
+    double most = 0.0;
+    for (double n = 1.0; n * step <= end * (1.0 + 1e-9); ++n) {
+        const auto at = static_cast<std::size_t>(std::llround(n * step / time_step));
+        most = std::max(most, over_time[std::min(at, over_time.size() - 1)]);
+    }
+    return most / constant;
+}
 
 const NormConstants* ErrorConstants::of(const std::string& norm) const {
     const auto found = std::find_if(norms.begin(), norms.end(),

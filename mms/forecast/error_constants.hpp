@@ -14,6 +14,14 @@ namespace tvbeam {
 struct LeadingTerm {
     double order = 0.0;
     double constant = 0.0;
+    /// Of a maximum over time, what it is the maximum of, from 0 on in times of equal distance;
+    /// else empty.
+    std::vector<double> over_time = {};
+    double time_step = 0.0;
+
+    /// The part of the constant that levels n·step after 0 see: less than 1 where the maximum
+    /// stands between them, as before the first. 1 of what is no maximum.
+    [[nodiscard]] double seen_by(double step) const;
 };
 
 struct NormConstants {

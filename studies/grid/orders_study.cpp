@@ -11,7 +11,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
+#include <set>
 #include <utility>
 
 namespace tvbeam {
@@ -91,6 +93,38 @@ std::vector<std::string> rejected(const OrdersResult& result, std::size_t k) {
 /// Of a size that the grid determines: the half-width of its 95 % interval, as a share of it.
 constexpr double largest_share_of_a_known_size = 0.1;
 
+/// Why a size that is not the forecast one is not the grid's: only what its runs show is held
+/// against a method. other: the term in the other width, null where there is none.
+std::string not_shown(const std::vector<Refinement>& runs, double Refinement::*width,
+                      const LeadingTerm& term, double size, const LeadingTerm* other,
+                      double other_size, const OrderInterval& order) {
+    if (!(order.determined && order.low <= term.order && term.order <= order.high))
+        return order.determined ? fmt::format(", and the order is {:.2f} ± {:.2f}", order.value,
+                                              order.half_width())
+                                : ", and the order is not determined";
+    if (term.over_time.empty())
+        return {};
+    double least_seen = 1.0;
+    std::set<double> levels; // at which the term is by far the larger one
+    for (const auto& run : runs) {
+        if (!(run.error > 0.0))
+            continue;
+        least_seen = std::min(least_seen, term.seen_by(run.dt));
+        const double other_width = width == &Refinement::h ? run.dt : run.h;
+        const double beside =
+            other == nullptr ? 0.0 : other_size * std::pow(other_width, other->order);
+        if (3.0 * beside <= size * std::pow(run.*width, term.order))
+            levels.insert(run.*width);
+    }
+    constexpr double nearly_all = 0.99;
+    if (least_seen < nearly_all)
+        return fmt::format(", and the maximum over time stands between the levels of the longest "
+                           "steps, which see {:.2g} of it",
+                           least_seen);
+    return levels.size() < 3 ? ", and the other term hides where its maximum stands"
+                             : std::string();
+}
+
 /// Sizes that the grid gives to terms of the forecast orders, over the forecast ones.
 std::vector<Metric> forecast_metrics(std::size_t k, double within, const StudyResult& result) {
     const OrdersBlock& block = *result.scene.get<OrdersBlock>();
@@ -109,17 +143,29 @@ std::vector<Metric> forecast_metrics(std::size_t k, double within, const StudyRe
         return term ? std::optional(term->order) : std::nullopt;
     };
     const auto known = Norm::named(measure.root());
-    const auto sizes =
-        fit_known_orders(root_records_of(result.get<OrdersResult>()->runs, k, measure),
-                         order(norm->in_h), order(norm->in_dt), known && known->has_maximum());
+    const auto runs = root_records_of(result.get<OrdersResult>()->runs, k, measure);
+    const auto sizes = fit_known_orders(runs, order(norm->in_h), order(norm->in_dt),
+                                        known && known->has_maximum());
     std::vector<Metric> metrics;
-    const auto add = [&](const std::string& size, const std::optional<LeadingTerm>& term,
-                         const std::optional<FittedSize>& fitted) {
+    const TwoTermFit& free = result.get<OrdersResult>()->norms[k].fit;
+    const auto add = [&](const std::string& size, double Refinement::*width,
+                         const std::optional<LeadingTerm>& term,
+                         const std::optional<FittedSize>& fitted,
+                         const std::optional<LeadingTerm>& other,
+                         const std::optional<FittedSize>& its_size, const OrderInterval& order) {
         if (!term)
             return;
         const double share = fitted ? fitted->uncertainty / fitted->value : infinity;
         // A wide band asks for no less: a term that the others hide is not found.
-        const bool known = share <= std::min(within, largest_share_of_a_known_size);
+        bool known = share <= std::min(within, largest_share_of_a_known_size);
+        std::string reason;
+        if (known && std::abs(fitted->value / term->constant - 1.0) > within) {
+            reason = free.holds()
+                         ? not_shown(runs, width, *term, fitted->value, other ? &*other : nullptr,
+                                     its_size ? its_size->value : 0.0, order)
+                         : ", and the runs have no model";
+            known = reason.empty();
+        }
         const std::string found =
             fitted ? fmt::format("{:.3g} ± {:.3g} of ", fitted->value / term->constant,
                                  fitted->uncertainty / term->constant)
@@ -127,12 +173,12 @@ std::vector<Metric> forecast_metrics(std::size_t k, double within, const StudyRe
         metrics.push_back(
             metric(size, known ? std::optional(fitted->value / term->constant) : std::nullopt,
                    sizes.failure.empty()
-                       ? fmt::format("the grid does not determine it: {}a forecast of {:.3g}",
-                                     found, term->constant)
+                       ? fmt::format("the grid does not determine it: {}a forecast of {:.3g}{}",
+                                     found, term->constant, reason)
                        : sizes.failure));
     };
-    add("a", norm->in_h, sizes.a);
-    add("b", norm->in_dt, sizes.b);
+    add("a", &Refinement::h, norm->in_h, sizes.a, norm->in_dt, sizes.b, free.p);
+    add("b", &Refinement::dt, norm->in_dt, sizes.b, norm->in_h, sizes.a, free.q);
     if (metrics.empty())
         metrics.push_back(metric("a, b", std::nullopt, "no error is forecast"));
     return metrics;
