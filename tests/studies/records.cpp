@@ -423,31 +423,51 @@ BOOST_AUTO_TEST_CASE(sizes_are_widths_or_numbers_of_things_and_what_is_assumed_i
     BOOST_TEST(data_of("H,Error\n0.5,1\n").widths[0].numbers[0] == 0.5);
 }
 
-// Numbers of elements by any name; a width may be whole, too, but not all of them from 2 on, and
-// not by a name that says width.
-BOOST_AUTO_TEST_CASE(sizes_of_an_unknown_name_that_are_whole_count_something) {
-    const auto counts = data_of("ne,error\n10,1\n20,0.25\n", {.sizes = {"ne"}});
-    BOOST_TEST(counts.widths[0].name == "h");
-    BOOST_TEST(counts.widths[0].numbers[1] == 0.05);
-    BOOST_TEST(counts.remarks.at(0).starts_with("h = 1/ne, as its numbers are whole"));
+// A name says whether a size is a width or counts something, as a whole or by one of its words.
+BOOST_AUTO_TEST_CASE(a_name_says_width_or_count_by_one_of_its_words) {
+    for (const std::string name : {"ne", "n_dofs", "nDofs", "numCells", "number of faces", "nx",
+                                   "N", "mesh_points", "CELLS", "steps_per_period"}) {
+        const auto counts = data_of(name + ",error\n10,1\n20,0.25\n", {.sizes = {name}});
+        BOOST_TEST(counts.widths[0].name == "h", name);
+        BOOST_TEST(counts.widths[0].numbers[1] == 0.05, name);
+        BOOST_TEST(counts.remarks.at(0) ==
+                       "h = 1/" + name + ": dimension 1 was assumed; --dimension D says another",
+                   name);
+    }
     const auto both = data_of("nx,ny,error\n10,10,1\n20,20,0.25\n", {.sizes = {"nx", "ny"}});
     BOOST_TEST(both.widths[1].name == "h_ny");
     BOOST_TEST(both.widths[1].numbers[0] == 0.1);
-    // Widths in metres: the error falls with them.
-    for (const std::string rows :
-         {"4,1\n2.5,0.25\n", "2,1\n1,0.25\n", "2,1\n2,0.25\n", "800,0.64\n400,0.16\n"}) {
-        const auto widths = data_of("ne,error\n" + rows, {.sizes = {"ne"}});
-        BOOST_TEST(widths.widths[0].name == "ne");
-        BOOST_TEST(widths.remarks.empty());
-    }
-    BOOST_TEST(data_of("dx,error\n4,1\n2,1\n", {.sizes = {"dx"}}).widths[0].numbers[0] == 4.0);
-    // A row that failed says nothing of either.
-    const auto failed = data_of("ne,error\n10,nan\n20,1\n40,0.25\n", {.sizes = {"ne"}});
-    BOOST_TEST(failed.widths[0].numbers[2] == 0.025);
-    // Of values it is not known: what was assumed is said.
-    const auto values = data_of("ne,drag\n10,1\n20,0.25\n", {.sizes = {"ne"}, .values = {"drag"}});
-    BOOST_TEST(values.widths[0].numbers[1] == 20.0);
-    BOOST_TEST(values.remarks.at(0).starts_with("ne was taken for a width; --dimension D"));
+    for (const std::string name : {"dx", "h_max", "cellWidth", "Diameter"})
+        for (const std::string rows :
+             {"4,1\n2.5,0.25\n", "2,1\n1,0.25\n", "800,0.64\n400,0.16\n"}) {
+            const auto widths = data_of(name + ",error\n" + rows, {.sizes = {name}});
+            BOOST_TEST(widths.widths[0].name == name);
+            BOOST_TEST(widths.remarks.empty());
+        }
+    BOOST_TEST(
+        data_of("steps_in_time,error\n8,1\n", {.step = "steps_in_time"}).widths[0].numbers[0] ==
+        0.125);
+    BOOST_TEST(data_of("time_step,error\n8,1\n", {.step = "time_step"}).widths[0].numbers[0] ==
+               8.0);
+}
+
+// What a solver that converges has by the one meaning, one that diverges has by the other.
+BOOST_AUTO_TEST_CASE(sizes_whose_name_says_neither_are_refused_where_they_are_whole) {
+    for (const DataChoice& choice : {DataChoice{.sizes = {"level"}}, DataChoice{.step = "level"}})
+        BOOST_CHECK_EXCEPTION(
+            data_of("level,error\n1,1\n2,0.25\n", choice), InputError, [](const InputError& error) {
+                return std::string(error.what()).find("column level has whole numbers") !=
+                       std::string::npos;
+            });
+    const auto by_dimension =
+        data_of("level,error\n1,1\n2,0.25\n", {.sizes = {"level"}, .dimension = 1.0});
+    BOOST_TEST(by_dimension.widths[0].numbers[1] == 0.5);
+    // One that is the same throughout refines nothing; others are widths, which is said.
+    BOOST_TEST(data_of("level,error\n2,1\n2,0.25\n", {.sizes = {"level"}}).remarks.empty());
+    const auto values =
+        data_of("mesh,drag\n2.5,1\n1.25,0.25\n", {.sizes = {"mesh"}, .values = {"drag"}});
+    BOOST_TEST(values.widths[0].numbers[0] == 2.5);
+    BOOST_TEST(values.remarks.at(0).starts_with("mesh was taken for a width; --dimension D"));
 }
 
 BOOST_AUTO_TEST_CASE(an_empty_or_nan_error_is_a_failed_run) {
