@@ -100,6 +100,12 @@ Finding finding(const GridLimit& of) {
             2};
 }
 
+/// What the model is of: the norm itself, the root of what is a square by its name.
+std::string label_of(const Measure& measure) {
+    const std::string root = measure.root();
+    return root + (measure.squared && root == measure.name ? "^(1/2)" : "");
+}
+
 } // namespace
 
 Table fit_table(const std::vector<std::pair<std::string, const TwoTermFit*>>& fits,
@@ -139,7 +145,9 @@ Section orders_section(const OrdersResult& orders, const OrdersBlock& block) {
     std::vector<std::pair<std::string, const TwoTermFit*>> fits;
     std::vector<Block> findings;
     std::vector<Block> notes;
-    for (const auto& [norm, fit, rounding] : orders.norms) {
+    for (std::size_t k = 0; k < orders.norms.size(); ++k) {
+        const auto& fit = orders.norms[k].fit;
+        const std::string norm = label_of(block.norms[k]);
         if (fit.holds()) {
             fits.emplace_back(norm, &fit);
             findings.emplace_back(finding(norm, fit));

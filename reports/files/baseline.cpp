@@ -3,6 +3,7 @@
 #include "mms/text/file_text.hpp"
 #include "mms/text/input_error.hpp"
 #include "reports/document/json_text.hpp"
+#include "reports/document/visible_text.hpp"
 #include "reports/files/held_values.hpp"
 #include "reports/files/said_result.hpp"
 #include "studies/grid/grid.hpp"
@@ -231,9 +232,17 @@ std::vector<CheckedExpectation> Baseline::check(const BaselineEntry& entry,
                                                 double tolerance) const {
     const Place place{file_};
     const auto scene = scenes_.find(entry.name);
-    if (scene == scenes_.end())
-        return {
-            {"baseline", "a record of this name", "none; record it with --record", place, false}};
+    if (scene == scenes_.end()) {
+        std::string names;
+        for (const auto& [name, figures] : scenes_)
+            names += (names.empty() ? "" : ", ") + visible(name);
+        constexpr std::size_t most = 200;
+        return {{"baseline", "a record of '" + visible(entry.name) + "', by this name",
+                 names.empty()
+                     ? "none"
+                     : "those of " + names.substr(0, most) + (names.size() > most ? "…" : ""),
+                 place, false}};
+    }
     const auto& recorded = scene->second;
     std::vector<CheckedExpectation> checked;
     const auto& errors = entry.figures;
@@ -246,7 +255,9 @@ std::vector<CheckedExpectation> Baseline::check(const BaselineEntry& entry,
             one.expected = fmt::format("{} within {}", before, tolerance);
             one.holds = std::abs(error - before) <= tolerance * std::abs(before) ||
                         are_zero(what, error, before) || are_rounding(entry, what, error, before);
-        } else if (found != recorded.end() && !std::isfinite(error)) {
+        } else if (found != recorded.end() && std::isfinite(error)) {
+            one.expected = "none, as recorded";
+        } else if (found != recorded.end()) {
             // A field that is missing, or infinite, and was.
             const auto text = [](const std::string& json) {
                 return json == "null" ? "none" : json;

@@ -275,7 +275,13 @@ private:
     }
 
     [[nodiscard]] std::string caption(bool modelled) const {
-        const std::string what = "Error over the plane of h and Δt: " + norm_.words + ". ";
+        // The model is one of the norm itself.
+        std::string of = norm_.words;
+        if (const std::string square = ", squared"; of.ends_with(square))
+            of.resize(of.size() - square.size());
+        else if (norm_.squared)
+            of = "root of the " + of;
+        const std::string what = "Error over the plane of h and Δt: " + of + ". ";
         return what +
                (modelled
                     ? "Lines of equal error of the fitted model, in bands that are darker the "

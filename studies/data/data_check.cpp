@@ -179,7 +179,7 @@ private:
             const bool has_error = is_positive(column_.numbers[row]);
             if (column_.orders[row] || !has_error || !refines_another(row))
                 metrics.push_back({"observed order" + row_text(analysis_, row), column_.orders[row],
-                                   has_error ? "none: it refines no row before it"
+                                   has_error ? "none: it refines no row before it that has an error"
                                              : "none: the error is not a positive number"});
         }
         if (metrics.empty())

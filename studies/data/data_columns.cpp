@@ -1,13 +1,13 @@
 #include "studies/data/data_columns.hpp"
 
 #include "mms/text/nearest_name.hpp"
+#include "studies/data/name_words.hpp"
 #include "studies/text/number_text.hpp"
 
 #include <boost/algorithm/string/join.hpp>
 #include <boost/algorithm/string/predicate.hpp>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <functional>
 #include <set>
@@ -17,50 +17,63 @@ namespace tvbeam {
 
 namespace {
 
-/// The words of a name, in small letters: n and dofs of n_dofs, n-Dofs and nDofs.
-std::vector<std::string> parts_of(const std::string& name) {
-    std::vector<std::string> words(1);
-    bool was_small = false;
-    for (const char c : name) {
-        const auto letter = static_cast<unsigned char>(c);
-        const bool is_of_a_word = std::isalnum(letter) != 0 || letter >= 0x80U;
-        if (!is_of_a_word || (was_small && std::isupper(letter) != 0))
-            words.emplace_back();
-        if (is_of_a_word)
-            words.back() += static_cast<char>(std::tolower(letter));
-        was_small = std::islower(letter) != 0;
-    }
-    std::erase(words, "");
-    return words;
+/// What a name says of the numbers in its column; level: how often a mesh was refined.
+enum class Meaning { width, count, level, unsaid };
+
+bool has_one_of(const std::set<std::string>& these, const std::set<std::string>& words) {
+    return std::ranges::any_of(these,
+                               [&](const std::string& word) { return words.contains(word); });
 }
 
-bool has_one_of(const std::set<std::string>& these, const std::vector<std::string>& words) {
-    return std::ranges::any_of(words,
-                               [&](const std::string& word) { return these.contains(word); });
-}
-
-/// What a name says of the numbers in its column.
-enum class Meaning { width, count, unsaid };
-
-/// Of n things in a domain of dimension d, h = n^(-1/d); of n steps up to the time 1, Δt = 1/n.
-Meaning meaning_of(const std::string& name) {
+Meaning meaning_of_words(const std::set<std::string>& words) {
     static const std::set<std::string> numbers{"n", "num", "number", "count", "counts"};
     static const std::set<std::string> things{
-        "elements", "elems",     "nelem",  "nelems",  "nelements", "nel",      "ne",
-        "cells",    "ncell",     "ncells", "dofs",    "dof",       "ndof",     "ndofs",
-        "nodes",    "nnodes",    "points", "npoints", "unknowns",  "vertices", "faces",
-        "nx",       "ny",        "nz",     "nr",      "intervals", "steps",    "nsteps",
-        "nstep",    "timesteps", "nt"};
+        "elements", "elems",  "elem",     "nelem",   "nelems",     "nelements", "nele",
+        "nelx",     "nely",   "nelz",     "nel",     "ne",         "cells",     "ncell",
+        "ncells",   "dofs",   "dof",      "ndof",    "ndofs",      "freedom",   "nodes",
+        "nnode",    "nnodes", "points",   "npoints", "pts",        "npts",      "gridpoints",
+        "ngrid",    "ntri",   "tets",     "faces",   "triangles",  "unknowns",  "vertices",
+        "nx",       "ny",     "nz",       "nr",      "intervals",  "steps",     "nsteps",
+        "nstep",    "nt",     "substeps", "quads",   "tetrahedra", "timesteps"};
     static const std::set<std::string> widths{
-        "h",  "hx",  "hy",    "hz",      "hmax", "hmin",  "dx",   "dy",       "dz",      "dr",
-        "dt", "tau", "width", "spacing", "step", "delta", "diam", "diameter", "timestep"};
-    const auto words = parts_of(name);
-    if (words == std::vector<std::string>{"size"} || has_one_of(numbers, words))
+        "h",    "hx",       "hy",       "hz",  "hmax",  "hmin",    "dx",   "dy",
+        "dz",   "dr",       "dt",       "tau", "width", "spacing", "step", "delta",
+        "diam", "diameter", "timestep", "Δx",  "Δt",    "Δ",       "τ"};
+    static const std::set<std::string> levels{"level", "levels", "lvl",        "ref",
+                                              "refs",  "refine", "refinement", "refinements"};
+    const bool is_size = words.contains("size");
+    if (is_size && words.size() == 1)
         return Meaning::count;
-    const bool says_width = has_one_of(widths, words);
-    return has_one_of(things, words) == says_width ? Meaning::unsaid
-           : says_width                            ? Meaning::width
-                                                   : Meaning::count;
+    const bool says_width = has_one_of(widths, words) ||
+                            (is_size && has_one_of({"mesh", "cell", "element", "step"}, words));
+    if (has_one_of(levels, words) && !says_width)
+        return Meaning::level;
+    const bool says_count = has_one_of(numbers, words) || has_one_of(things, words);
+    return says_width == says_count ? Meaning::unsaid
+           : says_width             ? Meaning::width
+                                    : Meaning::count;
+}
+
+/// By the words of a name: n and dofs of n_dofs and nDofs, dofs of DoFs; what stands behind a sign
+/// of equality or in brackets explains it. Of n things in a domain of dimension d, h = n^(-1/d); of
+/// n steps up to the time 1, Δt = 1/n.
+Meaning meaning_of(const std::string& whole) {
+    std::string name = whole.substr(0, whole.find_first_of("=([", 1));
+    bool is_inverse = false;
+    if (name.starts_with("1/")) {
+        is_inverse = true;
+        name.erase(0, 2);
+    }
+    if (name.find_first_of("/^*") != std::string::npos)
+        return Meaning::unsaid;
+    auto words = words_in(name);
+    for (const char* inverse : {"inv", "inverse", "reciprocal"})
+        is_inverse = words.erase(inverse) > 0 || is_inverse;
+    const Meaning meaning = meaning_of_words(words);
+    return !is_inverse                 ? meaning
+           : meaning == Meaning::width ? Meaning::count
+           : meaning == Meaning::count ? Meaning::width
+                                       : meaning;
 }
 
 /// The widths that a choice names, or those that need no name.
@@ -74,6 +87,10 @@ void choose_widths(const ColumnNames& names, const DataChoice& choice, DataFile&
     for (const auto& size : sizes) {
         ColumnUse use{names.need(size, "--size"), true};
         const Meaning meaning = meaning_of(size);
+        if (meaning == Meaning::level)
+            throw InputError(names.place, "column " + size +
+                                              " numbers levels of refinement, which have widths as "
+                                              "h = 2^-level; give a column of these");
         if (choice.dimension && meaning == Meaning::width)
             throw InputError(names.place, "column " + size +
                                               " is a width already; --dimension is for numbers of "
@@ -105,7 +122,8 @@ void choose_widths(const ColumnNames& names, const DataChoice& choice, DataFile&
             data.remarks.push_back("dt = 1/" + name + ": the time 1 was assumed");
         data.widths.push_back({counts ? "dt" : name, {}});
         uses.push_back({*step, true, counts ? -1.0 : 1.0});
-        uses.back().is_unsaid = meaning == Meaning::unsaid;
+        uses.back().is_step = true;
+        uses.back().is_unsaid = meaning == Meaning::unsaid || meaning == Meaning::level;
     }
     if (uses.empty())
         throw InputError(names.place, "no column h, elements or dt among " +
@@ -233,21 +251,21 @@ void require_sizes_that_are_known(const ColumnNames& names, const std::vector<Co
         if (std::ranges::adjacent_find(numbers, std::not_equal_to()) == numbers.end())
             continue; // nothing is refined
         const std::string& name = names.all[use.column];
+        const std::string otherwise =
+            use.is_step ? "a name like n_" + name + " says that it counts steps"
+                        : "--dimension D says that it counts what fills a domain, as a name like "
+                          "n_" +
+                              name + " does";
         if (std::ranges::all_of(numbers, [](double number) {
                 return number >= 1.0 && std::floor(number) == number;
             }))
-            throw InputError(
-                names.place,
-                "column " + name +
-                    " has whole numbers, and its name does not say whether they are widths or "
-                    "count something. Call it h or n_" +
-                    name +
-                    ", a step in time dt or n_steps; or say with --dimension D that it "
-                    "counts what fills D dimensions");
-        data.remarks.push_back(name +
-                               " was taken for a width; --dimension D says that it counts "
-                               "what fills a domain, as a name like n_" +
-                               name + " does");
+            throw InputError(names.place,
+                             "column " + name +
+                                 " has whole numbers, and its name does not say whether they are "
+                                 "widths or count something; call it " +
+                                 (use.is_step ? "dt" : "h") + " where they are widths; " +
+                                 otherwise);
+        data.remarks.push_back(name + " was taken for a width; " + otherwise);
     }
 }
 

@@ -29,6 +29,7 @@ struct ColumnUse {
     std::size_t column = 0;
     bool is_width = false;
     double power = 1;       ///< the width is the number to this power
+    bool is_step = false;   ///< in time
     bool is_unsaid = false; ///< the name of a width says neither width nor count
     DataColumn* target = nullptr;
     std::vector<double>* plain = nullptr;    ///< in place of it, of deviations

@@ -19,6 +19,7 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <set>
 #include <string_view>
 #include <system_error>
 
@@ -277,6 +278,11 @@ void read_record(const Lines& lines, const std::vector<TextField>& fields, const
             throw InputError(lines.place(field.column),
                              "'" + std::string(field.text) + "' in column " + name +
                                  " counts nothing; it must be 1 or more");
+        if (name == "elements" && use.power < 0 && std::floor(number) != number)
+            throw InputError(lines.place(field.column),
+                             "'" + std::string(field.text) + "' in column " + name +
+                                 " is no number of elements, which is whole; write thousands "
+                                 "without a separator");
         const double width = use.power == 1    ? number
                              : use.power == -1 ? 1 / number
                                                : std::pow(number, use.power);
@@ -317,8 +323,8 @@ void require_squares_of(const DataFile& data) {
 }
 
 /// Widths that differ by rounding are one, which nothing refines: 0.01 and 0.1*0.1. So are all of a
-/// column that differ by so little that it refines nothing, as the mean steps of a solver that
-/// chooses them; this is said.
+/// column that differ by so little that it refines nothing beside another that is different in each
+/// row, as the mean steps of a solver that chooses them; this is said.
 void unite_alike(DataColumn& column, DataFile& data) {
     constexpr double rounding = 1e-9;
     constexpr double little = 0.05;
@@ -326,11 +332,16 @@ void unite_alike(DataColumn& column, DataFile& data) {
     std::vector<double> sorted = widths;
     std::ranges::sort(sorted);
     const double range = sorted.back() / sorted.front() - 1.0;
-    if (range > rounding && range <= little) {
-        data.remarks.push_back(fmt::format("{} changes by no more than {:.1g} % and was taken for "
-                                           "one width",
-                                           column.name, 100 * range));
-        std::ranges::fill(widths, sorted[sorted.size() / 2]);
+    const auto is_another_a_row = [&](const DataColumn& other) {
+        return &other != &column &&
+               std::set(other.numbers.begin(), other.numbers.end()).size() == other.numbers.size();
+    };
+    if (range > rounding && range <= little && std::ranges::any_of(data.widths, is_another_a_row)) {
+        const double one = sorted[sorted.size() / 2];
+        data.remarks.push_back(fmt::format("{} changes by {:.1f} % and was taken for one width, {}",
+                                           column.name, std::ceil(1e3 * range) / 10,
+                                           shortest(one)));
+        std::ranges::fill(widths, one);
         return;
     }
     for (double& width : widths)

@@ -103,13 +103,15 @@ std::vector<double> printed_units_of_widths(const std::vector<double>& widths,
     const auto units = printed_units(widths, digits);
     if (units.empty())
         return {};
-    constexpr int greatest_denominator = 12;
+    if (std::ranges::all_of(widths, [](double width) { return std::floor(width) == width; }))
+        return {};
+    constexpr int greatest = 12;
     constexpr double rounding = 1e-12;
-    const auto is_fraction = [](double ratio) {
-        for (int denominator = 1; denominator <= greatest_denominator; ++denominator) {
+    const auto is_fraction = [](double ratio, double greatest_numerator) {
+        for (int denominator = 1; denominator <= greatest; ++denominator) {
             const double numerator = ratio * denominator;
             if (std::abs(numerator - std::round(numerator)) <= rounding * numerator)
-                return true;
+                return numerator < greatest_numerator + 0.5;
         }
         return false;
     };
@@ -127,8 +129,8 @@ std::vector<double> printed_units_of_widths(const std::vector<double>& widths,
         const auto& [coarse, half] = sorted[i - 1];
         const auto& [fine, its_half] = sorted[i];
         const double ratio = coarse / fine;
-        no_fractions += is_fraction(ratio) ? 0 : 1;
-        all_exact = all_exact && is_of_a_refinement(ratio * (1 - rounding), ratio * (1 + rounding));
+        no_fractions += is_fraction(ratio, 1 / rounding) ? 0 : 1;
+        all_exact = all_exact && is_fraction(ratio, greatest);
         all_of_refinements =
             all_of_refinements && is_of_a_refinement((coarse - half) / (fine + its_half),
                                                      (coarse + half) / (fine - its_half));

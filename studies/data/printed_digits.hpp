@@ -31,8 +31,9 @@ std::vector<double> printed_units_of_errors(const std::vector<double>& errors,
                                             const std::vector<PrintedDigits>& digits);
 
 /// The same of widths. They were rounded where the ratios of most to the next finer one are no
-/// fractions of numbers up to 12, or all ratios are those of a refinement to the digits printed and
-/// not all exactly: 0.33, 0.17 and 0.08 were, 0.1, 0.05 and 0.025 or 0.5, 0.3 and 0.11 were not.
+/// fractions with denominators up to 12, or all ratios are those of a refinement to the digits
+/// printed and not all fractions of two numbers up to 12: 0.33, 0.17 and 0.08 were; 0.1, 0.05 and
+/// 0.025, or 0.15, 0.1 and 0.06, were not, nor whole numbers.
 std::vector<double> printed_units_of_widths(const std::vector<double>& widths,
                                             const std::vector<PrintedDigits>& digits);
 

@@ -1,21 +1,19 @@
 #include "studies/data/row_factors.hpp"
 
 #include "studies/data/field_number.hpp"
+#include "studies/data/name_words.hpp"
 #include "studies/text/number_text.hpp"
 
 #include <boost/algorithm/string/join.hpp>
 #include <boost/algorithm/string/predicate.hpp>
-#include <boost/algorithm/string/split.hpp>
 #include <boost/algorithm/string/trim.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <functional>
 #include <map>
 #include <set>
-#include <span>
 
 namespace tvbeam {
 
@@ -23,46 +21,40 @@ namespace {
 
 constexpr std::size_t most_texts_named = 3;
 
-bool is_among(std::string_view name, std::span<const std::string_view> names) {
-    return std::ranges::any_of(
-        names, [&](std::string_view one) { return boost::algorithm::iequals(one, name); });
-}
-
-/// What a column may tell beside a series.
-enum class Told {
-    series,     ///< rows of one value and those of another may be two
-    replicates, ///< they are of one, at equal widths its scatter
-    outcome     ///< what a run shows of itself
-};
-
 Told told_by(const std::string& name) {
     // Also with a word that says no more: sample_id, run-name; what run_type tells are series.
-    constexpr std::array<std::string_view, 17> labels{
+    static const std::set<std::string> labels{
         "seed",        "run",         "rep",     "replica", "replicate", "repeat",
         "repetition",  "sample",      "trial",   "batch",   "attempt",   "draw",
         "realization", "realisation", "machine", "host",    "hostname"};
-    constexpr std::array<std::string_view, 8> of_labels{"id",    "name", "no",     "nr",
-                                                        "index", "num",  "number", "n"};
+    static const std::set<std::string> of_labels{"id",    "name", "no",     "nr",
+                                                 "index", "num",  "number", "n"};
+    static const std::set<std::string> times{"commit", "date", "day", "revision", "sha", "version"};
     // Also as a part of a name: newton_iterations, wall_time.
-    constexpr std::array<std::string_view, 18> outcomes{
+    static const std::set<std::string> outcomes{
         "seconds", "sec",        "cpu",  "wall",    "walltime", "runtime",
         "elapsed", "iterations", "iter", "its",     "niter",    "eoc",
         "verdict", "status",     "note", "comment", "remark",   "converged"};
-    std::vector<std::string> parts;
-    boost::algorithm::split(parts, name, [](char c) {
-        return std::string_view("_-. ").find(c) != std::string_view::npos;
-    });
-    const auto any = [&](const auto& names) {
-        return std::ranges::any_of(parts,
-                                   [&](const std::string& part) { return is_among(part, names); });
+    auto words = words_in(name);
+    const auto is_one_of = [](const std::set<std::string>& these) {
+        return [&these](const std::string& word) { return these.contains(word); };
     };
-    if (any(outcomes))
+    if (std::ranges::any_of(words, is_one_of(outcomes)))
         return Told::outcome;
-    const bool is_label = any(labels) || boost::algorithm::iequals(name, "id");
-    return is_label && std::ranges::all_of(parts,
-                                           [&](const std::string& part) {
-                                               return is_among(part, labels) ||
-                                                      is_among(part, of_labels);
+    if (std::ranges::any_of(words, is_one_of(times)))
+        return Told::times;
+    const bool is_label =
+        std::ranges::any_of(words, is_one_of(labels)) || boost::algorithm::iequals(name, "id");
+    if (words.size() > 1) // the whole of sampleId
+        std::erase_if(words, [&](const std::string& word) {
+            return std::ranges::any_of(words, [&](const std::string& part) {
+                return part.size() < word.size() && word.starts_with(part);
+            });
+        });
+    return is_label && std::ranges::all_of(words,
+                                           [&](const std::string& word) {
+                                               return labels.contains(word) ||
+                                                      of_labels.contains(word);
                                            })
                ? Told::replicates
                : Told::series;
@@ -111,6 +103,14 @@ std::vector<Group> series_by(const UnreadColumn& column, const DataFile& data) {
     return series;
 }
 
+bool has_equal_widths(const DataFile& data) {
+    std::set<std::vector<double>> seen;
+    for (std::size_t i = 0; i < data.widths.front().numbers.size(); ++i)
+        if (has_figure(data, i) && !seen.insert(widths_of(data, i)).second)
+            return true;
+    return false;
+}
+
 /// Says which values of a column, of which one has several rows, are read as one series.
 void name_merged(const UnreadColumn& column, DataFile& data) {
     std::set<std::string_view> texts;
@@ -126,8 +126,9 @@ void name_merged(const UnreadColumn& column, DataFile& data) {
         return;
     data.remarks.push_back(fmt::format(
         "rows of several {} are read as {}: {}{}; one alone with --where '{}=…'", column.name,
-        column.is_of_replicates ? "replicates" : "one series", boost::algorithm::join(named, ", "),
-        texts.size() == named.size() ? "" : ", …", column.name));
+        column.told == Told::replicates && has_equal_widths(data) ? "replicates" : "one series",
+        boost::algorithm::join(named, ", "), texts.size() == named.size() ? "" : ", …",
+        column.name));
 }
 
 /// Whether each width of both takes values in a range of some length in common.
@@ -162,7 +163,8 @@ bool is_ladder(const Group& group, const DataFile& data) {
 
 /// At two widths alike both have rows: these are no replicates. Else by what is likely: numbers
 /// that change once along the widths are what a run shows, texts that do are series.
-bool are_series(const Group& a, const Group& b, bool is_number, const DataFile& data) {
+bool are_series(const Group& a, const Group& b, bool is_number, bool is_of_times,
+                const DataFile& data) {
     constexpr std::ptrdiff_t alike = 2;
     if (std::ranges::count_if(
             a.widths, [&](const auto& widths) { return b.widths.contains(widths); }) >= alike)
@@ -170,7 +172,7 @@ bool are_series(const Group& a, const Group& b, bool is_number, const DataFile& 
     constexpr std::size_t of_numbers = 3;
     if (is_number)
         return a.widths.size() >= of_numbers && b.widths.size() >= of_numbers && overlap(a, b);
-    return overlap(a, b) || (is_ladder(a, data) && is_ladder(b, data));
+    return overlap(a, b) || (!is_of_times && is_ladder(a, data) && is_ladder(b, data));
 }
 
 } // namespace
@@ -237,9 +239,8 @@ std::vector<UnreadColumn> unread_columns(const ColumnNames& names,
         const auto is_it = [&](const auto& one) { return one.column == column; };
         if (std::ranges::none_of(uses, is_it) && std::ranges::none_of(conditions, is_it) &&
             told_by(names.all[column]) != Told::outcome)
-            columns.push_back({.column = column,
-                               .name = names.all[column],
-                               .is_of_replicates = told_by(names.all[column]) == Told::replicates});
+            columns.push_back(
+                {.column = column, .name = names.all[column], .told = told_by(names.all[column])});
     }
     return columns;
 }
@@ -249,7 +250,7 @@ void require_one_series(DataFile& data, const Place& names,
     // Of very many values the first show as much as all, and all pairs of them would take minutes.
     constexpr std::size_t most_compared = 200;
     for (const auto& column : columns) {
-        if (column.is_of_replicates) {
+        if (column.told == Told::replicates) {
             name_merged(column, data);
             continue;
         }
@@ -260,7 +261,7 @@ void require_one_series(DataFile& data, const Place& names,
             is_number = is_number && (column.texts[i].empty() || column.numbers[i]);
         for (std::size_t i = 0; i < series.size(); ++i)
             for (std::size_t k = 0; k < i; ++k) {
-                if (!are_series(series[k], series[i], is_number, data))
+                if (!are_series(series[k], series[i], is_number, column.told == Told::times, data))
                     continue;
                 throw InputError(
                     names,

@@ -35,13 +35,21 @@ std::vector<RowCondition> conditions_of(const ColumnNames& names,
 void require_records(DataFile& data, const Place& names,
                      const std::vector<RowCondition>& conditions);
 
+/// What a column may tell beside a series.
+enum class Told {
+    series,     ///< rows of one value and those of another may be two
+    replicates, ///< they are of one, at equal widths its scatter
+    times,      ///< of several where they are of the same widths, else of one that took long
+    outcome     ///< what a run shows of itself
+};
+
 /// A column that nothing reads.
 struct UnreadColumn {
     std::size_t column = 0;
     std::string name;
     std::vector<std::string_view> texts = {};        ///< one a record
     std::vector<std::optional<double>> numbers = {}; ///< what these are; none where they are none
-    bool is_of_replicates = false;                   ///< by its name, as seed or sample_id
+    Told told = Told::series;                        ///< by its name
 };
 
 /// All columns but those that are used, named by a condition, or by their names what a run shows of

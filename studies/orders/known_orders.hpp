@@ -27,7 +27,8 @@ struct KnownOrderSizes {
 ///
 /// for norms e; the three corrections of the next order take up what the coarse rows have more than
 /// their leading terms. What they leave is no scatter: the half-width of a size is no less than
-/// what the size differs by, beyond its own half-width, without the coarsest level of its width.
+/// what the size differs by, beyond its own half-width, without the coarsest level of its width,
+/// where these rows are enough.
 /// p or q none: no such term. Records that are not finite are passed over; it takes two more than
 /// there are columns.
 ///

@@ -174,12 +174,17 @@ std::optional<double> OrderMotion::rises_past(double high) const {
     const auto orders = local_orders(rows, [&](Eigen::Index r) { return rows_.log_errors[r]; });
     if (orders.size() < 2 || !others_change_nothing(rows))
         return std::nullopt;
-    // Five levels show a constant, as of a reference that is not named, that a model has to this.
+    // Two terms that methods have may do it where they cancel; five levels show a constant, too, as
+    // of a reference that is not named.
     constexpr std::size_t of_five_levels = 4;
     constexpr double exactly = 1e-5;
-    if (orders.size() >= of_five_levels &&
-        std::ranges::any_of(members_, [&](const EnsembleMember& member) {
-            return member.family == 0 && member.is_of_all_rows() && member.fit.scale <= exactly;
+    if (std::ranges::any_of(members_, [&](const EnsembleMember& member) {
+            if (member.family != 0 || !member.is_of_all_rows() || !(member.fit.scale <= exactly))
+                return false;
+            bool are_usual = true;
+            for (Eigen::Index i = 0; i < rows_.widths(); ++i)
+                are_usual = are_usual && member.fit.order(i).value >= tuning_.least_order;
+            return are_usual || orders.size() >= of_five_levels;
         }))
         return std::nullopt;
     for (std::size_t i = 1; i < orders.size(); ++i)

@@ -31,7 +31,8 @@ public:
     }
     /// Of a grid against the exact solution: the last of its local orders where the other widths
     /// are finest and change next to nothing, where they rise from level to level to more than
-    /// `high`: a model that says less has a constant of the opposite sign, which no method has.
+    /// `high`. What says less has a constant of the opposite sign, which four levels do not show
+    /// and a method does not have; none where terms of usual orders follow all rows to rounding.
     [[nodiscard]] std::optional<double> rises_past(double high) const;
     /// Of a sequence: whether one model's order stands still over its windows, all but one, while
     /// that of the leading term alone moves: then that model says what it moves to.

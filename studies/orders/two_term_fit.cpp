@@ -196,8 +196,10 @@ TwoTermFit fit_two_term(std::span<const Refinement> records,
     const auto* steadiest = fit.ensemble->steadiest();
     if (usable.size() < fewest_records || !fit.ensemble->failure().empty() ||
         steadiest == nullptr) {
-        fit.failure = "the two-term model needs seven finite, positive errors in three h and "
-                      "three dt, each an eighth or more apart";
+        fit.failure = usable.size() < fewest_records || !fit.ensemble->failure().empty()
+                          ? "the two-term model needs seven finite, positive errors in three h and "
+                            "three dt, each an eighth or more apart"
+                          : "no two terms of positive orders follow the errors";
         return fit;
     }
     double known = 0; // the mean square of the stated deviations

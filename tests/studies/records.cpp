@@ -425,8 +425,9 @@ BOOST_AUTO_TEST_CASE(sizes_are_widths_or_numbers_of_things_and_what_is_assumed_i
 
 // A name says whether a size is a width or counts something, as a whole or by one of its words.
 BOOST_AUTO_TEST_CASE(a_name_says_width_or_count_by_one_of_its_words) {
-    for (const std::string name : {"ne", "n_dofs", "nDofs", "numCells", "number of faces", "nx",
-                                   "N", "mesh_points", "CELLS", "steps_per_period"}) {
+    for (const std::string name :
+         {"ne", "n_dofs", "nDofs", "numCells", "number of faces", "nx", "N", "DoFs", "1/h",
+          "inv_dx", "mesh_points", "CELLS", "steps_per_period"}) {
         const auto counts = data_of(name + ",error\n10,1\n20,0.25\n", {.sizes = {name}});
         BOOST_TEST(counts.widths[0].name == "h", name);
         BOOST_TEST(counts.widths[0].numbers[1] == 0.05, name);
@@ -437,7 +438,8 @@ BOOST_AUTO_TEST_CASE(a_name_says_width_or_count_by_one_of_its_words) {
     const auto both = data_of("nx,ny,error\n10,10,1\n20,20,0.25\n", {.sizes = {"nx", "ny"}});
     BOOST_TEST(both.widths[1].name == "h_ny");
     BOOST_TEST(both.widths[1].numbers[0] == 0.1);
-    for (const std::string name : {"dx", "h_max", "cellWidth", "Diameter"})
+    for (const std::string name :
+         {"dx", "h_max", "cellWidth", "Diameter", "dX", "mesh_size", "1/N", "h_ref"})
         for (const std::string rows :
              {"4,1\n2.5,0.25\n", "2,1\n1,0.25\n", "800,0.64\n400,0.16\n"}) {
             const auto widths = data_of(name + ",error\n" + rows, {.sizes = {name}});
@@ -453,17 +455,17 @@ BOOST_AUTO_TEST_CASE(a_name_says_width_or_count_by_one_of_its_words) {
 
 // What a solver that converges has by the one meaning, one that diverges has by the other.
 BOOST_AUTO_TEST_CASE(sizes_whose_name_says_neither_are_refused_where_they_are_whole) {
-    for (const DataChoice& choice : {DataChoice{.sizes = {"level"}}, DataChoice{.step = "level"}})
+    for (const DataChoice& choice : {DataChoice{.sizes = {"mesh"}}, DataChoice{.step = "mesh"}})
         BOOST_CHECK_EXCEPTION(
-            data_of("level,error\n1,1\n2,0.25\n", choice), InputError, [](const InputError& error) {
-                return std::string(error.what()).find("column level has whole numbers") !=
+            data_of("mesh,error\n1,1\n2,0.25\n", choice), InputError, [](const InputError& error) {
+                return std::string(error.what()).find("column mesh has whole numbers") !=
                        std::string::npos;
             });
     const auto by_dimension =
-        data_of("level,error\n1,1\n2,0.25\n", {.sizes = {"level"}, .dimension = 1.0});
+        data_of("mesh,error\n1,1\n2,0.25\n", {.sizes = {"mesh"}, .dimension = 1.0});
     BOOST_TEST(by_dimension.widths[0].numbers[1] == 0.5);
     // One that is the same throughout refines nothing; others are widths, which is said.
-    BOOST_TEST(data_of("level,error\n2,1\n2,0.25\n", {.sizes = {"level"}}).remarks.empty());
+    BOOST_TEST(data_of("mesh,error\n2,1\n2,0.25\n", {.sizes = {"mesh"}}).remarks.empty());
     const auto values =
         data_of("mesh,drag\n2.5,1\n1.25,0.25\n", {.sizes = {"mesh"}, .values = {"drag"}});
     BOOST_TEST(values.widths[0].numbers[0] == 2.5);
