@@ -214,7 +214,10 @@ const std::vector<Malformed> malformed{
     {"h,error\n0.2,1\n",
      "e.csv:1:1: is asked for rows by column h twice",
      {.where = {"h=0.2", " h = 0.1"}}},
-    {"elements;error\n1,000;1e-2\n2,500;1.6e-3\n",
+    {"elements;error\n512;1\n1,024;5\n", "e.csv:3:1: '1,024' in column elements is no number of "
+                                         "elements, which is whole; write thousands "
+                                         "without a separator"},
+    {"elements;error\n1,000;1e-2\n2,000;1.6e-3\n",
      "e.csv:3:7: '1.6e-3' in column error has a decimal point, and '1,000' before it a comma"},
     {"h;error\n0.1;1,000\n0.05;250\n",
      "e.csv:2:5: '1,000' in column error has a decimal comma, and '0.1' before it a point"},
