@@ -6,6 +6,7 @@
 
 #include <boost/algorithm/string/join.hpp>
 #include <boost/algorithm/string/predicate.hpp>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -251,21 +252,21 @@ void require_sizes_that_are_known(const ColumnNames& names, const std::vector<Co
         if (std::ranges::adjacent_find(numbers, std::not_equal_to()) == numbers.end())
             continue; // nothing is refined
         const std::string& name = names.all[use.column];
-        const std::string otherwise =
-            use.is_step ? "a name like n_" + name + " says that it counts steps"
-                        : "--dimension D says that it counts what fills a domain, as a name like "
-                          "n_" +
-                              name + " does";
+        const std::string otherwise = fmt::format(
+            fmt::runtime(use.is_step
+                             ? "a name like n_{} says that it counts steps"
+                             : "--dimension D says that it counts what fills a domain, as a name "
+                               "like n_{} does"),
+            name);
         if (std::ranges::all_of(numbers, [](double number) {
                 return number >= 1.0 && std::floor(number) == number;
             }))
-            throw InputError(names.place,
-                             "column " + name +
-                                 " has whole numbers, and its name does not say whether they are "
-                                 "widths or count something; call it " +
-                                 (use.is_step ? "dt" : "h") + " where they are widths; " +
-                                 otherwise);
-        data.remarks.push_back(name + " was taken for a width; " + otherwise);
+            throw InputError(
+                names.place,
+                fmt::format("column {} has whole numbers, and its name does not say whether they "
+                            "are widths or count something; call it {} where they are widths; {}",
+                            name, use.is_step ? "dt" : "h", otherwise));
+        data.remarks.push_back(fmt::format("{} was taken for a width; {}", name, otherwise));
     }
 }
 
