@@ -102,9 +102,11 @@ void choose_widths(const ColumnNames& names, const DataChoice& choice, DataFile&
         if (counts) {
             const double dimension = choice.dimension.value_or(1.0);
             use.power = -1.0 / dimension;
+            const std::string number =
+                size.find('/') == std::string::npos ? size : "(" + size + ")";
             data.remarks.push_back(
                 name + " = " +
-                (dimension == 1.0 ? "1/" + size : size + "^(-1/" + shortest(dimension) + ")") +
+                (dimension == 1.0 ? "1/" + number : number + "^(-1/" + shortest(dimension) + ")") +
                 (choice.dimension || size == "elements"
                      ? ""
                      : ": dimension 1 was assumed; --dimension D says another"));

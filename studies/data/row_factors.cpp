@@ -237,10 +237,10 @@ std::vector<UnreadColumn> unread_columns(const ColumnNames& names,
     std::vector<UnreadColumn> columns;
     for (std::size_t column = 0; column < names.all.size(); ++column) {
         const auto is_it = [&](const auto& one) { return one.column == column; };
+        const Told told = told_by(names.all[column]);
         if (std::ranges::none_of(uses, is_it) && std::ranges::none_of(conditions, is_it) &&
-            told_by(names.all[column]) != Told::outcome)
-            columns.push_back(
-                {.column = column, .name = names.all[column], .told = told_by(names.all[column])});
+            told != Told::outcome)
+            columns.push_back({.column = column, .name = names.all[column], .told = told});
     }
     return columns;
 }

@@ -194,9 +194,9 @@ TwoTermFit fit_two_term(std::span<const Refinement> records,
     fit.ensemble.emplace(rows, reference ? std::vector{reference->h, reference->dt}
                                          : std::vector<double>{});
     const auto* steadiest = fit.ensemble->steadiest();
-    if (usable.size() < fewest_records || !fit.ensemble->failure().empty() ||
-        steadiest == nullptr) {
-        fit.failure = usable.size() < fewest_records || !fit.ensemble->failure().empty()
+    const bool are_too_few = usable.size() < fewest_records || !fit.ensemble->failure().empty();
+    if (are_too_few || steadiest == nullptr) {
+        fit.failure = are_too_few
                           ? "the two-term model needs seven finite, positive errors in three h and "
                             "three dt, each an eighth or more apart"
                           : "no two terms of positive orders follow the errors";

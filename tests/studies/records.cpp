@@ -435,7 +435,8 @@ BOOST_AUTO_TEST_CASE(a_name_says_width_or_count_by_one_of_its_words) {
         BOOST_TEST(counts.widths[0].name == "h", name);
         BOOST_TEST(counts.widths[0].numbers[1] == 0.05, name);
         BOOST_TEST(counts.remarks.at(0) ==
-                       "h = 1/" + name + ": dimension 1 was assumed; --dimension D says another",
+                       "h = 1/" + (name == "1/h" ? "(1/h)" : name) +
+                           ": dimension 1 was assumed; --dimension D says another",
                    name);
     }
     const auto both = data_of("nx,ny,error\n10,10,1\n20,20,0.25\n", {.sizes = {"nx", "ny"}});
