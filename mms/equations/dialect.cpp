@@ -253,10 +253,22 @@ std::string write_python(const Dialect& /*dialect*/, const CodeFile& file) {
         numpy.emplace_back("pi");
         plain.emplace_back("pi");
     }
+    // Those of math raise an error where numpy's are infinite.
+    constexpr const char* infinite = "float(\"inf\")";
+    std::string bounded;
+    for (auto& name : plain)
+        if (name == "exp" || name == "sinh" || name == "cosh") {
+            const bool is_exp = name == "exp";
+            bounded += fmt::format("    {0} = lambda x: _{0}(x) if {1} <= {2} else {3}{4}\n", name,
+                                   is_exp ? "x" : "abs(x)",
+                                   is_exp ? "709.782712893384" : "710.4758600739439",
+                                   name == "sinh" ? "x * " : "", infinite);
+            name += " as _" + name;
+        }
     std::string text = wrapped_comment(file.comment, "#");
     if (!plain.empty())
         text += "try:\n    from numpy import " + joined(numpy) +
-                "\nexcept ImportError:\n    from math import " + joined(plain) + "\n";
+                "\nexcept ImportError:\n    from math import " + joined(plain) + "\n" + bounded;
     return text + assignments(file) + python_functions(file);
 }
 

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <optional>
 #include <set>
@@ -355,14 +356,20 @@ private:
         while (!left.empty()) {
             const Box box = left.back();
             left.pop_back();
-            const Critical* broken = first_broken(open, box);
-            if (broken == nullptr)
+            const auto all = broken_in(open, box);
+            if (all.empty())
                 continue;
             if (++looked_at > most_parts || !can_be_halved(box)) {
-                const std::string place = text_of(middle_of(box));
-                if (is_below_beside(*broken, middle_of(box)))
+                const DomainPoint middle = middle_of(box);
+                const std::string place = text_of(middle);
+                // A root may be 0 where it is a divisor, too.
+                const auto pole = std::ranges::find_if(all, [&](const Critical* one) {
+                    return one->pole && vanishes_at(*one, middle);
+                });
+                const Critical* broken = pole == all.end() ? all.front() : *pole;
+                if (is_below_beside(*broken, middle))
                     return Singularity{Singularity::Kind::no_value, said(*broken) + place, place};
-                if (vanishes_at(*broken, middle_of(box)))
+                if (vanishes_at(*broken, middle))
                     return Singularity{broken->pole ? Singularity::Kind::pole
                                                     : Singularity::Kind::kink,
                                        said(*broken) + place, place};
@@ -421,18 +428,19 @@ private:
         return false;
     }
 
-    [[nodiscard]] const Critical* first_broken(const std::vector<const Critical*>& open,
-                                               const Box& box) const {
+    [[nodiscard]] std::vector<const Critical*> broken_in(const std::vector<const Critical*>& open,
+                                                         const Box& box) const {
         std::map<std::string, Span> names;
         for (const auto& [name, value] : names_at(derived_, {}))
             names[name] = widened(Span(static_cast<double>(value)));
         for (const auto& [name, range] : box)
             names[name] = Span(range.begin, range.end);
         const auto values = program_.values(names);
-        for (const Critical* critical : open)
-            if (!holds(*critical, values[static_cast<std::size_t>(critical->operand)]))
-                return critical;
-        return nullptr;
+        std::vector<const Critical*> broken;
+        std::ranges::copy_if(open, std::back_inserter(broken), [&](const Critical* critical) {
+            return !holds(*critical, values[static_cast<std::size_t>(critical->operand)]);
+        });
+        return broken;
     }
 
     static DomainPoint middle_of(const Box& box) {

@@ -2,7 +2,7 @@
 
 #include "core/space/thermal_mass.hpp"
 #include "mms/admissible/admissibility.hpp"
-#include "mms/expected_orders.hpp"
+#include "mms/forecast/expected_orders.hpp"
 
 #include <optional>
 #include <string>
@@ -29,6 +29,9 @@ struct NormConstants {
     std::string unknown;              ///< why its sizes are not known; empty: they are
     std::optional<LeadingTerm> in_h;  ///< a h^p; none: no error of that kind
     std::optional<LeadingTerm> in_dt; ///< b Δt^q; likewise
+    /// Of u or u_x, whose order 2 the coupling brings: the h above which the beam's own error, of
+    /// order 4 or 3, is the larger one. 0: none is.
+    double shows_below = 0.0;
 };
 
 /// What the sizes depend on, beside the solution.

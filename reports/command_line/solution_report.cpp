@@ -5,8 +5,8 @@
 #include "mms/admissible/consistency.hpp"
 #include "mms/coverage.hpp"
 #include "mms/derivation.hpp"
-#include "mms/expected_orders.hpp"
 #include "mms/forecast/error_constants.hpp"
+#include "mms/forecast/expected_orders.hpp"
 #include "mms/text/input_error.hpp"
 #include "mms/text/number_text.hpp"
 #include "reports/document/text_table.hpp"
@@ -159,8 +159,9 @@ std::string sizes_table(const AdmissibleSolution& solution, const ExpectedOrders
     for (const auto& [heading, method, size] : shown) {
         const ErrorConstants& one = sizes[method];
         if (!one.unknown.empty()) {
-            if (unknown.find(one.unknown) == std::string::npos)
-                unknown += (unknown.empty() ? "" : "; ") + one.unknown;
+            const std::size_t label = heading.find(": ");
+            unknown += wrapped(heading.substr(label == std::string::npos ? 0 : label + 2) +
+                               ": not known: " + one.unknown);
             continue;
         }
         columns.push_back({heading, {}});
@@ -172,8 +173,15 @@ std::string sizes_table(const AdmissibleSolution& solution, const ExpectedOrders
                 unknown_norms = wrapped("?: not known: " + row.unknown);
         }
     }
-    return text_table({"", {"", {norm}}, {{"", columns}}}) + unknown_norms +
-           (unknown.empty() ? "" : wrapped("not known: " + unknown));
+    constexpr double coarse = 0.1;
+    std::string hidden;
+    for (const NormConstants& row : sizes[1].norms)
+        if (row.in_h && row.shows_below > 0.0 && row.shows_below < coarse)
+            hidden += wrapped(fmt::format(
+                "{}: the order {:g} in h comes through alpha and shows for h far below {:.2g} "
+                "alone; with longer elements the beam's own error, of a higher order, is larger.",
+                row.norm, row.in_h->order, row.shows_below));
+    return text_table({"", {"", {norm}}, {{"", columns}}}) + unknown_norms + hidden + unknown;
 }
 
 } // namespace

@@ -46,22 +46,28 @@ int digits_of(const OrderInterval& limit) {
     return size > 1.0 ? static_cast<int>(std::min(std::ceil(std::log10(size)) + 2.0, most)) : 2;
 }
 
+/// "(s, dt) = (4, 0.1), (8, 0.1)".
+std::string names_of(const std::vector<Rung>& rungs) {
+    std::string names;
+    for (const auto& rung : rungs)
+        names +=
+            fmt::format("{}({}, {})", names.empty() ? "" : ", ", rung.elements, shortest(rung.dt));
+    return "(s, dt) = " + names;
+}
+
 /// The runs that a fit leaves out, a sentence a cause.
 std::vector<Block> rejections(const std::string& norm, const TwoTermFit& fit,
                               const std::vector<RungResult>& runs) {
     std::vector<Block> sentences;
     for (const Rejection why : {Rejection::failed, Rejection::unresolved, Rejection::exact,
                                 Rejection::pre_asymptotic, Rejection::outlier}) {
-        std::string named;
+        std::vector<Rung> named;
         for (const auto& rejected : fit.rejected)
-            if (rejected.why == why) {
-                const Rung& rung = runs[rejected.record].rung;
-                named += fmt::format("{}({}, {})", named.empty() ? "" : ", ", rung.elements,
-                                     shortest(rung.dt));
-            }
+            if (rejected.why == why)
+                named.push_back(runs[rejected.record].rung);
         if (!named.empty())
             sentences.emplace_back(Paragraph{
-                fmt::format("{}: not fitted, {}: (s, dt) = {}", norm, words_for(why), named)});
+                fmt::format("{}: not fitted, {}: {}", norm, words_for(why), names_of(named))});
     }
     return sentences;
 }
@@ -98,6 +104,19 @@ Finding finding(const GridLimit& of) {
                         scientific(of.uncertainty, 2)) +
                 orders,
             2};
+}
+
+/// Which of the runs limits come from.
+std::string basis_of_limits(const std::vector<RungResult>& runs) {
+    std::set<double> h;
+    std::set<double> dt;
+    for (const auto& run : runs) {
+        h.insert(run.rung.h());
+        dt.insert(run.rung.dt);
+    }
+    return fmt::format("Limits are from {} of the {} runs: those finest in h or in dt, and the one "
+                       "next to the finest in both.",
+                       h.size() + dt.size(), runs.size());
 }
 
 /// What the model is of: the norm itself, the root of what is a square by its name.
@@ -163,7 +182,7 @@ Section orders_section(const OrdersResult& orders, const OrdersBlock& block) {
     const std::string from = fmt::format("rom {} runs", orders.runs.size());
     Section section{
         "Orders in h and dt",
-        {Paragraph{orders.norms.empty() ? "Limits f" + from + "."
+        {Paragraph{orders.norms.empty() ? "F" + from + ":"
                                         : "Orders f" + from +
                                               ": e^2 = a^2 h^2p + 2 rho a b h^p dt^q + b^2 dt^2q "
                                               "(±: 95 %)"}}};
@@ -173,10 +192,18 @@ Section orders_section(const OrdersResult& orders, const OrdersBlock& block) {
         blocks.emplace_back(fit_table(fits, orders.runs.size()));
         blocks.insert(blocks.end(), findings.begin(), findings.end());
     }
-    if (!orders.values.empty())
+    if (!orders.values.empty()) {
         blocks.emplace_back(BlankLine{});
-    for (const auto& value : orders.values)
+        blocks.emplace_back(Paragraph{basis_of_limits(orders.runs)});
+    }
+    for (const auto& value : orders.values) {
         blocks.emplace_back(finding(value));
+        if (!value.out_of_line.empty())
+            blocks.emplace_back(Finding{value.value +
+                                            ": out of line with the runs that the limit is from: " +
+                                            names_of(value.out_of_line),
+                                        2, true});
+    }
     if (const auto& constant = orders.corollary) {
         blocks.emplace_back(BlankLine{});
         blocks.emplace_back(Finding{

@@ -33,6 +33,19 @@ bool is_nothing(const std::string& /*key*/) {
     return false;
 }
 
+/// Of a race, what is said of times: which scheme is sooner by how much, and a busy machine.
+void leave_out_races(Json& json) {
+    const auto race = json.find("work_precision");
+    if (race == json.end() || !race->is_object())
+        return;
+    race->erase("remarks");
+    if (const auto costs = race->find("time_to_reach"); costs != race->end() && costs->is_object())
+        for (auto& [norm, errors] : costs->items())
+            for (auto& reached : errors)
+                if (reached.is_object())
+                    reached.erase("comparisons");
+}
+
 Json result_in(const std::string& name) {
     std::error_code error;
     const auto file = std::filesystem::is_directory(name, error)
@@ -142,6 +155,7 @@ ComparedResults compare_results(const std::string& first, const std::string& sec
                 values.push_back(row.value("value", Json()));
             scenes.at(i)[swept] = values;
         }
+        leave_out_races(json);
         json.erase("file"); // of a table that was analysed
         if (auto remarks = json.find("remarks"); remarks != json.end() && remarks->is_array())
             remarks->erase(std::remove_if(remarks->begin(), remarks->end(),

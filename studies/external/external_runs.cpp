@@ -247,6 +247,7 @@ private:
         if (failure.empty() && clock) {
             const ReadFigure seconds = clock->figure();
             failure = seconds.failure;
+            result.wall_clock = result.seconds;
             result.seconds = seconds.value.value_or(result.seconds);
             result.printed_seconds = seconds.printed;
             if (failure.empty() && !(result.seconds >= 0.0))
@@ -259,6 +260,11 @@ private:
                                    : process.are_of_errors
                                        ? "; on standard error it wrote: " + process.last_lines
                                        : "; it wrote: " + process.last_lines);
+        // The next run is made in another directory, and fails for the same reason.
+        const std::string path = directory.path().string();
+        for (const auto& part : {path + "/", path})
+            for (std::size_t at = 0; (at = result.reason.find(part, at)) != std::string::npos;)
+                result.reason.erase(at, part.size());
     }
 
     /// Reads what is measured; why not, where it is not all there.
@@ -379,7 +385,8 @@ std::string remark_on_untold_widths(const SolverBlock& solver, const std::vector
 
 StudiedSolver external_runs(const SolverBlock& solver, const Keeper& keeper) {
     const auto external = std::make_shared<ExternalSolver>(solver, keeper);
-    return {.run = [external](const RunTask& task) { return external->run(task); }};
+    return {.run = [external](const RunTask& task) { return external->run(task); },
+            .measures_for_nothing = true};
 }
 
 RunIdentities::RunIdentities(const SolverBlock& solver) : solver_(solver) {

@@ -403,12 +403,24 @@ std::string rest_behind(const std::string& pattern, const std::string& number,
     return behind.substr(0, behind.find_first_of(" \t\r"));
 }
 
+/// A factor of a power of ten behind the group's number, " x 10^-3"; or empty.
+std::string power_of_ten_behind(const std::string& number, const std::string& behind) {
+    static const std::regex power(
+        "^ ?(x|X|\\*|\u00d7|\u00b7|\u22c5) ?10 ?(\\^|\\*\\*|\u207b|\u00b9|\u00b2|\u00b3|\u2074|"
+        "\u2075|\u2076|\u2077|\u2078|\u2079)[^ \t]*");
+    std::smatch match;
+    const bool ends_as_one =
+        !number.empty() && std::isdigit(static_cast<unsigned char>(number.back())) != 0;
+    return ends_as_one && std::regex_search(behind, match, power) ? match.str() : std::string();
+}
+
 /// What follows the group's number as thousands do, ",234.5" behind 1, outside of a list or
 /// brackets, and is not named by the pattern; or empty.
 std::string thousands_behind(const std::string& pattern, const std::string& number,
                              const std::string& before, const std::string& behind) {
     static const std::regex begins(R"(^[-+]?[1-9]\d{0,2}$)");
-    static const std::regex thousands(R"(^(,\d{3})+(\.\d+)?(?![\d,\])}]))");
+    static const std::regex thousands(
+        "^((,|'|_|\u2019|\u00a0|\u2009|\u202f)\\d{3})+(\\.\\d+)?(?![\\d,\\])}])");
     std::smatch match;
     const bool is_in_list =
         !before.empty() && std::string_view(",;([{").find(before.back()) != std::string_view::npos;
@@ -502,6 +514,7 @@ void OutputReading::take(const std::string& line) {
     goes_on_ = rest.empty() ? rest : *found_ + rest;
     const std::string before(line.begin(), (*match)[1].first);
     thousands_ = thousands_behind(pattern_->text, *found_, before, behind);
+    power_of_ten_ = power_of_ten_behind(*found_, behind);
     const std::string begin = begin_before(pattern_->text, *found_, before);
     begins_before_ = begin.empty() ? begin : begin + *found_;
     was_cut_ = is_cut;
@@ -521,6 +534,10 @@ ReadFigure OutputReading::figure() const {
         return {{},
                 "of " + goes_on_ + ", " + pattern_->name + " would be " + *found_ + ": '" +
                     pattern_->text + "' ends within the number; (\\S+) takes it whole"};
+    if (!power_of_ten_.empty())
+        return {{},
+                "'" + power_of_ten_ + "' follows " + pattern_->name + " = " + *found_ +
+                    ": print its exponent as in 1.5e-3"};
     if (!thousands_.empty())
         return {{},
                 "'" + thousands_ + "' follows " + pattern_->name + " = " + *found_ +

@@ -46,6 +46,7 @@ private:
         false;            ///< the last line that matches, or a later one: OutputLines::longest_line
     std::string goes_on_; ///< the whole number, where the pattern takes only a part; or empty
     std::string thousands_;     ///< what follows it so; or empty
+    std::string power_of_ten_;  ///< likewise, as a factor
     std::string begins_before_; ///< likewise, where it leaves its first part out
 };
 

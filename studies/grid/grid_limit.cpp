@@ -38,6 +38,19 @@ public:
                                       : std::numeric_limits<double>::quiet_NaN();
     }
 
+    [[nodiscard]] double unit_at(double h, double dt) const {
+        const auto found = values_.find({h, dt});
+        return found != values_.end() ? found->second.unit : 0.0;
+    }
+
+    /// v(h,Δt) − v(h_f,Δt) − v(h,Δt_f) + v(h_f,Δt_f), with the finest widths: what both do
+    /// together.
+    [[nodiscard]] double together(double h, double dt) const {
+        const double finest_h = *h_.begin();
+        const double finest_dt = *dt_.begin();
+        return at(h, dt) - at(finest_h, dt) - at(h, finest_dt) + at(finest_h, finest_dt);
+    }
+
     /// Along one width where the other is finest, from coarse to fine.
     [[nodiscard]] LimitEstimate along_h() const {
         return along(h_, [this](double h) { return std::pair(h, *dt_.begin()); });
@@ -71,18 +84,46 @@ private:
     std::map<Widths, PrintedValue> values_;
 };
 
-/// r^p − 1, of the two finest widths.
-double growth(const std::set<double>& widths, double order) {
-    return std::pow(*std::next(widths.begin()) / *widths.begin(), order) - 1.0;
+/// The width next to the finest.
+double next_to_finest(const std::set<double>& widths) {
+    return *std::next(widths.begin());
+}
+
+/// r^p − 1, of a width over the finest.
+double growth(const std::set<double>& widths, double width, double order) {
+    return std::pow(width / *widths.begin(), order) - 1.0;
 }
 
 /// What both widths do together at the finest run, by its size.
 double mixed_part(const ValueGrid& grid, double p, double q) {
-    const double h = *grid.h().begin(), coarser_h = *std::next(grid.h().begin());
-    const double dt = *grid.dt().begin(), coarser_dt = *std::next(grid.dt().begin());
-    const double difference = grid.at(h, dt) - grid.at(coarser_h, dt) - grid.at(h, coarser_dt) +
-                              grid.at(coarser_h, coarser_dt);
-    return std::abs(difference / (growth(grid.h(), p) * growth(grid.dt(), q)));
+    const double h = next_to_finest(grid.h());
+    const double dt = next_to_finest(grid.dt());
+    return std::abs(grid.together(h, dt) / (growth(grid.h(), h, p) * growth(grid.dt(), dt, q)));
+}
+
+/// The runs, coarse in both widths, of whose values no limit is made, and in which both widths do
+/// more together than ten times what each does alone and what the run next to the finest lets
+/// expect of terms up to order 4.
+std::vector<Rung> out_of_line(const ValueGrid& grid, const std::vector<RungResult>& runs) {
+    constexpr double far = 10.0;
+    constexpr double highest_order = 4.0;
+    constexpr double rounding = 1e-12;
+    const double finest_h = *grid.h().begin();
+    const double finest_dt = *grid.dt().begin();
+    const double finest = grid.at(finest_h, finest_dt);
+    const double nearest = mixed_part(grid, highest_order, highest_order);
+    std::vector<Rung> found;
+    for (const auto& run : runs) {
+        const double h = run.rung.h();
+        const double dt = run.rung.dt;
+        const double expected =
+            std::abs(grid.at(h, finest_dt) - finest) + std::abs(grid.at(finest_h, dt) - finest) +
+            nearest * growth(grid.h(), h, highest_order) * growth(grid.dt(), dt, highest_order) +
+            rounding * std::abs(finest) + grid.unit_at(h, dt);
+        if (std::abs(grid.together(h, dt)) > far * expected)
+            found.push_back(run.rung);
+    }
+    return found;
 }
 
 } // namespace
@@ -98,19 +139,26 @@ GridLimit limit_of(const std::string& name, const std::vector<RungResult>& runs,
     result.half_in_h = half(in_h.limit);
     result.half_in_dt = half(in_dt.limit);
     const double finest = grid.at(*grid.h().begin(), *grid.dt().begin());
-    if (!std::isfinite(finest))
-        result.limit.status = "the finest run has no value";
-    else if (!in_h.limit.determined)
+    if (!std::isfinite(finest)) {
+        for (OrderInterval* of : {&result.limit, &result.p, &result.q})
+            *of = {.status = "the finest run has no value"};
+    } else if (!in_h.limit.determined)
         result.limit.status = "in h: " + in_h.limit.status;
     else if (!in_dt.limit.determined)
         result.limit.status = "in dt: " + in_dt.limit.status;
     if (!result.limit.status.empty())
         return result;
-    // Orders that are not known are taken as one; a cell that failed says nothing of m.
+    // Orders that are not known are taken as one.
     const auto order = [](const OrderInterval& of) { return of.determined ? of.value : 1.0; };
     const double mixed = mixed_part(grid, order(in_h.order), order(in_dt.order));
-    const double whole =
-        result.half_in_h + result.half_in_dt + (std::isfinite(mixed) ? mixed : 0.0);
+    if (!std::isfinite(mixed)) {
+        result.limit.status =
+            "the run next to the finest in both widths has no value: what both do "
+            "together is not known";
+        return result;
+    }
+    result.out_of_line = out_of_line(grid, runs);
+    const double whole = result.half_in_h + result.half_in_dt + mixed;
     const double value = in_h.limit.value + in_dt.limit.value - finest;
     result.limit = {
         .value = value, .low = value - whole, .high = value + whole, .determined = true};

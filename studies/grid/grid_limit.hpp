@@ -30,10 +30,12 @@ struct GridLimit {
     /// Half of the interval of L_h, and of L_Δt; infinite where they are not determined.
     double half_in_h = std::numeric_limits<double>::infinity();
     double half_in_dt = std::numeric_limits<double>::infinity();
+    /// Runs that the limit does not come from, and that no such v goes with.
+    std::vector<Rung> out_of_line = {};
 };
 
-/// Of measure k of the runs, a grid. Where one of the two limits is not determined, or the finest
-/// run failed, there is none, and the status says which.
+/// Of measure k of the runs, a grid. Where one of the two limits is not determined, or a run failed
+/// that v_f or D comes from, there is none, and the status says which.
 GridLimit limit_of(const std::string& name, const std::vector<RungResult>& runs, std::size_t k);
 
 } // namespace tvbeam

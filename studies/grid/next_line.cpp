@@ -137,9 +137,10 @@ ForecastSeconds::ForecastSeconds(const GridLines& lines, const std::vector<RungR
     std::vector<Eigen::Vector3d> rows;
     std::vector<double> logs;
     for (const auto& run : runs)
-        if (run.rung.elements >= least.elements && run.rung.dt <= longest.dt && run.seconds > 0.0) {
+        if (run.rung.elements >= least.elements && run.rung.dt <= longest.dt &&
+            run.seconds_taken() > 0.0) {
             rows.emplace_back(1.0, -std::log(run.rung.h()), -std::log(run.rung.dt));
-            logs.push_back(std::log(run.seconds));
+            logs.push_back(std::log(run.seconds_taken()));
         }
     if (rows.size() < 4) { // a clock that shows nothing
         log_factor_ = -infinity;

@@ -57,6 +57,26 @@ void expect_ratios(TableReader& table, const Series& series, std::size_t k,
     }
 }
 
+/// Why a ladder has no prediction of a norm.
+std::string why_not_predicted(const StudyResult& result, const Measure& norm) {
+    const auto* orders = result.get<OrdersResult>();
+    if (orders == nullptr)
+        return "there is no [orders]";
+    if (result.scene.get<OrdersBlock>()->final_time != result.scene.get<LadderBlock>()->final_time)
+        return "[orders] has another final_time";
+    const auto found = std::ranges::find(orders->norms, norm.root(), &NormOrders::norm);
+    if (found == orders->norms.end())
+        return "[orders] has no " + norm.root();
+    const TwoTermFit& fit = found->fit;
+    if (!fit.holds())
+        return "the fit of [orders] failed: " + fit.failure;
+    if (!fit.misfit.empty())
+        return fit.misfit;
+    if (!fit.p_determined())
+        return "its order in h is not determined: " + fit.p.status;
+    return "its order in dt is not determined: " + fit.q.status;
+}
+
 /// Error over prediction of the two-term model, both of the norm itself, of every rung finer than
 /// the grid; or over where in the predicted interval it lies: 0 at its low end, 1 at its high one.
 std::vector<Metric> predicted_metrics(const Series& series, std::size_t k, bool in_interval,
@@ -83,8 +103,7 @@ std::vector<Metric> predicted_metrics(const Series& series, std::size_t k, bool 
     if (metrics.empty())
         metrics.push_back({"ladder." + norm.norm.name + ": prediction", std::nullopt,
                            norm.predictions.empty()
-                               ? "no two-term model: [orders] is missing, has another final_time, "
-                                 "or its fit failed"
+                               ? "no two-term model: " + why_not_predicted(result, norm.norm)
                                : "no level is finer than the grid of [orders]"});
     return metrics;
 }

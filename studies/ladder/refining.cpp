@@ -14,8 +14,8 @@ const OrderInterval& interval_of(const ColumnAnalysis& column) {
 
 /// What the next level will need, as the last two have it.
 double forecast_seconds(const std::vector<RungResult>& rungs) {
-    const double last = rungs.back().seconds;
-    const double before = rungs[rungs.size() - 2].seconds;
+    const double last = rungs.back().seconds_taken();
+    const double before = rungs[rungs.size() - 2].seconds_taken();
     return before > 0.0 ? last * std::max(1.0, last / before) : last;
 }
 

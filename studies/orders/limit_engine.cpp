@@ -25,7 +25,9 @@ const LimitModel limit_models[] = {{std::nullopt},
                                    {1.0, Next::one_more},
                                    {std::nullopt, Next::one_more},
                                    {std::nullopt, Next::doubled},
-                                   {std::nullopt, Next::none, true}};
+                                   {std::nullopt, Next::none, true},
+                                   {std::nullopt, Next::none, false, 1},
+                                   {std::nullopt, Next::none, false, 2}};
 
 using Rows = std::vector<ValueRow>;
 
@@ -155,7 +157,7 @@ void weigh(const Rows& levels, const LimitModel& model, std::vector<Weighed>& li
         if (!compared || !std::isfinite(fit->limit_error))
             continue;
         limits.push_back({fit->limit, std::hypot(change, fit->limit_error)});
-        if (!model.order)
+        if (!model.order && model.logarithmic == 0)
             orders.push_back(fit->order);
     }
 }
@@ -465,22 +467,34 @@ LimitEstimate estimate_limit(std::span<const ValueRow> rows, const LimitTuning& 
     }
     std::vector<Weighed> limits;
     std::vector<double> orders;
+    std::vector<Weighed> with_logarithms;
     for (const auto& model : limit_models)
         if (!model.alternating || alternates(levels))
-            weigh(levels, model, limits, orders);
+            weigh(levels, model, model.logarithmic > 0 ? with_logarithms : limits, orders);
+    std::sort(orders.begin(), orders.end());
+    const double first = orders.empty() ? 1.0 : orders[orders.size() / 2];
     const double last_step = std::abs(levels[levels.size() - 2].value - levels.back().value);
     const auto spare = static_cast<double>(levels.size()) - 2;
     const double scatter = scatter_of(levels);
     const bool is_scattered = last_step < tuning.exact_steps * scatter;
+    // Where values scatter every low order follows them, and every logarithm.
+    if (is_scattered || !(first < tuning.logarithmic_below))
+        with_logarithms.clear();
+    with_logarithms.insert(with_logarithms.end(), limits.begin(), limits.end());
     const bool is_wider = is_scattered && is_erratic(levels);
     const double factor =
         (is_wider ? tuning.scattered : tuning.factor) * (1 + tuning.few_levels / (spare * spare));
     // What the doubles of the values do not know, in units of the scale.
     const double unknown =
         std::max(rounding / scale, roundings * std::numeric_limits<double>::epsilon());
-    if (const auto mean = mean_of(limits, tuning.agreement * last_step + unknown)) {
+    const double agreement = tuning.agreement * last_step + unknown;
+    if (const auto mean = mean_of(limits, agreement)) {
+        const auto half_of = [&](const Mean& of) {
+            return std::abs(of.value - mean->value) + factor * of.spread +
+                   tuning.narrowest * std::abs(of.value) + unknown;
+        };
         const double half = std::max(
-            scale * (factor * mean->spread + tuning.narrowest * std::abs(mean->value) + unknown),
+            scale * std::max(half_of(*mean), half_of(*mean_of(with_logarithms, agreement))),
             std::max(given.back().unit / 2, is_wider ? scale * scatter : 0.0));
         const double limit = origin + scale * mean->value;
         if (!std::isfinite(limit) || !std::isfinite(half)) {
@@ -499,8 +513,6 @@ LimitEstimate estimate_limit(std::span<const ValueRow> rows, const LimitTuning& 
     } else {
         result.limit.status = "no model fits";
     }
-    std::sort(orders.begin(), orders.end());
-    const double first = orders.empty() ? 1.0 : orders[orders.size() / 2];
     result.order = order_of_differences(levels, first);
     // Of scatter that is not stated the differences show none: it would pass for their order.
     if (is_scattered)

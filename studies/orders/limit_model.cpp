@@ -30,7 +30,10 @@ LinearFit fit_at(std::span<const ValueRow> rows, const Weights& weights, double 
         const double x = row.h / unit;
         const double w = std::sqrt(weights.relative[i]);
         design(i, 0) = w;
-        design(i, 1) = w * std::pow(x, order);
+        design(i, 1) =
+            w * (model.logarithmic > 0
+                     ? std::pow(1 - order * std::log(x) / model.logarithmic, -model.logarithmic)
+                     : std::pow(x, order));
         if (model.alternating && i % 2 == 1)
             design(i, 1) = -design(i, 1);
         if (model.next != Next::none)

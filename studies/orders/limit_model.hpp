@@ -30,6 +30,9 @@ struct LimitModel {
     enum class Next { none, one_more, doubled };
     Next next = Next::none;
     bool alternating = false; ///< C changes its sign from level to level
+    /// k > 0: in place of h^p (1 + p ln(h_0/h)/k)^-k, with the coarsest h_0, at which p is its
+    /// order: the longer h falls, the more like 1/ln^k.
+    int logarithmic = 0;
     int parameters() const { return 2 + (order ? 0 : 1) + (next == Next::none ? 0 : 1); }
 };
 

@@ -5,7 +5,7 @@
 #include "core/round_off.hpp"
 #include "core/space/linear_elements.hpp"
 #include "core/worse.hpp"
-#include "mms/expected_orders.hpp"
+#include "mms/forecast/expected_orders.hpp"
 #include "mms/text/input_error.hpp"
 #include "studies/runs/beam_runs.hpp"
 #include "studies/scene/scene.hpp"

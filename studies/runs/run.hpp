@@ -3,11 +3,13 @@
 #include "studies/data/printed_digits.hpp"
 #include "studies/orders/observed_order.hpp"
 
+#include <algorithm>
 #include <any>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -86,6 +88,13 @@ struct RungResult {
     /// How finely each was printed, where a program wrote them; empty: they are the doubles found.
     std::vector<PrintedDigits> printed = {};
     PrintedDigits printed_seconds = {}; ///< none where they are not by a clock of the program's own
+    /// The wall clock, where seconds are by a clock of the program's own; not kept.
+    std::optional<double> wall_clock = {};
+
+    /// What a budget of time counts: a clock of the program's own where it shows more.
+    [[nodiscard]] double seconds_taken() const {
+        return std::max(wall_clock.value_or(seconds), seconds);
+    }
 
     /// A counter by its name; 0 where the solver has none of it.
     [[nodiscard]] std::int64_t count(std::string_view name) const;

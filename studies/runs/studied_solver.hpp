@@ -22,6 +22,9 @@ struct RoundingErrors {
 struct StudiedSolver {
     RunCall run;
 
+    /// What is measured costs a run nothing: a program prints it in any case.
+    bool measures_for_nothing = false;
+
     /// A finer run that errors are measured against; none: the exact solution.
     std::optional<ReferenceBlock> reference = std::nullopt;
 

@@ -76,7 +76,7 @@ bool is_known(double wanted, const OrderInterval& found, const OrderInterval& be
 double seconds_of(const std::vector<RungResult>& runs) {
     double seconds = 0.0;
     for (const auto& run : runs)
-        seconds += run.seconds;
+        seconds += run.seconds_taken();
     return seconds;
 }
 

@@ -43,6 +43,18 @@ Timing between(const Timing& a, const Timing& b, double weight) {
                                     weight * b.clock_step / b.median)};
 }
 
+/// At an error between those of two rows, the first of which exceeds it.
+std::optional<Timing> time_between(const TimedError& before, const TimedError& after,
+                                   double error) {
+    if (&after - &before > 1) { // rows without error between them
+        if (same(before.error, error))
+            return before.timing;
+        return same(after.error, error) ? std::optional(after.timing) : std::nullopt;
+    }
+    const double weight = std::log(before.error / error) / std::log(before.error / after.error);
+    return between(before.timing, after.timing, weight);
+}
+
 } // namespace
 
 Timing timing_of(std::vector<double> seconds, double clock_step) {
@@ -101,27 +113,26 @@ double clock_step_of(const std::vector<double>& seconds, double printed_unit) {
 }
 
 std::optional<Timing> time_to_reach(std::span<const TimedError> rows, double error) {
-    const auto first = std::find_if(rows.begin(), rows.end(), has_error);
     const auto last = std::find_if(rows.rbegin(), rows.rend(), has_error);
+    const auto first = std::find_if(rows.begin(), rows.end(), has_error);
     if (first == rows.end())
         return std::nullopt;
     // The finest row that exceeds the error; from the next one on it is reached.
     const auto above = std::find_if(rows.rbegin(), rows.rend(), [&](const TimedError& row) {
         return has_error(row) && row.error > error;
     });
+    std::optional<Timing> reached;
     if (above == last)
         return same(last->error, error) ? std::optional(last->timing) : std::nullopt;
     if (above == rows.rend())
-        return same(first->error, error) ? std::optional(first->timing) : std::nullopt;
-    const TimedError& before = *above;
-    const TimedError& after = *std::find_if(above.base(), rows.end(), has_error);
-    if (&after - &before > 1) { // rows without error between them
-        if (same(before.error, error))
-            return before.timing;
-        return same(after.error, error) ? std::optional(after.timing) : std::nullopt;
-    }
-    const double weight = std::log(before.error / error) / std::log(before.error / after.error);
-    return between(before.timing, after.timing, weight);
+        reached = same(first->error, error) ? std::optional(first->timing) : std::nullopt;
+    else
+        reached = time_between(*above, *std::find_if(above.base(), rows.end(), has_error), error);
+    // A finer row may be cheaper, as where a solver takes fewer iterations on it.
+    for (auto row = above.base(); reached && row != rows.end(); ++row)
+        if (has_error(*row) && row->timing.median < reached->median)
+            reached = row->timing;
+    return reached;
 }
 
 Comparison compare(const Timing& first, const Timing& second) {

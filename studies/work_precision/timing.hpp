@@ -45,8 +45,9 @@ inline constexpr double same_error = 0.01;
 /// (same_error apart): nothing is extrapolated.
 ///
 /// Where the error rises along the ladder, it counts as reached only from where no finer row
-/// exceeds it: a dip, by which two errors happen to cancel, is not a scheme's merit. Nothing is
-/// interpolated across a row without an error > 0, one that failed say.
+/// exceeds it: a dip, by which two errors happen to cancel, is not a scheme's merit. Where a row
+/// finer than that takes less time, its time counts. Nothing is interpolated across a row without
+/// an error > 0, one that failed say.
 std::optional<Timing> time_to_reach(std::span<const TimedError> rows, double error);
 
 /// Two times for the same thing. Quartiles reach a step of their clock further: a time of t may be

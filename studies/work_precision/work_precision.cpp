@@ -24,6 +24,8 @@ constexpr double enough_seconds = 0.5;
 constexpr int least_runs = 5;
 /// Of a core, for times that can be compared.
 constexpr double least_share = 0.9;
+/// A relative change of a figure from run to run that threads which add up in another order may be.
+constexpr double same_figure = 1e-6;
 constexpr int first_decade = 2; // 1e-2, or one that is above it and below errors of every scheme
 constexpr int least_decade = -12;
 constexpr int last_decade = 9;
@@ -53,6 +55,7 @@ struct Contestant {
     std::vector<double> shown = {}; ///< by the clock, of these runs and of those before
     std::vector<PrintedDigits> printed = {};
     double clock_step = 0.0;
+    double greatest_change = 0.0; ///< of a figure, from its first run to those that are timed
 
     /// Of so many rounds, those that it takes part in lie evenly among them: a machine that slows
     /// down slows all alike.
@@ -111,13 +114,17 @@ void set_clock_steps(std::vector<Contestant>& contestants) {
     raise_clock_steps(contestants);
 }
 
+std::string text_of(const Rung& rung) {
+    return rung.name([](double dt) { return fmt::format("{:g}", dt); });
+}
+
 class Race {
 public:
-    Race(const WorkPrecisionBlock& block, const RunCall& run, const Execution& execution,
+    Race(const WorkPrecisionBlock& block, const StudiedSolver& solver, const Execution& execution,
          double one_run_above)
         : block_(block), all_(series_of(block)), execution_(execution),
-          one_run_above_(one_run_above) {
-        run_ = [this, run](const RunTask& task) {
+          one_run_above_(one_run_above), measures_(solver.measures_for_nothing) {
+        run_ = [this, run = solver.run](const RunTask& task) {
             RungResult result = run(task);
             interrupted_ = interrupted_ || result.status == RungStatus::interrupted;
             return result;
@@ -134,9 +141,14 @@ public:
                 if (!is_long(contestant) && contestant.takes_part(round, block_.runs))
                     time(contestant);
         set_clock_steps(contestants_);
-        for (const auto& contestant : contestants_)
-            if (result_[contestant.scheme].runs[contestant.run].status == RungStatus::ok)
-                result_[contestant.scheme].timings[contestant.run] = timing(contestant);
+        for (const auto& contestant : contestants_) {
+            SchemeRuns& scheme = result_[contestant.scheme];
+            if (scheme.runs[contestant.run].status != RungStatus::ok)
+                continue;
+            scheme.timings[contestant.run] = timing(contestant);
+            if (contestant.greatest_change > same_figure)
+                scheme.unsteady.push_back(unsteady(contestant));
+        }
         return std::move(result_);
     }
 
@@ -154,17 +166,29 @@ private:
                                : std::optional(timing_of(seconds, contestant.clock_step));
     }
 
-    /// A run whose time alone is wanted.
-    RungResult run_unmeasured(Contestant& contestant) {
+    [[nodiscard]] std::string unsteady(const Contestant& contestant) const {
+        return fmt::format(
+            "{}: of the runs at {} a figure differs by up to {:.2g} of its size; the "
+            "first one's errors are shown.",
+            block_.schemes[contestant.scheme].name,
+            text_of(all_[contestant.scheme].rungs[contestant.run]), contestant.greatest_change);
+    }
+
+    /// A run whose time is wanted.
+    RungResult run_timed(Contestant& contestant) {
+        static const std::vector<Measure> nothing;
         const Series& series = all_[contestant.scheme];
         const Rung& rung = series.rungs[contestant.run];
-        RungResult result = run_({contestant.run,
-                                  rung,
-                                  series.final_time,
-                                  series.method,
-                                  {},
-                                  execution_.steps_of(series.method, rung)});
+        RungResult result =
+            run_({contestant.run, rung, series.final_time, series.method,
+                  measures_ ? series.measures : nothing, execution_.steps_of(series.method, rung)});
         if (result.status == RungStatus::ok) {
+            const auto& first = result_[contestant.scheme].runs[contestant.run].errors;
+            for (std::size_t k = 0; k < result.errors.size() && k < first.size(); ++k)
+                if (const double other = result.errors[k]; other != first[k])
+                    contestant.greatest_change = std::max(
+                        contestant.greatest_change,
+                        std::abs(other - first[k]) / std::max(std::abs(other), std::abs(first[k])));
             contestant.shown.push_back(result.seconds);
             contestant.printed.push_back(result.printed_seconds);
         }
@@ -180,7 +204,7 @@ private:
             if (measured.status != RungStatus::ok)
                 continue;
             Contestant contestant{scheme, level};
-            const RungResult warm_up = run_unmeasured(contestant);
+            const RungResult warm_up = run_timed(contestant);
             if (warm_up.status != RungStatus::ok) {
                 fail(measured, warm_up);
                 continue;
@@ -193,8 +217,8 @@ private:
 
     void time(Contestant& contestant) {
         if (contestant.warm_up < quick)
-            run_unmeasured(contestant);
-        const RungResult timed = run_unmeasured(contestant);
+            run_timed(contestant);
+        const RungResult timed = run_timed(contestant);
         if (timed.status == RungStatus::ok)
             contestant.seconds.push_back(timed.seconds);
         else
@@ -216,6 +240,7 @@ private:
     RunCall run_;
     const Execution& execution_;
     double one_run_above_;
+    bool measures_;
     bool interrupted_ = false;
     std::vector<SchemeRuns> result_;
     std::vector<Contestant> contestants_;
@@ -296,10 +321,6 @@ void compare_all(ReachedError& reached) {
             }
 }
 
-std::string text_of(const Rung& rung) {
-    return rung.name([](double dt) { return fmt::format("{:g}", dt); });
-}
-
 /// A sentence for every row whose error is larger than that of the row before it.
 void add_rises(std::vector<std::string>& remarks, const std::string& norm,
                const TimedScheme& scheme, const std::vector<TimedError>& rows) {
@@ -361,12 +382,12 @@ std::uint64_t node_steps(const Rung& rung) {
                : product;
 }
 
-WorkPrecisionResult run_work_precision(const WorkPrecisionBlock& block, const RunCall& run,
+WorkPrecisionResult run_work_precision(const WorkPrecisionBlock& block, const StudiedSolver& solver,
                                        const Execution& execution, double one_run_above) {
     WorkPrecisionResult result;
     const double processor = processor_seconds();
     const auto start = std::chrono::steady_clock::now();
-    Race race(block, run, execution, one_run_above);
+    Race race(block, solver, execution, one_run_above);
     result.schemes = race.take();
     result.interrupted = race.interrupted();
     const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
@@ -386,6 +407,9 @@ std::vector<NormCosts> costs_of(const WorkPrecisionBlock& block,
             add_rises(costs.remarks, costs.norm.name, block.schemes[scheme], ladders.back());
             if (k == 0)
                 add_standing_clocks(costs.remarks, block.schemes[scheme], schemes[scheme]);
+            if (k == 0)
+                costs.remarks.insert(costs.remarks.end(), schemes[scheme].unsteady.begin(),
+                                     schemes[scheme].unsteady.end());
         }
         const auto targets = block.targets.find(costs.norm.name);
         costs.errors = errors_to_reach(

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "studies/runs/execution.hpp"
+#include "studies/runs/studied_solver.hpp"
 #include "studies/work_precision/timing.hpp"
 #include "studies/work_precision/work_precision_block.hpp"
 
@@ -14,8 +15,10 @@ namespace tvbeam {
 struct SchemeRuns {
     /// With the errors of an untimed run, and the counters of a timed one.
     std::vector<RungResult> runs;
-    /// One a run, without error norms; none where the run failed, or an interruption came before.
+    /// One a run; none where the run failed, or an interruption came before.
     std::vector<std::optional<Timing>> timings;
+    /// A sentence for every run whose errors were others when it was timed.
+    std::vector<std::string> unsteady;
 };
 
 /// Two schemes at the same error.
@@ -70,8 +73,9 @@ std::uint64_t node_steps(const Rung& rung);
 /// least, where fewer fill half a second. The runs of
 /// all rungs take turns, so that a machine that is busy for a while slows all alike, and nothing
 /// runs beside them, whatever execution.jobs says. Errors are kept as run_or_find does; times are
-/// not.
-WorkPrecisionResult run_work_precision(const WorkPrecisionBlock& block, const RunCall& run,
+/// not. Timed runs measure nothing, unless that costs nothing: they fail where they lack an error,
+/// and errors that differ from those of the first run are remarked on.
+WorkPrecisionResult run_work_precision(const WorkPrecisionBlock& block, const StudiedSolver& solver,
                                        const Execution& execution = {}, double one_run_above = 2.0);
 
 /// What the rows say, for every norm of the block.

@@ -25,7 +25,7 @@ struct WorkPrecisionStudy final : KindOf<WorkPrecisionBlock, WorkPrecisionResult
         return (block_in(block).runs + 2) * StudyKind::work(block, own);
     }
     std::any run(const std::any& block, const StudyContext& context) const override {
-        auto result = run_work_precision(block_in(block), context.solver.run, context.execution);
+        auto result = run_work_precision(block_in(block), context.solver, context.execution);
         if (context.scene.solver) // a program may wait for what is not the processor
             result.busy_remark.clear();
         return result;

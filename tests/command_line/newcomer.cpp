@@ -355,6 +355,23 @@ BOOST_AUTO_TEST_CASE(a_comparison_says_what_differs_and_by_how_much) {
     }
 }
 
+// Which of two schemes is sooner, and by how much, is another number in every run.
+BOOST_AUTO_TEST_CASE(a_comparison_leaves_out_what_follows_from_run_times) {
+    const TemporaryDirectory directory;
+    const auto race = [&](const std::string& ratio, const std::string& error) {
+        return directory.write(
+            ratio + error + ".json",
+            R"({"schema":"tvbeam-result/1","work_precision":{"time_to_reach":{"L2":[{"error":)" +
+                error + R"(,"seconds":{"A":)" + ratio +
+                R"(},"comparisons":[{"faster":"A","ratio":)" + ratio +
+                R"(}]}]},"remarks":["the runs had )" + ratio + R"( of a core"]}})");
+    };
+    BOOST_TEST(call(directory, "compare " + race("2", "0.1") + " " + race("3", "0.1")).exit == 0);
+    const Called other = call(directory, "compare " + race("2", "0.1") + " " + race("3", "0.2"));
+    BOOST_TEST(other.exit == 1);
+    BOOST_TEST(has(other.output, "1 differ"), other.output);
+}
+
 // Every shipped scene is one of the schema, and a misspelt key is none.
 BOOST_AUTO_TEST_CASE(the_schema_of_scenes_holds_for_those_that_are_shipped) {
     const TemporaryDirectory directory;

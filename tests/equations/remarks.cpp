@@ -111,6 +111,17 @@ BOOST_AUTO_TEST_CASE(a_pole_of_a_source_alone_is_said_of_it) {
     BOOST_TEST(tiny.find("t = 1e-304") != std::string::npos, tiny);
 }
 
+// The base of r^3 is a root at its centre and, in what is derived, a divisor.
+BOOST_AUTO_TEST_CASE(a_root_that_becomes_a_divisor_is_a_pole_also_between_the_points) {
+    for (const std::string place : {"0.37", "0.5"}) {
+        const auto said = remarks_of("((x - " + place + ")^2)^1.25 + x^2", "diff(u, x, 3)");
+        bool has_pole = false;
+        for (const auto& remark : said)
+            has_pole = has_pole || remark.find("f has no value: ") != std::string::npos;
+        BOOST_TEST(has_pole, place);
+    }
+}
+
 BOOST_AUTO_TEST_CASE(a_narrow_pole_between_the_points_is_not_overlooked) {
     // (x − 1/π)² has no change of sign, and no point of a grid is at 1/π.
     const std::string said =

@@ -1,7 +1,7 @@
 // What an exact solution does at the stops: touches, onsets and their powers.
 
 #include "mms/contact_history.hpp"
-#include "mms/expected_orders.hpp"
+#include "mms/forecast/expected_orders.hpp"
 #include "mms/solution.hpp"
 
 #include <boost/test/data/monomorphic.hpp>

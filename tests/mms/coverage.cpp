@@ -3,7 +3,7 @@
 #include "mms/coverage.hpp"
 #include "core/time/time_scheme.hpp"
 #include "mms/admissible/consistency.hpp"
-#include "mms/expected_orders.hpp"
+#include "mms/forecast/expected_orders.hpp"
 #include "tests/suited_beam.hpp"
 
 #include <boost/test/data/monomorphic.hpp>
@@ -345,6 +345,41 @@ BOOST_AUTO_TEST_CASE(the_stress_of_a_tip_without_a_time_error_has_none_without_c
         bent + "u = '(g2 + (1 + t)/20)*x^2*(3 - x)/2 + x^2*(1 - x)^2*cos(3*t)/20'\n";
     BOOST_TEST(of_stress(even, 0.0, 0.01) == "-");
     BOOST_TEST(of_stress(even, 0.3, 0.01) == "2");
+}
+
+// Where a contact begins within a phase, or the tip touches a stop without a force, it is not held
+// from the start: there is an error, of an order that nobody knows.
+BOOST_AUTO_TEST_CASE(a_contact_within_a_phase_and_a_touch_leave_the_stress_an_error) {
+    for (const double alpha : {0.0, 0.3}) {
+        const Beam beam{alpha, 0.1, 0.0, {-0.1, 0.2, 0.0}};
+        for (const std::string text :
+             {"theta = 'sin(pi*x)*cos(t)'\n"
+              "u = 'g2*(3*x^2 - x^3)/2*(1 - (0.4 - t + sqrt((0.4 - t)^2))^3)'\n"
+              "sigma = '-(t - 0.4 + sqrt((t - 0.4)^2))^2'\n",
+              "theta = 'sin(pi*x)*cos(t)'\nu = '0.2*x^2*(3 - x)/2*(1 - (t - 1)^2)'\n"}) {
+            const auto stress =
+                expected_orders({parse_solution(text, "my.toml"), beam, 2.0}).orders.back();
+            BOOST_TEST(stress.norm == "sigma_L2");
+            for (const Forecast& order : {stress.euler, stress.bdf2, stress.sdirk2})
+                BOOST_TEST(words_of(order) == "not known", alpha);
+        }
+    }
+}
+
+// With ζ far below a step SDIRK2 behaves as without viscosity.
+BOOST_AUTO_TEST_CASE(little_viscosity_is_as_none) {
+    const auto orders = [](const std::string& u, double zeta) {
+        return expected_orders({parse_solution("theta = '0'\nu = '" + u + "'\n", "my.toml"),
+                                {0.7, zeta, 0.0, {}},
+                                1.0})
+            .orders;
+    };
+    for (const double zeta : {0.0, 1e-6, 9e-3}) {
+        BOOST_TEST(words_of(orders("x^2*(1 + x)*t^2", zeta)[0].bdf2) == "2.25 to 3", zeta);
+        BOOST_TEST(words_of(orders("x^2*(1 + x)*sin(3*t)", zeta)[2].sdirk2) == "1.75 to 2", zeta);
+    }
+    BOOST_TEST(words_of(orders("x^2*(1 + x)*t^2", 0.1)[0].bdf2) == "3");
+    BOOST_TEST(words_of(orders("x^2*(1 + x)*sin(3*t)", 0.1)[2].sdirk2) == "2");
 }
 
 BOOST_AUTO_TEST_CASE(a_solution_linear_in_time_has_no_time_residual) {

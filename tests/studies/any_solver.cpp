@@ -228,7 +228,7 @@ BOOST_AUTO_TEST_CASE(a_race_of_calls_gives_each_scheme_its_own_errors) {
     block.runs = 2;
     block.schemes = {{"first", method("first"), levels({4, 8})},
                      {"second", method("second"), levels({4, 8})}};
-    const WorkPrecisionResult race = run_work_precision(block, made_up);
+    const WorkPrecisionResult race = run_work_precision(block, {.run = made_up});
     BOOST_REQUIRE(race.schemes.size() == 2U);
     for (std::size_t i = 0; i < 2; ++i) {
         BOOST_TEST(race.schemes[0].runs[i].errors.at(0) / race.schemes[1].runs[i].errors.at(0) ==

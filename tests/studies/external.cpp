@@ -192,10 +192,22 @@ BOOST_AUTO_TEST_CASE(a_pattern_that_ends_within_a_number_is_a_failure) {
     BOOST_TEST(*read({"L2 = [8., 4.]"}, R"(L2 = \[(\d+\.?\d*))").value == 8.0);
     BOOST_TEST(*read({"L2 = 4.0-2"}, R"(L2 = ([\d.]+))").value == 4.0); // a range
     for (const auto& [line, pattern] : std::vector<std::pair<std::string, std::string>>{
-             {"dofs = 16,641", R"(dofs = (\d+))"}, {"drag = -1,234.5 N", R"(drag = (-?\d+))"}})
+             {"dofs = 16,641", R"(dofs = (\d+))"},
+             {"drag = -1,234.5 N", R"(drag = (-?\d+))"},
+             {"drag = 1'234.5", R"(drag = ([\d.]+))"},
+             {"drag = 1_234.5", R"(drag = (\d+))"},
+             {"drag = 1\u202f234", R"(drag = (\d+))"}})
         BOOST_TEST(read({line}, pattern).failure.find("print it without separators") !=
                        std::string::npos,
                    pattern);
+    for (const std::string line :
+         {"v = 1.5 x 10^-3", "v = 1.5*10^-3", "v = 1.5 \u00d7 10\u207b\u00b3", "v = 1.5\u00b710^3",
+          "v = 1.5 * 10**-3"})
+        BOOST_TEST(read({line}, R"(v = ([\d.]+))").failure.find("print its exponent") !=
+                       std::string::npos,
+                   line);
+    for (const std::string line : {"v = 1.5 x 10 cells", "v = 1.5 * 10", "v = 1.5 10^3 cells"})
+        BOOST_TEST(*read({line}, R"(v = ([\d.]+))").value == 1.5, line);
     // Rows, pairs, and a comma that the pattern names.
     for (const auto& [line, pattern] :
          std::vector<std::pair<std::string, std::string>>{{"5,125,0.5", R"(^(\d+))"},

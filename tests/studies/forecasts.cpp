@@ -2,7 +2,7 @@
 // of our own, by every time scheme.
 
 #include "core/run.hpp"
-#include "mms/expected_orders.hpp"
+#include "mms/forecast/expected_orders.hpp"
 #include "mms/manufactured_problem.hpp"
 #include "studies/scene/shipped.hpp"
 #include "studies/scene/solution_setting.hpp"
@@ -306,6 +306,38 @@ BOOST_AUTO_TEST_CASE(a_steep_cusp_lowers_the_order_too) {
         for (const std::string scheme : {"bdf2", "sdirk2"})
             check_forecast(problem, scheme, of_sixteenths, "u ~ t^" + power);
     }
+}
+
+// The element at an end misses u_xx ~ s^(p − 2) by h^(p − 3/2) in L², more than h² for p < 7/2.
+BOOST_AUTO_TEST_CASE(a_rough_end_lowers_the_order_in_h) {
+    for (const std::string base : {"x", "(1 - x)"})
+        for (const double power : {3.05, 3.2, 3.4, 3.6, 4.0}) {
+            const std::string p = std::to_string(power);
+            const std::string rough = base + "^" + p;
+            const std::string clamped = base == "x" ? rough : rough + " - 1 + " + p + "*x";
+            const Problem problem{
+                parse_solution("theta = 't*x*(1 - x)'\nu = 't*(" + clamped + ")'\n", "rough.toml"),
+                {0.0, 0.15, 0.0, {}},
+                1.0};
+            const ExpectedOrders expected =
+                expected_orders({problem.solution, problem.beam, problem.final_time});
+            BOOST_TEST(expected.rough_end.has_value() == (power < 3.5));
+            const Forecast in_h =
+                std::ranges::find(expected.orders, "u_LinfH2semi", &ExpectedOrder::norm)->in_h;
+            const double order = std::min(power - 1.5, 2.0);
+            // 1 − x has four digits at the distances from x = 1 that are looked at.
+            BOOST_TEST(std::abs(in_h.least - order) < 1e-4, rough << ": " << in_h.least);
+            const ProblemData data =
+                manufactured_problem({problem.solution, problem.beam, problem.final_time});
+            std::vector<double> h;
+            std::vector<double> found;
+            for (const std::int64_t elements : {64, 128, 256, 512, 1024}) {
+                h.push_back(1.0 / static_cast<double>(elements));
+                found.push_back(errors(problem, data, "euler", elements, 4)[2]);
+            }
+            BOOST_TEST(std::abs(slope(h, found) - order) < 0.06,
+                       rough << " has the order " << slope(h, found) << ", forecast " << order);
+        }
 }
 
 // A layer has a finite slope, however thin it is: nothing of it is a cusp.

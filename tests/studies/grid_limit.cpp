@@ -7,6 +7,8 @@
 #include <cmath>
 #include <functional>
 #include <random>
+#include <set>
+#include <string>
 
 using namespace tvbeam;
 
@@ -55,6 +57,40 @@ BOOST_AUTO_TEST_CASE(what_both_widths_do_together_is_in_the_interval) {
         // m at the finest run; the limits alone are known far better than that.
         BOOST_TEST(found.limit.half_width() >= std::abs(mixed) / 64 / 64 * 0.0125);
         BOOST_TEST(std::abs(found.limit.value - 3.0) > 0.5 * std::abs(mixed) / 64 / 64 * 0.0125);
+    }
+}
+
+// What both do together is known from four runs: without one of them it may be anything.
+BOOST_AUTO_TEST_CASE(a_failed_run_next_to_the_finest_leaves_no_limit) {
+    auto runs = grid_of([](double h, double dt) { return 3.0 + h * h - 0.5 * dt + 3.0 * h * dt; });
+    const GridLimit whole = limit_of("drag", runs, 0);
+    BOOST_TEST(holds(whole.limit, 3.0));
+    std::set<double> h, dt;
+    for (const auto& run : runs) {
+        h.insert(run.rung.h());
+        dt.insert(run.rung.dt);
+    }
+    for (auto& run : runs)
+        if (run.rung.h() == *std::next(h.begin()) && run.rung.dt == *std::next(dt.begin()))
+            run.errors.clear();
+    const GridLimit found = limit_of("drag", runs, 0);
+    BOOST_TEST(!found.limit.determined);
+    BOOST_TEST(found.limit.status.find("next to the finest") != std::string::npos);
+}
+
+// The limit is that of the finest runs; one that has nothing to do with them is named, and none
+// that differs by terms of both widths.
+BOOST_AUTO_TEST_CASE(values_out_of_line_are_named) {
+    for (const double mixed : {0.0, 3.0, -300.0}) {
+        auto runs = grid_of([&](double h, double dt) {
+            return 3.0 + h * h - 0.5 * dt + mixed * h * h * dt + mixed * h * dt * dt;
+        });
+        BOOST_TEST(limit_of("drag", runs, 0).out_of_line.empty(), mixed);
+        runs.front().errors[0] += 1e6;
+        const auto named = limit_of("drag", runs, 0).out_of_line;
+        BOOST_REQUIRE(named.size() == 1U);
+        BOOST_TEST(named[0].elements == runs.front().rung.elements);
+        BOOST_TEST(named[0].dt == runs.front().rung.dt);
     }
 }
 

@@ -363,6 +363,16 @@ BOOST_AUTO_TEST_CASE(why_it_ended_and_what_is_not_known_is_said) {
     };
     BOOST_TEST(name_of(refined("seconds = 14", slower).end) == "seconds");
     BOOST_TEST(made == 3U);
+    // Where a program has a clock of its own, the budget is that of the wall's.
+    made = 0;
+    const auto own_clock = [&](const RunTask& task) {
+        RungResult result = slower(task);
+        result.wall_clock = result.seconds;
+        result.seconds = 1e-3;
+        return result;
+    };
+    BOOST_TEST(name_of(refined("seconds = 14", own_clock).end) == "seconds");
+    BOOST_TEST(made == 3U);
     const auto failing = [](const RunTask& task) {
         RungResult result = second_order(task);
         if (task.level == 2)

@@ -2,7 +2,7 @@
 // and in dt the order that the scheme claims. Where a kink, a switch or the spaces leave another
 // order, it stands below with its reason.
 
-#include "mms/expected_orders.hpp"
+#include "mms/forecast/expected_orders.hpp"
 #include "studies/evolution/evolution.hpp"
 #include "studies/grid/grid.hpp"
 #include "studies/ladder/ladder.hpp"

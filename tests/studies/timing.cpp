@@ -143,6 +143,16 @@ BOOST_AUTO_TEST_CASE(a_dip_is_not_an_error_reached) {
     BOOST_TEST(median(rows, 5e-2) == std::exp2(weight), tight);
 }
 
+// Whoever wants an error below 1e-2 takes the third row.
+BOOST_AUTO_TEST_CASE(a_finer_row_that_is_cheaper_counts) {
+    const std::vector<TimedError> rows{row(1e-1, 1.0), row(1e-2, 10.0), row(1e-3, 2.0),
+                                       row(1e-4, 4.0)};
+    BOOST_TEST(median(rows, 1e-2) == 2.0, tight);
+    BOOST_TEST(median(rows, 5e-2) == 2.0, tight);
+    BOOST_TEST(median(rows, 9e-2) < 2.0); // so near to the first row it is cheaper yet
+    BOOST_TEST(median(rows, 1e-4) == 4.0, tight);
+}
+
 BOOST_AUTO_TEST_CASE(a_row_with_the_error_of_its_neighbour_is_no_division_by_zero) {
     const std::vector<TimedError> rows{row(1e-1, 1.0), row(1e-2, 2.0), row(1e-2, 4.0),
                                        row(1e-3, 8.0)};

@@ -124,7 +124,7 @@ Scene scene_of(const std::string& text, const std::vector<std::string>& override
 WorkPrecisionResult timed(const Scene& scene, double one_run_above = 1e9) {
     const ProblemData problem = problem_of(scene, scene.longest_time());
     return run_work_precision(*scene.get<WorkPrecisionBlock>(),
-                              beam_runs(scene, problem, problem, Defects()).run, {}, one_run_above);
+                              beam_runs(scene, problem, problem, Defects()), {}, one_run_above);
 }
 
 /// A scheme with made-up errors, in times 1 s, 2 s, 4 s, ….
@@ -271,15 +271,15 @@ BOOST_AUTO_TEST_CASE(long_runs_are_timed_less_often_and_over_the_same_time) {
     const auto seconds = [](const RunTask& task) {
         return task.rung.elements == 16 ? 0.1 : task.rung.elements == 8 ? 0.04 : 1e-3;
     };
-    const auto result =
-        run_work_precision(*scene.get<WorkPrecisionBlock>(), [&](const RunTask& task) {
+    const auto result = run_work_precision(
+        *scene.get<WorkPrecisionBlock>(), StudiedSolver{.run = [&](const RunTask& task) {
             calls.emplace_back(task.method.words, task.rung.elements);
             RungResult made;
             made.rung = task.rung;
             made.errors.assign(task.measures.size(), 0.5);
             made.seconds = seconds(task);
             return made;
-        });
+        }});
     for (const auto& scheme : result.schemes)
         for (std::size_t i = 0; i < scheme.runs.size(); ++i)
             BOOST_TEST(scheme.timings[i]->runs == (std::vector<int>{20, 13, 5}[i]));
@@ -335,13 +335,13 @@ BOOST_AUTO_TEST_CASE(what_an_interruption_left_untimed_has_no_time_by_its_warm_u
         scene_of(good, {"work_precision.scheme=[{elements=[4, 8, 16], dt=\"0.1/s\"}]"});
     for (const int made : {7, 6}) {
         int runs = 0;
-        const auto result =
-            run_work_precision(*scene.get<WorkPrecisionBlock>(), [&](const RunTask& task) {
+        const auto result = run_work_precision(
+            *scene.get<WorkPrecisionBlock>(), StudiedSolver{.run = [&](const RunTask& task) {
                 RungResult run{.rung = task.rung, .seconds = task.rung.elements == 16 ? 9.0 : 0.1};
                 run.status = runs++ < made ? RungStatus::ok : RungStatus::interrupted;
                 run.errors.assign(task.measures.size(), 0.5);
                 return run;
-            });
+            }});
         const SchemeRuns& scheme = result.schemes[0];
         BOOST_TEST(result.interrupted);
         BOOST_TEST(scheme.timings[0].has_value() == (made == 7));
@@ -350,6 +350,40 @@ BOOST_AUTO_TEST_CASE(what_an_interruption_left_untimed_has_no_time_by_its_warm_u
         BOOST_REQUIRE(scheme.timings[2]);
         BOOST_TEST(scheme.timings[2]->median == 9.0);
     }
+}
+
+// A program prints its errors also where it is timed: one that has none then has failed, and errors
+// that change are named; a change of a part in a million may be that of sums in another order.
+BOOST_AUTO_TEST_CASE(what_a_program_prints_when_it_is_timed_is_read) {
+    const Scene scene =
+        scene_of(good, {"work_precision.scheme=[{elements=[4, 8, 16], dt=\"0.1/s\"}]"});
+    const auto found = [&](double change, bool fails) {
+        std::map<std::int64_t, int> runs;
+        return run_work_precision(
+            *scene.get<WorkPrecisionBlock>(),
+            StudiedSolver{.run =
+                              [&](const RunTask& task) {
+                                  RungResult run{.rung = task.rung, .seconds = 0.1};
+                                  const int made = runs[task.rung.elements]++;
+                                  const bool other = made == 3 && task.rung.elements == 8;
+                                  run.errors.assign(task.measures.size(),
+                                                    0.5 * (other ? 1.0 + change : 1.0));
+                                  if (other && fails)
+                                      run.status = RungStatus::failed;
+                                  return run;
+                              },
+                          .measures_for_nothing = true});
+    };
+    BOOST_TEST(found(0.0, false).norms[0].remarks.empty());
+    BOOST_TEST(found(1e-9, false).norms[0].remarks.empty());
+    const auto changed = found(0.25, false);
+    BOOST_REQUIRE(changed.norms[0].remarks.size() == 1U);
+    BOOST_TEST(changed.norms[0].remarks[0].find("s = 8") != std::string::npos);
+    BOOST_TEST(changed.norms[0].remarks[0].find("by up to 0.2 of") != std::string::npos);
+    BOOST_TEST(changed.schemes[0].timings[1].has_value());
+    const auto failed = found(0.0, true);
+    BOOST_TEST((failed.schemes[0].runs[1].status == RungStatus::failed));
+    BOOST_TEST(!failed.schemes[0].timings[1]);
 }
 
 BOOST_AUTO_TEST_CASE(a_run_that_failed_stays_with_its_reason_and_without_a_time) {

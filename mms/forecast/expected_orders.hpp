@@ -2,40 +2,16 @@
 
 #include "mms/admissible/admissibility.hpp"
 #include "mms/contact_history.hpp"
+#include "mms/forecast/smoothness.hpp"
 
-#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace tvbeam {
 
-/// A time at which a solution passes from one formula to the next, or at which the rates of one
-/// jump, and by how much what the schemes difference jumps there; a jump that is 1e-9 of the
-/// largest size of what jumps is none.
-struct Switch {
-    double t = 0.0;
-    double theta_t_jump = 0.0; ///< largest over x
-    double u_xxt_jump = 0.0;   ///< largest over x
-};
-
-/// An end of a phase, or the final time, at which a rate has a value and an infinite slope: it goes
-/// there like s^β, with s the time to it and 0 < β < 1; infinite: it does not. The less of both
-/// sides.
-struct Cusp {
-    double t = 0.0;
-    double theta_t_power = std::numeric_limits<double>::infinity();
-    double u_xxt_power = std::numeric_limits<double>::infinity();
-};
-
-/// A place at which a derivative of u in x jumps within a phase.
-struct Kink {
-    double x = 0.0;
-    int derivative = 2; ///< 2 or 3: u_xx, or u_xxx alone
-};
-
-/// "u_xx jumps at x = 0.3".
-std::string words_of(const Kink& kink);
+/// ζ over T. With less, steps may be longer than ζ, and a scheme behaves as without viscosity.
+inline constexpr double least_viscosity = 0.01;
 
 /// The order of one error, as far as theory says it.
 struct Forecast {
@@ -87,12 +63,13 @@ struct ExpectedOrders {
         return (theta_is_quadratic || !theta_has_time_error) &&
                (u_is_quadratic || !u_has_time_error) && (theta_is_quadratic || u_is_quadratic);
     }
-    /// Without viscosity a stage's defect α Δt² u_xxtt enters the heat equation at an end, where Θ
-    /// cannot follow it.
+    /// Without viscosity, or with little in steps longer than ζ, a stage's defect α Δt² u_xxtt
+    /// enters the heat equation at an end, where Θ cannot follow it.
     bool stages_miss_ends = false;
     std::vector<Switch> switches; ///< those before final_time
     std::vector<Cusp> cusps;      ///< up to final_time
     std::optional<Kink> kink;
+    std::optional<RoughEnd> rough_end;
     ContactHistory contact;    ///< at rigid stops; at penalised ones touch alone
     double law_distance = 0.0; ///< ExactSolution::law_distance
     bool is_in_stops = false;  ///< penalised stops: the tip passes one
@@ -107,7 +84,8 @@ struct ExpectedOrders {
 ///   it has 3 in H¹ and 4 in L². A linear θ̃ has no error in h, and neither has a cubic u if α = 0
 ///   or θ̃ is linear, too: what is left is a part of the time error that changes with h. Where u_xx,
 ///   or u_xxx alone, jumps within an element, u has 1/2, or 3/2, in H², one more in H¹ and two more
-///   in L² at most.
+///   in L² at most. Where u_xxx goes to its value at an end of the beam like s^β, β < 1/2, u_xxxx
+///   is not square-integrable, and u has 3/2 + β to 2 in H².
 /// - in dt: that of the scheme; none where what is differenced is linear in time, for every scheme
 ///   is exact then: θ̃ and u_xx in the heat equation, where α = 0 θ̃ alone; in the beam equation
 ///   u_xx, and where ζ = 0 nothing. The coupling passes the errors on. Where θ̃_t or u_xxt jumps at

@@ -1,0 +1,160 @@
+#include "mms/forecast/order_reasons.hpp"
+
+#include "mms/contact_history.hpp"
+#include "mms/text/number_text.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace tvbeam {
+
+namespace {
+
+std::string power_text(const std::string& base, std::optional<double> power) {
+    if (!power)
+        return fmt::format("flatter than {}^{}", base, highest_power);
+    return *power == 0 ? std::string("with a jump")
+                       : "like " + base + (*power == 1 ? "" : fmt::format("^{:.3g}", *power));
+}
+
+void add_contact_reasons(const ExpectedOrders& known, const Beam& beam,
+                         std::vector<std::string>& text) {
+    if (known.law_distance > 0.0) {
+        text.push_back("The solution is one of rigid stops. Penalised ones with epsilon = " +
+                       number_text(beam.stops.epsilon) + " would let its tip pass by up to " +
+                       number_text(known.law_distance) +
+                       ": errors do not fall to zero, and how they come to a halt is not known.");
+        return;
+    }
+    if (known.contact.touch)
+        text.push_back("at t = " + number_text(*known.contact.touch) +
+                       " the tip is on a stop without a force. What is computed may press there, "
+                       "or stay clear of it: the order of sigma_L2 is not known.");
+    else if (known.contact.within)
+        text.push_back("about t = " + number_text(*known.contact.within, 3) +
+                       " a contact begins or ends within a phase: the order of sigma_L2 is not "
+                       "known. Where a phase begins there, it is.");
+    else if (beam.stops.exist() && !known.is_in_stops && !known.contact.pressed_until)
+        text.emplace_back("The tip never reaches a stop: sigma is zero, and so is its error once "
+                          "the error of u(1,t) is less than the distance.");
+    if (beam.zeta == 0.0)
+        return;
+    // A step answers to a force with the compliance Δt/(3ζ), beside which ε must be large.
+    if (known.is_in_stops)
+        text.push_back("The penalised stops answer to u(1,t) at once, and sigma has its order, for "
+                       "steps below 3*zeta*epsilon = " +
+                       number_text(3.0 * beam.zeta * beam.stops.epsilon) +
+                       "; with greater ones sigma_L2 behaves as at rigid stops" +
+                       (known.tip_is_linear
+                            ? "."
+                            : ", but for SDIRK2: where the tip moves within a stop other than "
+                              "linearly in t its order is 1, and rises to 2 only below."));
+    for (const ContactOnset& onset : known.contact.onsets)
+        text.push_back(
+            "at t = " + number_text(onset.t) + " a contact begins: the tip comes up " +
+            power_text("s", onset.approach) + ", s the time to it, and the force begins " +
+            power_text("s", onset.force) +
+            ". A run is there too early or too late by its error of u(1,t), and sigma_L2 "
+            "loses a part of the order to that; its orders scatter from row to row.");
+}
+
+void add_switch_reasons(const ExpectedOrders& known, std::vector<std::string>& text) {
+    const auto is_linear_beside = [&](const Switch& change) {
+        return change.theta_t_jump > 0.0 ? known.theta_is_linear_in_pieces
+                                         : known.u_is_linear_in_pieces;
+    };
+    for (const Switch& change : known.switches)
+        if (change.theta_t_jump > 0.0 || change.u_xxt_jump > 0.0)
+            text.push_back("at t = " + number_text(change.t) + " " +
+                           (change.theta_t_jump > 0.0
+                                ? "theta_t jumps by up to " + number_text(change.theta_t_jump)
+                                : "u_xxt jumps by up to " + number_text(change.u_xxt_jump)) +
+                           ": BDF2 has the order 1 in dt, and more only where the time is the "
+                           "middle of a step; " +
+                           (is_linear_beside(change)
+                                ? "Euler and SDIRK2 have it, too, unless the time is a time level, "
+                                  "where they are exact: all is linear in t on both sides"
+                                : "SDIRK2 has 1 unless the time is a time level, where it has 2") +
+                           ". Norms with a maximum over time show it late.");
+}
+
+} // namespace
+
+std::vector<std::string> order_reasons(const ExpectedOrders& known, const Beam& beam) {
+    const bool coupled = beam.alpha != 0.0;
+    std::vector<std::string> text;
+    if (known.theta_is_exact)
+        text.emplace_back("theta is linear in x: the linear elements hold it exactly, and no order "
+                          "in h is visible in any norm of theta.");
+    if (known.u_is_exact)
+        text.push_back("u is cubic in x: the cubics hold it exactly; " +
+                       std::string(coupled && !known.theta_is_exact
+                                       ? "what order in h is visible in u comes from theta, "
+                                         "through alpha."
+                                       : "no order in h is visible in any norm of u."));
+    if (known.kink)
+        text.push_back(words_of(*known.kink) +
+                       ": where that is within an element, not between two, errors of u fall more "
+                       "slowly in h." +
+                       (known.kink->derivative == 2
+                            ? " The formula of G lacks a delta function there, which the moments "
+                              "that runs take have."
+                            : ""));
+    if (known.rough_end)
+        text.push_back(fmt::format(
+            "{}, s the distance: u_xxxx is not square-integrable, and the order in h of u_xx goes "
+            "to {:.3g}, late where the rest of u is large.",
+            words_of(*known.rough_end), 1.5 + known.rough_end->power));
+    if (!coupled)
+        text.emplace_back("alpha = 0: heat and bending do not see each other's errors, and u has "
+                          "higher orders in the weaker norms.");
+    if (!known.theta_has_time_error)
+        text.emplace_back(coupled ? "theta and u_xx are linear in t: no scheme has a time error, "
+                                    "and no order in dt is visible."
+                                  : "theta is linear in t, and alpha = 0: no scheme has a time "
+                                    "error in theta, and no order in dt is visible there.");
+    if (!coupled && !known.u_has_time_error)
+        text.emplace_back(beam.zeta == 0.0 ? "alpha = zeta = 0: the beam has no memory, and u no "
+                                             "time error."
+                                           : "u_xx is linear in t, and alpha = 0: no scheme has a "
+                                             "time error in u, and no order in dt is visible "
+                                             "there.");
+    if (known.theta_is_quadratic || known.u_is_quadratic) {
+        const std::string what = coupled ? "theta and u_xx are of degree 2 at most in t"
+                                 : !known.u_is_quadratic     ? "theta is quadratic in t"
+                                 : !known.theta_is_quadratic ? "u_xx is quadratic in t"
+                                                             : "theta and u_xx are quadratic in t";
+        const std::string where = known.is_quadratic()       ? ""
+                                  : known.theta_is_quadratic ? " in theta"
+                                                             : " in u";
+        text.push_back(what + ": BDF2 has no error" + where +
+                       " but that of its first step, which SDIRK2 makes: order " +
+                       (known.stages_miss_ends ? "2.25 to 3." : "3."));
+    }
+    if (known.stages_miss_ends)
+        text.push_back(std::string(beam.zeta == 0.0 ? "zeta = 0" : "zeta is below T/100") +
+                       ", and u_xxtt is not zero at an end of the beam, where the temperature is "
+                       "fixed: stages of SDIRK2 leave a layer there, and theta_x has its order "
+                       "1.75 to 2 in dt" +
+                       (beam.zeta == 0.0 ? "." : ", 2 in steps far below zeta alone."));
+    add_switch_reasons(known, text);
+    for (const Cusp& cusp : known.cusps)
+        for (const bool of_theta : {true, false}) {
+            const double power = of_theta ? cusp.theta_t_power : cusp.u_xxt_power;
+            const bool counts = of_theta ? known.theta_has_time_error : known.u_has_time_error;
+            if (counts && !std::isinf(power))
+                text.push_back(fmt::format(
+                    "at t = {} {} has an infinite slope, like s^{:.3g}, s the time to it: BDF2 and "
+                    "SDIRK2 have the order {:.3g} in dt{}. Norms with a maximum over time may show "
+                    "it late.",
+                    number_text(cusp.t), of_theta ? "theta_t" : "u_xxt", power, 1.0 + power,
+                    coupled    ? ""
+                    : of_theta ? " in theta"
+                               : " in u"));
+        }
+    add_contact_reasons(known, beam, text);
+    return text;
+}
+
+} // namespace tvbeam

@@ -1,0 +1,222 @@
+#include "mms/forecast/smoothness.hpp"
+
+#include "mms/admissible/admissibility.hpp"
+#include "mms/admissible/jumps.hpp"
+#include "mms/expression/algebra.hpp"
+#include "mms/expression/piecewise_tape.hpp"
+#include "mms/expression/symbols.hpp"
+#include "mms/expression/tape_compiler.hpp"
+#include "mms/local_power.hpp"
+#include "mms/sample_points.hpp"
+#include "mms/text/number_text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace tvbeam {
+
+using Eigen::ArrayXd;
+using GiNaC::ex;
+
+namespace {
+
+constexpr double jump_tolerance = 1e-9; ///< relative to what jumps
+
+/// θ̃_t and u_xxt in every phase, over x.
+PiecewiseTape rates(const DerivedSolution& derived) {
+    return {derived, [](const DerivedPhase& phase) {
+                return std::vector<ex>{phase.theta_t, phase.u_xxt};
+            }};
+}
+
+/// The greatest of each rate at any time. A jump is one beside that: beside its own terms at a
+/// switch, which may cancel there, round-off would be one.
+ArrayXd sizes_of(const PiecewiseTape& tape, const DerivedSolution& derived, double final_time) {
+    const ArrayXd x = sample_points(0.0, 1.0);
+    ArrayXd sizes = ArrayXd::Zero(2);
+    for (const PhaseExpressions& phase : derived.phases)
+        if (phase.begin_value < final_time)
+            for (const double t :
+                 sample_points(phase.begin_value, std::min(phase.end_value, final_time)))
+                sizes = sizes.max(tape.at(x, t).abs().rowwise().maxCoeff());
+    return sizes;
+}
+
+} // namespace
+
+std::size_t phases_until(const DerivedSolution& derived, double final_time) {
+    return static_cast<std::size_t>(
+        std::ranges::count_if(derived.phases, [&](const PhaseExpressions& phase) {
+            return phase.begin_value < final_time;
+        }));
+}
+
+namespace {
+
+/// The largest jump in time of the functions of a tape within phase i, at some place.
+std::optional<Jump> jump_within(const Tape& tape, const PhaseExpressions& phase,
+                                double final_time) {
+    const double end = std::min(phase.end_value, final_time);
+    // Right at its begin a rate may have no value.
+    const double begin = phase.begin_value + 1e-9 * (end - phase.begin_value);
+    const bool is_expected = may_jump(phase.theta) || may_jump(phase.u);
+    const double least = least_jump(is_expected);
+    std::optional<Jump> greatest;
+    for (const double place : parts_to_search(is_expected)) {
+        const auto in_time = [&](const ArrayXd& s) {
+            return tape.evaluate(ArrayXd::Constant(1, place), s);
+        };
+        const auto jump = find_jump(in_time, uneven_grid(begin, end), least);
+        if (jump && !(greatest && std::abs(jump->size) <= std::abs(greatest->size)))
+            greatest = jump;
+    }
+    return greatest;
+}
+
+} // namespace
+
+std::optional<double> find_second_rate_jump(const DerivedSolution& derived, double final_time) {
+    const PhaseExpressions& phase = derived.phases.front();
+    if (!may_jump(phase.theta) && !may_jump(phase.u))
+        return std::nullopt;
+    const DerivedPhase& rates = derived.derived.front();
+    const GiNaC::symbol& t = model_symbols().t;
+    const Tape tape = compile_tape({derivative(rates.theta_t, t), derivative(rates.u_xxt, t)});
+    const auto jump = jump_within(tape, phase, final_time);
+    return jump ? std::optional(jump->at) : std::nullopt;
+}
+
+std::vector<Switch> find_switches(const DerivedSolution& derived, double final_time) {
+    const PiecewiseTape tape = rates(derived);
+    const ArrayXd x = sample_points(0.0, 1.0);
+    const ArrayXd sizes = sizes_of(tape, derived, final_time);
+    std::vector<Switch> result;
+    for (std::size_t i = 0; i < derived.phases.size(); ++i) {
+        const PhaseExpressions& phase = derived.phases[i];
+        if (!(phase.begin_value < final_time))
+            break;
+        if (const auto greatest = jump_within(tape.of_phase(i), phase, final_time)) {
+            const double size = std::abs(greatest->size);
+            result.push_back(
+                {greatest->at, greatest->row == 0 ? size : 0.0, greatest->row == 1 ? size : 0.0});
+        }
+        if (!(phase.end_value < final_time))
+            break;
+        const Eigen::ArrayXXd before = tape.at(x, phase.end_value);
+        const Eigen::ArrayXXd after = tape.at(x, phase.end_value, true);
+        const ArrayXd jumps = (after - before).abs().rowwise().maxCoeff();
+        const auto jump = [&](Eigen::Index row) {
+            return jumps(row) > jump_tolerance * sizes(row) ? jumps(row) : 0.0;
+        };
+        result.push_back({phase.end_value, jump(0), jump(1)});
+    }
+    return result;
+}
+
+std::vector<Cusp> find_cusps(const DerivedSolution& derived, double final_time) {
+    const PiecewiseTape tape = rates(derived);
+    const ArrayXd x = sample_points(0.0, 1.0);
+    const ArrayXd sizes = sizes_of(tape, derived, final_time);
+    std::vector<Cusp> result;
+    // late: the end of a phase is read in the one that begins there.
+    const auto look = [&](double t, bool late, double direction, double length) {
+        const Eigen::ArrayXXd at_end = tape.at(x, t, late);
+        const auto power = [&](Eigen::Index row) {
+            return power_below_one(
+                [&](double s) {
+                    return (tape.at(x, t + direction * s).row(row) - at_end.row(row))
+                        .abs()
+                        .maxCoeff();
+                },
+                length, sizes(row));
+        };
+        const Cusp cusp{t, power(0), power(1)};
+        if (std::isinf(cusp.theta_t_power) && std::isinf(cusp.u_xxt_power))
+            return;
+        if (!result.empty() && result.back().t == t) {
+            result.back().theta_t_power = std::min(result.back().theta_t_power, cusp.theta_t_power);
+            result.back().u_xxt_power = std::min(result.back().u_xxt_power, cusp.u_xxt_power);
+        } else
+            result.push_back(cusp);
+    };
+    for (const PhaseExpressions& phase : derived.phases) {
+        if (!(phase.begin_value < final_time))
+            break;
+        const double end = std::min(phase.end_value, final_time);
+        const double length = end - phase.begin_value;
+        look(phase.begin_value, true, 1.0, length);
+        look(end, false, -1.0, length);
+    }
+    return result;
+}
+
+std::optional<Kink> find_kink(const DerivedSolution& derived, double final_time) {
+    for (std::size_t i = 0; i < derived.phases.size(); ++i) {
+        const PhaseExpressions& phase = derived.phases[i];
+        if (phase.begin_value >= final_time)
+            break;
+        const double end = std::min(phase.end_value, final_time);
+        const bool is_expected = may_jump(phase.u) || may_jump(phase.theta);
+        const double least = least_jump(is_expected);
+        int derivative = 2;
+        for (const ex& formula : {derived.derived[i].u_xx, derived.derived[i].u_xxx}) {
+            const Tape tape = compile_tape({formula});
+            for (const double part : parts_to_search(is_expected)) {
+                const ArrayXd t =
+                    ArrayXd::Constant(1, phase.begin_value + part * (end - phase.begin_value));
+                const auto in_x = [&](const ArrayXd& x) { return tape.evaluate(x, t); };
+                const auto exactly = [&](const ArrayXd& x) { return tape.evaluate_wide(x, t); };
+                if (const auto jump = find_jump(in_x, exactly, uneven_grid(0.0, 1.0), least))
+                    return Kink{jump->at, derivative};
+            }
+            ++derivative;
+        }
+    }
+    return std::nullopt;
+}
+
+std::optional<RoughEnd> find_rough_end(const DerivedSolution& derived, double final_time) {
+    const PiecewiseTape tape(
+        derived, [](const DerivedPhase& phase) { return std::vector<ex>{phase.u_xxx}; });
+    constexpr double square_integrable = 0.5; // of the slope s^(β − 1), from this β on
+    std::optional<RoughEnd> roughest;
+    for (std::size_t i = 0; i < phases_until(derived, final_time); ++i) {
+        const PhaseExpressions& phase = derived.phases[i];
+        if (!may_jump(phase.u))
+            continue;
+        const double length = std::min(phase.end_value, final_time) - phase.begin_value;
+        for (const double part : parts_to_search(false))
+            for (const double x : {0.0, 1.0}) {
+                const auto at = [&](const ArrayXd& places) -> ArrayXd {
+                    return tape.of_phase(i)
+                        .evaluate(places, ArrayXd::Constant(1, phase.begin_value + part * length))
+                        .row(0);
+                };
+                const double size = at(sample_points(0.0, 1.0)).abs().maxCoeff();
+                const double value = at(ArrayXd::Constant(1, x))(0);
+                const double power = power_below_one(
+                    [&](double s) {
+                        return std::abs(at(ArrayXd::Constant(1, std::abs(x - s)))(0) - value);
+                    },
+                    1.0, size);
+                if (power < square_integrable && !(roughest && roughest->power <= power))
+                    roughest = RoughEnd{x, power};
+            }
+    }
+    return roughest;
+}
+
+std::string words_of(const RoughEnd& end) {
+    return fmt::format("u_xxx goes to its value at x = {} like s^{:.3g}", number_text(end.x),
+                       end.power);
+}
+
+std::string words_of(const Kink& kink) {
+    return std::string(kink.derivative == 2 ? "u_xx" : "u_xxx") +
+           " jumps at x = " + number_text(kink.x);
+}
+
+} // namespace tvbeam

@@ -1,0 +1,67 @@
+#pragma once
+
+#include "mms/derivation.hpp"
+
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace tvbeam {
+
+/// A time at which a solution passes from one formula to the next, or at which the rates of one
+/// jump, and by how much what the schemes difference jumps there; a jump that is 1e-9 of the
+/// largest size of what jumps is none.
+struct Switch {
+    double t = 0.0;
+    double theta_t_jump = 0.0; ///< largest over x
+    double u_xxt_jump = 0.0;   ///< largest over x
+};
+
+/// An end of a phase, or the final time, at which a rate has a value and an infinite slope: it goes
+/// there like s^β, with s the time to it and 0 < β < 1; infinite: it does not. The less of both
+/// sides.
+struct Cusp {
+    double t = 0.0;
+    double theta_t_power = std::numeric_limits<double>::infinity();
+    double u_xxt_power = std::numeric_limits<double>::infinity();
+};
+
+/// A place at which a derivative of u in x jumps within a phase.
+struct Kink {
+    double x = 0.0;
+    int derivative = 2; ///< 2 or 3: u_xx, or u_xxx alone
+};
+
+/// An end of the beam at which u_xxx has a value and a slope that is not square-integrable: it goes
+/// there like s^β, with s the distance and 0 < β < 1/2.
+struct RoughEnd {
+    double x = 0.0;
+    double power = 0.0; ///< β, the least of all times looked at
+};
+
+/// "u_xx jumps at x = 0.3".
+std::string words_of(const Kink& kink);
+
+/// "u_xxx goes to its value at x = 0 like s^0.1".
+std::string words_of(const RoughEnd& end);
+
+/// The phases that begin before the final time.
+std::size_t phases_until(const DerivedSolution& derived, double final_time);
+
+/// Where phases end, and the largest jump within one, up to the final time.
+std::vector<Switch> find_switches(const DerivedSolution& derived, double final_time);
+
+/// The largest jump of θ̃_tt or u_xxtt within the first phase, where a formula has one.
+std::optional<double> find_second_rate_jump(const DerivedSolution& derived, double final_time);
+
+std::vector<Cusp> find_cusps(const DerivedSolution& derived, double final_time);
+
+/// A jump within a phase, where a formula has one: sqrt((x - a)^2).
+std::optional<Kink> find_kink(const DerivedSolution& derived, double final_time);
+
+/// The rougher of both ends, if one is.
+std::optional<RoughEnd> find_rough_end(const DerivedSolution& derived, double final_time);
+
+} // namespace tvbeam
