@@ -259,7 +259,7 @@ std::string write_python(const Dialect& /*dialect*/, const CodeFile& file) {
     for (auto& name : plain)
         if (name == "exp" || name == "sinh" || name == "cosh") {
             const bool is_exp = name == "exp";
-            bounded += fmt::format("    {0} = lambda x: _{0}(x) if {1} <= {2} else {3}{4}\n", name,
+            bounded += fmt::format("    {0} = lambda x: {3}{4} if {1} > {2} else _{0}(x)\n", name,
                                    is_exp ? "x" : "abs(x)",
                                    is_exp ? "709.782712893384" : "710.4758600739439",
                                    name == "sinh" ? "x * " : "", infinite);

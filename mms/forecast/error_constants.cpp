@@ -14,18 +14,21 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace tvbeam {
 
 using Eigen::ArrayXd;
 using Eigen::ArrayXXd;
+using ArrayXb = Eigen::Array<bool, Eigen::Dynamic, 1>;
 using Eigen::Index;
 using Eigen::MatrixXd;
 using GiNaC::ex;
 
 namespace {
 
+constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double settled = 2e-3; ///< relative change of a constant from one resolution to the next
 constexpr std::pair<Index, Index> resolutions[] = {
     {16, 64}, {24, 128}, {32, 256}, {48, 512}, {64, 1024}}; ///< modes, steps
@@ -101,8 +104,8 @@ public:
         constexpr double golden_ratio = 0.6180339887498949;
         const ArrayXd places = ArrayXd::LinSpaced(count, 0.5, count - 0.5);
         const ArrayXd multiples = places * golden_ratio;
-        peaks_ = finite_sizes(
-            tape_.evaluate(multiples - multiples.floor(), places * (final_time / count)));
+        peaks_ = sizes(tape_.evaluate(multiples - multiples.floor(), places * (final_time / count)),
+                       0.0);
     }
 
     /// Of each method.
@@ -131,18 +134,19 @@ public:
         return all;
     }
 
-    /// Whether the points and times of the driven problem miss where a derivative is large.
-    [[nodiscard]] bool misses_a_peak(Index modes, Index steps) const {
+    /// Of each derivative, whether the points and times of the driven problem miss where it is
+    /// large. One without a value at a point is seen there.
+    [[nodiscard]] ArrayXb missed_peaks(Index modes, Index steps) const {
         constexpr double far = 1.5;
         constexpr Index across = 33; // lines through the points in the other coordinate
         const ArrayXd x = GaussRule::of(2 * modes).points;
         const ArrayXd t = ArrayXd::LinSpaced(steps + 1, 0.0, final_time_);
         ArrayXd seen = ArrayXd::Zero(peaks_.size());
         for (const double time : ArrayXd::LinSpaced(across, 0.0, final_time_))
-            seen = seen.max(finite_sizes(at(x, time)));
+            seen = seen.max(sizes(at(x, time), infinity));
         for (const double place : ArrayXd::LinSpaced(across, 0.0, 1.0))
-            seen = seen.max(finite_sizes(tape_.evaluate(ArrayXd::Constant(1, place), t)));
-        return (peaks_ > far * seen).any();
+            seen = seen.max(sizes(tape_.evaluate(ArrayXd::Constant(1, place), t), infinity));
+        return peaks_ > far * seen;
     }
 
     /// Whether the discrete temperature leaves that of the data within a first step of any length.
@@ -163,9 +167,9 @@ public:
     }
 
 private:
-    /// The greatest |value| of each derivative.
-    static ArrayXd finite_sizes(const ArrayXXd& values) {
-        return values.isFinite().select(values.abs(), 0.0).rowwise().maxCoeff();
+    /// The greatest |value| of each derivative, with what one counts as that is none.
+    static ArrayXd sizes(const ArrayXXd& values, double none) {
+        return values.isFinite().select(values.abs(), none).rowwise().maxCoeff();
     }
 
     [[nodiscard]] ArrayXXd at(const ArrayXd& x, double t) const {
@@ -335,7 +339,10 @@ std::string why_not(const ExpectedOrders& expected, const DerivedSolution& deriv
         return "theta_t or u_xxt has an infinite slope at t = " +
                number_text(expected.cusps.front().t);
     if (time_scheme == "bdf2" && expected.is_quadratic())
-        return "theta and u_xx are quadratic in t: BDF2 has the error of its first step alone";
+        return std::string(!expected.u_is_quadratic       ? "theta is"
+                           : !expected.theta_is_quadratic ? "u_xx is"
+                                                          : "theta and u_xx are") +
+               " quadratic in t: BDF2 has the error of its first step alone";
     if (time_scheme != "euler")
         if (const auto t = find_second_rate_jump(derived, final_time))
             return "theta_tt or u_xxtt jumps at t = " + number_text(*t);
@@ -458,6 +465,18 @@ double change(const std::vector<NormConstants>& before, const std::vector<NormCo
     return most;
 }
 
+/// Those that the truncation terms of a method are made of.
+std::vector<Derivative> derivatives_in(const std::string& time_scheme) {
+    std::vector<Derivative> all{theta_xx, theta_xxt, w_xx};
+    if (time_scheme != "bdf2")
+        all.insert(all.end(), {theta_tt, w_tt});
+    if (time_scheme != "euler")
+        all.insert(all.end(), {theta_ttt, w_ttt});
+    if (time_scheme == "sdirk2")
+        all.push_back(theta_xxtt);
+    return all;
+}
+
 /// Finds the sizes of those methods that nothing is said to be unknown of: at the first of the
 /// resolutions at which they have settled.
 void settle(const std::vector<ForecastMethod>& methods, const Forecaster& forecaster,
@@ -469,14 +488,25 @@ void settle(const std::vector<ForecastMethod>& methods, const Forecaster& foreca
     for (const auto& [modes, steps] : resolutions) {
         if (left.empty())
             return;
-        if (forecaster.misses_a_peak(modes, steps))
-            continue;
+        const ArrayXb missed = forecaster.missed_peaks(modes, steps);
         std::vector<ForecastMethod> driven;
         driven.reserve(left.size());
+        std::vector<std::size_t> missing;
+        std::erase_if(left, [&](std::size_t k) {
+            const bool misses = std::ranges::any_of(derivatives_in(methods[k].time_scheme),
+                                                    [&](Derivative one) { return missed(one); });
+            if (misses)
+                missing.push_back(k);
+            return misses;
+        });
+        if (left.empty()) {
+            left = missing;
+            continue;
+        }
         for (const std::size_t k : left)
             driven.push_back(methods[k]);
         const auto squares = forecaster.squares(driven, modes, steps);
-        std::vector<std::size_t> unsettled;
+        std::vector<std::size_t> unsettled = missing;
         for (std::size_t i = 0; i < left.size(); ++i) {
             auto& norms = results[left[i]].norms;
             const auto before =

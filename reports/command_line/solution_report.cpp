@@ -13,6 +13,7 @@
 #include "studies/text/number_text.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cmath>
 #include <map>
@@ -146,33 +147,52 @@ std::string sizes_table(const AdmissibleSolution& solution, const ExpectedOrders
         methods.push_back({time, ThermalMass::consistent});
     }
     const auto sizes = error_constants(expected, solution, methods);
-    if (!sizes[1].unknown.empty())
-        return wrapped("not known: " + sizes[1].unknown);
+    const auto why_not = [&](const Shown& column) {
+        const std::size_t label = column.heading.find(": ");
+        return wrapped(column.heading.substr(label == std::string::npos ? 0 : label + 2) +
+                       ": not known: " + sizes[column.method].unknown);
+    };
+    if (!sizes[1].unknown.empty()) { // of Euler's scheme with the consistent mass matrix
+        const bool alike = std::ranges::all_of(
+            sizes, [&](const auto& one) { return one.unknown == sizes[1].unknown; });
+        if (alike)
+            return wrapped("not known: " + sizes[1].unknown);
+        std::string text;
+        for (const Shown& column : shown)
+            if (!sizes[column.method].unknown.empty())
+                text += why_not(column);
+        return text;
+    }
     Table::Column norm{"norm", {}};
     for (const NormConstants& row : sizes[1].norms) {
         const auto known = Norm::named(row.norm);
         norm.cells.push_back(row.norm + (known && known->squared ? "^(1/2)" : ""));
     }
     std::vector<Table::Column> columns;
-    std::string unknown_norms;
+    std::map<std::string, std::vector<std::string>> norms_by_reason;
     std::string unknown;
-    for (const auto& [heading, method, size] : shown) {
-        const ErrorConstants& one = sizes[method];
+    for (const Shown& column : shown) {
+        const ErrorConstants& one = sizes[column.method];
         if (!one.unknown.empty()) {
-            const std::size_t label = heading.find(": ");
-            unknown += wrapped(heading.substr(label == std::string::npos ? 0 : label + 2) +
-                               ": not known: " + one.unknown);
+            unknown += why_not(column);
             continue;
         }
-        columns.push_back({heading, {}});
+        columns.push_back({column.heading, {}});
         for (const NormConstants& row : one.norms) {
-            columns.back().cells.push_back(row.*size ? scientific((row.*size)->constant, 3)
+            const auto& size = row.*column.size;
+            columns.back().cells.push_back(size                  ? scientific(size->constant, 3)
                                            : row.unknown.empty() ? "-"
                                                                  : "?");
-            if (!row.unknown.empty())
-                unknown_norms = wrapped("?: not known: " + row.unknown);
+            auto& norms = norms_by_reason[row.unknown];
+            if (std::ranges::find(norms, row.norm) == norms.end())
+                norms.push_back(row.norm);
         }
     }
+    norms_by_reason.erase("");
+    std::string unknown_norms;
+    for (const auto& [reason, norms] : norms_by_reason)
+        unknown_norms +=
+            wrapped(fmt::format("?: not known of {}: {}", fmt::join(norms, ", "), reason));
     constexpr double coarse = 0.1;
     std::string hidden;
     for (const NormConstants& row : sizes[1].norms)

@@ -102,9 +102,8 @@ Table ladder_table(const LadderResult& ladder, const LadderBlock& block, const M
     cost.columns.push_back(column(
         ladder, "sec", [&](std::size_t i) { return seconds_text(ladder.rungs[i].seconds); }));
     groups.push_back(cost);
-    const bool own_clock = std::ranges::any_of(ladder.rungs, [](const RungResult& run) {
-        return run.printed_seconds.significant > 0 || run.printed_seconds.is_zero;
-    });
+    const bool own_clock = std::ranges::any_of(
+        ladder.rungs, [](const RungResult& run) { return run.wall_clock.has_value(); });
     return {fmt::format("{}{}{}; {}; sec: seconds of a run, {}.", what_is_shown(block),
                         first.has_mesh() ? " on s elements" : "",
                         first.has_steps() ? " with the step dt" : "", method.words,

@@ -343,8 +343,9 @@ Section work_precision_section(const WorkPrecisionResult& result, const WorkPrec
         if (table.rows() == 0)
             continue;
         if (!introduced)
-            add({Paragraph{"Seconds to reach an error, on the log-log line between two rows; "
-                           "blank: not within what was measured"}});
+            add({Paragraph{"Seconds to reach an error, on the log-log line between two rows, "
+                           "or of a finer row that takes less; blank: not within what was "
+                           "measured"}});
         introduced = true;
         add({table});
     }

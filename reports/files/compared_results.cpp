@@ -38,7 +38,17 @@ void leave_out_races(Json& json) {
     const auto race = json.find("work_precision");
     if (race == json.end() || !race->is_object())
         return;
-    race->erase("remarks");
+    if (const auto remarks = race->find("remarks"); remarks != race->end() && remarks->is_array())
+        remarks->erase(std::remove_if(remarks->begin(), remarks->end(),
+                                      [](const Json& remark) {
+                                          const auto text = remark.is_string()
+                                                                ? remark.get<std::string>()
+                                                                : std::string();
+                                          return text.starts_with("The machine was busy") ||
+                                                 text.find("the clock shows 0 s") !=
+                                                     std::string::npos;
+                                      }),
+                       remarks->end());
     if (const auto costs = race->find("time_to_reach"); costs != race->end() && costs->is_object())
         for (auto& [norm, errors] : costs->items())
             for (auto& reached : errors)

@@ -95,6 +95,8 @@ nlohmann::ordered_json kept(const RungResult& result) {
               {"counters", std::move(counts)},
               {"errors", std::move(errors)},
               {"uncertainties", std::move(uncertainties)}};
+    if (result.wall_clock)
+        json["wall_clock"] = *result.wall_clock;
     for (const auto& digits : result.printed)
         json["printed"].push_back(kept(digits));
     return json;
@@ -128,6 +130,8 @@ RungResult kept_run(const nlohmann::ordered_json& json, const Rung& rung,
     result.reason = text(json, "reason");
     require(failed != result.reason.empty(), "reason does not belong to failed");
     result.seconds = seconds(json);
+    if (json.contains("wall_clock"))
+        result.wall_clock = number(json["wall_clock"], "wall_clock");
     const Json& counts = member(json, "counters");
     require(counts.is_object(), "counters have no names");
     for (const auto& [name, value] : counts.items())

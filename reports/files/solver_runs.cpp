@@ -37,6 +37,8 @@ void SolverRuns::read_line(const KeptLine& line) {
             throw std::invalid_argument(std::string("its schema is not ") + runs_schema);
         Run& run = runs_[json.at("of").get<std::string>()];
         run.seconds = json.at("seconds").get<double>();
+        if (json.contains("wall_clock"))
+            run.wall_clock = json["wall_clock"].get<double>();
         for (const auto& [name, figure] : json.at("figures").items())
             run.figures[name].value = figure.get<double>();
         if (json.contains("printed"))
@@ -66,6 +68,7 @@ std::optional<RungResult> SolverRuns::kept(const Series& series, std::size_t ind
     RungResult result;
     result.rung = series.rungs[index];
     result.seconds = found->second.seconds;
+    result.wall_clock = found->second.wall_clock;
     for (const auto& measure : series.measures) {
         const auto figure = found->second.figures.find(measure.name);
         if (figure == found->second.figures.end())
@@ -92,6 +95,7 @@ void SolverRuns::add(const Series& series, std::size_t index, const RungResult& 
     const std::scoped_lock lock(mutex_);
     Run& run = runs_[identity];
     run.seconds = result.seconds;
+    run.wall_clock = result.wall_clock;
     run.is_new = true;
     for (std::size_t k = 0; k < series.measures.size(); ++k)
         run.figures[series.measures[k].name] = {
@@ -99,11 +103,13 @@ void SolverRuns::add(const Series& series, std::size_t index, const RungResult& 
             result.printed.empty() ? std::nullopt : std::optional(result.printed[k])};
     if (!failure_.empty())
         return;
-    const Json line{{"schema", runs_schema},        {"of", identity},
-                    {"study", series.study},        {"elements", result.rung.elements},
-                    {"dt", result.rung.dt},         {"method", series.method.name},
-                    {"seconds", result.seconds},    {"figures", std::move(figures)},
-                    {"printed", std::move(printed)}};
+    Json line{{"schema", runs_schema},        {"of", identity},
+              {"study", series.study},        {"elements", result.rung.elements},
+              {"dt", result.rung.dt},         {"method", series.method.name},
+              {"seconds", result.seconds},    {"figures", std::move(figures)},
+              {"printed", std::move(printed)}};
+    if (result.wall_clock)
+        line["wall_clock"] = *result.wall_clock;
     try {
         file_.append(line.dump(-1, ' ', false, Json::error_handler_t::replace));
     } catch (const OutputError& error) {

@@ -53,6 +53,7 @@ private:
         std::optional<PrintedDigits> printed;
     };
     struct Run {
+        std::optional<double> wall_clock;
         double seconds = 0.0;
         std::map<std::string, Figure> figures; ///< errors and values by name
         bool is_new = false;                   ///< made by this command

@@ -79,11 +79,15 @@ Json json_of(const OrdersResult& orders, const OrdersBlock& block) {
     Json json{{"final_time", block.final_time > 0.0 ? Json(block.final_time) : Json()},
               {"norms", std::move(norms)},
               {"runs", std::move(runs)}};
-    for (const auto& of : orders.values)
-        json["values"][of.value] = {{"limit", interval_json(of.limit)},
-                                    {"p", interval_json(of.p)},
-                                    {"q", interval_json(of.q)},
-                                    {"uncertainty", number_json(of.uncertainty)}};
+    for (const auto& of : orders.values) {
+        Json& value = json["values"][of.value];
+        value = {{"limit", interval_json(of.limit)},
+                 {"p", interval_json(of.p)},
+                 {"q", interval_json(of.q)},
+                 {"uncertainty", number_json(of.uncertainty)}};
+        for (const auto& rung : of.out_of_line)
+            value["out_of_line"].push_back({{"elements", rung.elements}, {"dt", rung.dt}});
+    }
     if (orders.refined)
         add_ending(json, *orders.refined);
     if (orders.corollary)

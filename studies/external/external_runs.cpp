@@ -176,6 +176,29 @@ private:
     fs::path path_;
 };
 
+/// The text with files of the directory by their names alone, and the directory itself as ".".
+std::string without_directory(const std::string& text, const std::string& directory) {
+    const auto is_of_path = [&](std::size_t at) {
+        return at < text.size() &&
+               (std::isalnum(static_cast<unsigned char>(text[at])) != 0 || text[at] == '/' ||
+                text[at] == '.' || text[at] == '_' || text[at] == '-');
+    };
+    std::string result;
+    std::size_t begin = 0;
+    for (std::size_t at = 0;
+         !directory.empty() && (at = text.find(directory, at)) != std::string::npos;) {
+        const std::size_t end = at + directory.size();
+        const bool names_a_file = end < text.size() && text[end] == '/' && is_of_path(end + 1);
+        if ((at > 0 && is_of_path(at - 1)) || (is_of_path(end) && text[end] != '/')) {
+            at = end;
+            continue;
+        }
+        result += text.substr(begin, at - begin) + (names_a_file ? "" : ".");
+        begin = at = names_a_file ? end + 1 : end;
+    }
+    return result + text.substr(begin);
+}
+
 class ExternalSolver {
 public:
     ExternalSolver(const SolverBlock& solver, const Keeper& keeper)
@@ -261,10 +284,10 @@ private:
                                        ? "; on standard error it wrote: " + process.last_lines
                                        : "; it wrote: " + process.last_lines);
         // The next run is made in another directory, and fails for the same reason.
-        const std::string path = directory.path().string();
-        for (const auto& part : {path + "/", path})
-            for (std::size_t at = 0; (at = result.reason.find(part, at)) != std::string::npos;)
-                result.reason.erase(at, part.size());
+        std::error_code error;
+        const auto real = fs::weakly_canonical(directory.path(), error).string();
+        for (const auto& path : {real, directory.path().string()})
+            result.reason = without_directory(result.reason, path);
     }
 
     /// Reads what is measured; why not, where it is not all there.

@@ -404,14 +404,18 @@ std::string rest_behind(const std::string& pattern, const std::string& number,
 }
 
 /// A factor of a power of ten behind the group's number, " x 10^-3"; or empty.
-std::string power_of_ten_behind(const std::string& number, const std::string& behind) {
-    static const std::regex power(
-        "^ ?(x|X|\\*|\u00d7|\u00b7|\u22c5) ?10 ?(\\^|\\*\\*|\u207b|\u00b9|\u00b2|\u00b3|\u2074|"
-        "\u2075|\u2076|\u2077|\u2078|\u2079)[^ \t]*");
+std::string power_of_ten_behind(const std::string& pattern, const std::string& number,
+                                const std::string& behind) {
+    static const std::regex power("^ ?(x|X|\\*|\u00d7|\u00b7|\u22c5) ?10 ?((\\^|\\*\\*) "
+                                  "?[-+({]?\\d|\u207b|\u00b9|\u00b2|\u00b3|\u2074|"
+                                  "\u2075|\u2076|\u2077|\u2078|\u2079)[^ \t]*");
     std::smatch match;
     const bool ends_as_one =
         !number.empty() && std::isdigit(static_cast<unsigned char>(number.back())) != 0;
-    return ends_as_one && std::regex_search(behind, match, power) ? match.str() : std::string();
+    if (!ends_as_one || !std::regex_search(behind, match, power) ||
+        takes_some(named_beside_the_group(pattern).behind, behind, false))
+        return {};
+    return match.str();
 }
 
 /// What follows the group's number as thousands do, ",234.5" behind 1, outside of a list or
@@ -419,12 +423,15 @@ std::string power_of_ten_behind(const std::string& number, const std::string& be
 std::string thousands_behind(const std::string& pattern, const std::string& number,
                              const std::string& before, const std::string& behind) {
     static const std::regex begins(R"(^[-+]?[1-9]\d{0,2}$)");
-    static const std::regex thousands(
-        "^((,|'|_|\u2019|\u00a0|\u2009|\u202f)\\d{3})+(\\.\\d+)?(?![\\d,\\])}])");
+    static const std::regex thousands("^((,|'|_|\u2019|\u00a0|\u2009|\u202f)\\d{3})+(\\.\\d+)?(?!["
+                                      "\\d,\\])}A-Za-z_]|\\.[A-Za-z])");
     std::smatch match;
     const bool is_in_list =
         !before.empty() && std::string_view(",;([{").find(before.back()) != std::string_view::npos;
-    if (is_in_list || !std::regex_match(number, begins) ||
+    const bool is_in_name =
+        !before.empty() &&
+        (before.back() == '_' || std::isalpha(static_cast<unsigned char>(before.back())) != 0);
+    if (is_in_list || is_in_name || !std::regex_match(number, begins) ||
         !std::regex_search(behind, match, thousands) ||
         takes_some(named_beside_the_group(pattern).behind, behind, false))
         return {};
@@ -514,7 +521,7 @@ void OutputReading::take(const std::string& line) {
     goes_on_ = rest.empty() ? rest : *found_ + rest;
     const std::string before(line.begin(), (*match)[1].first);
     thousands_ = thousands_behind(pattern_->text, *found_, before, behind);
-    power_of_ten_ = power_of_ten_behind(*found_, behind);
+    power_of_ten_ = power_of_ten_behind(pattern_->text, *found_, behind);
     const std::string begin = begin_before(pattern_->text, *found_, before);
     begins_before_ = begin.empty() ? begin : begin + *found_;
     was_cut_ = is_cut;
@@ -542,7 +549,7 @@ ReadFigure OutputReading::figure() const {
         return {{},
                 "'" + thousands_ + "' follows " + pattern_->name + " = " + *found_ +
                     ": print it without separators, or, where another number begins there, put " +
-                    "the comma behind the group"};
+                    "what parts them behind the group"};
     if (!begins_before_.empty())
         return {{},
                 "of " + begins_before_ + ", " + pattern_->name + " would be " + *found_ + ": '" +

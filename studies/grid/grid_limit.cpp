@@ -111,7 +111,14 @@ std::vector<Rung> out_of_line(const ValueGrid& grid, const std::vector<RungResul
     const double finest_h = *grid.h().begin();
     const double finest_dt = *grid.dt().begin();
     const double finest = grid.at(finest_h, finest_dt);
-    const double nearest = mixed_part(grid, highest_order, highest_order);
+    double unit = 0.0;
+    for (const auto& run : runs)
+        unit = std::max(unit, grid.unit_at(run.rung.h(), run.rung.dt));
+    // Of four printed values, each half a unit off, at most.
+    const double of_four = 2.0 * unit;
+    const double nearest = mixed_part(grid, highest_order, highest_order) +
+                           of_four / (growth(grid.h(), next_to_finest(grid.h()), highest_order) *
+                                      growth(grid.dt(), next_to_finest(grid.dt()), highest_order));
     std::vector<Rung> found;
     for (const auto& run : runs) {
         const double h = run.rung.h();
@@ -119,7 +126,7 @@ std::vector<Rung> out_of_line(const ValueGrid& grid, const std::vector<RungResul
         const double expected =
             std::abs(grid.at(h, finest_dt) - finest) + std::abs(grid.at(finest_h, dt) - finest) +
             nearest * growth(grid.h(), h, highest_order) * growth(grid.dt(), dt, highest_order) +
-            rounding * std::abs(finest) + grid.unit_at(h, dt);
+            rounding * std::abs(finest) + of_four;
         if (std::abs(grid.together(h, dt)) > far * expected)
             found.push_back(run.rung);
     }

@@ -231,6 +231,12 @@ void expect_limit(TableReader& table, const OrdersBlock& block, std::size_t k,
             });
         });
     }
+    expect_words(table, "left_out", expectations, [limit](const StudyResult& result) {
+        std::vector<std::string> words;
+        for (const auto& rung : limit(result).out_of_line)
+            words.push_back(rung.name(metric_text) + ": out of line");
+        return words;
+    });
     expect_band(table, "uncertainty", expectations, [name, limit](const StudyResult& result) {
         const GridLimit& of = limit(result);
         return std::vector{Metric{

@@ -1,6 +1,7 @@
 #include "studies/ladder/refining.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace tvbeam {
@@ -14,9 +15,13 @@ const OrderInterval& interval_of(const ColumnAnalysis& column) {
 
 /// What the next level will need, as the last two have it.
 double forecast_seconds(const std::vector<RungResult>& rungs) {
-    const double last = rungs.back().seconds_taken();
-    const double before = rungs[rungs.size() - 2].seconds_taken();
-    return before > 0.0 ? last * std::max(1.0, last / before) : last;
+    const RungResult& last = rungs.back();
+    const RungResult& before = rungs[rungs.size() - 2];
+    // One that was kept by an earlier version may lack the wall's clock.
+    const bool by_one_clock = last.wall_clock.has_value() == before.wall_clock.has_value();
+    const double growth = by_one_clock ? last.seconds_taken() / before.seconds_taken()
+                                       : last.seconds / before.seconds;
+    return last.seconds_taken() * (growth > 1.0 && std::isfinite(growth) ? growth : 1.0);
 }
 
 } // namespace

@@ -88,7 +88,7 @@ struct RungResult {
     /// How finely each was printed, where a program wrote them; empty: they are the doubles found.
     std::vector<PrintedDigits> printed = {};
     PrintedDigits printed_seconds = {}; ///< none where they are not by a clock of the program's own
-    /// The wall clock, where seconds are by a clock of the program's own; not kept.
+    /// The wall clock, where seconds are by a clock of the program's own.
     std::optional<double> wall_clock = {};
 
     /// What a budget of time counts: a clock of the program's own where it shows more.

@@ -24,8 +24,8 @@ constexpr double enough_seconds = 0.5;
 constexpr int least_runs = 5;
 /// Of a core, for times that can be compared.
 constexpr double least_share = 0.9;
-/// A relative change of a figure from run to run that threads which add up in another order may be.
-constexpr double same_figure = 1e-6;
+/// A relative change of an error from run to run that is one of sums in another order.
+constexpr double same_error_again = 1e-6;
 constexpr int first_decade = 2; // 1e-2, or one that is above it and below errors of every scheme
 constexpr int least_decade = -12;
 constexpr int last_decade = 9;
@@ -55,7 +55,8 @@ struct Contestant {
     std::vector<double> shown = {}; ///< by the clock, of these runs and of those before
     std::vector<PrintedDigits> printed = {};
     double clock_step = 0.0;
-    double greatest_change = 0.0; ///< of a figure, from its first run to those that are timed
+    double greatest_change = 0.0; ///< of an error, from its first run to those that are timed
+    std::size_t changed = 0;      ///< which one
 
     /// Of so many rounds, those that it takes part in lie evenly among them: a machine that slows
     /// down slows all alike.
@@ -146,9 +147,9 @@ public:
             if (scheme.runs[contestant.run].status != RungStatus::ok)
                 continue;
             scheme.timings[contestant.run] = timing(contestant);
-            if (contestant.greatest_change > same_figure)
-                scheme.unsteady.push_back(unsteady(contestant));
         }
+        for (std::size_t k = 0; k < result_.size(); ++k)
+            add_unsteady(k);
         return std::move(result_);
     }
 
@@ -166,12 +167,35 @@ private:
                                : std::optional(timing_of(seconds, contestant.clock_step));
     }
 
-    [[nodiscard]] std::string unsteady(const Contestant& contestant) const {
-        return fmt::format(
-            "{}: of the runs at {} a figure differs by up to {:.2g} of its size; the "
-            "first one's errors are shown.",
-            block_.schemes[contestant.scheme].name,
-            text_of(all_[contestant.scheme].rungs[contestant.run]), contestant.greatest_change);
+    /// Of the errors of a scheme that are others where they are timed, the one that differs most.
+    void add_unsteady(std::size_t scheme) {
+        const Contestant* most = nullptr;
+        for (const auto& one : contestants_)
+            if (one.scheme == scheme && one.greatest_change > same_error_again &&
+                (most == nullptr || one.greatest_change > most->greatest_change))
+                most = &one;
+        if (most != nullptr)
+            result_[scheme].unsteady = fmt::format(
+                "{}: errors differ from run to run, {} at {} by a part of {:.2g}; those of the "
+                "first run are shown.",
+                block_.schemes[scheme].name, block_.norms[most->changed].name,
+                text_of(all_[scheme].rungs[most->run]), most->greatest_change);
+    }
+
+    /// How far an error is from that of the first run, as a part of the larger one; 0 where both
+    /// are rounding beside the scheme's largest error.
+    [[nodiscard]] double change(const Contestant& contestant, std::size_t k, double error) const {
+        constexpr double rounding = 1e-12;
+        const auto& runs = result_[contestant.scheme].runs;
+        double largest = 0.0;
+        for (const auto& run : runs)
+            if (k < run.errors.size())
+                largest = std::max(largest, run.errors[k]);
+        if (k >= runs[contestant.run].errors.size()) // it failed in an earlier round
+            return 0.0;
+        const double first = runs[contestant.run].errors[k];
+        const double difference = std::abs(error - first);
+        return difference > rounding * largest ? difference / std::max(error, first) : 0.0;
     }
 
     /// A run whose time is wanted.
@@ -183,12 +207,12 @@ private:
             run_({contestant.run, rung, series.final_time, series.method,
                   measures_ ? series.measures : nothing, execution_.steps_of(series.method, rung)});
         if (result.status == RungStatus::ok) {
-            const auto& first = result_[contestant.scheme].runs[contestant.run].errors;
-            for (std::size_t k = 0; k < result.errors.size() && k < first.size(); ++k)
-                if (const double other = result.errors[k]; other != first[k])
-                    contestant.greatest_change = std::max(
-                        contestant.greatest_change,
-                        std::abs(other - first[k]) / std::max(std::abs(other), std::abs(first[k])));
+            for (std::size_t k = 0; k < result.errors.size(); ++k)
+                if (const double found = change(contestant, k, result.errors[k]);
+                    found > contestant.greatest_change) {
+                    contestant.greatest_change = found;
+                    contestant.changed = k;
+                }
             contestant.shown.push_back(result.seconds);
             contestant.printed.push_back(result.printed_seconds);
         }
@@ -407,9 +431,8 @@ std::vector<NormCosts> costs_of(const WorkPrecisionBlock& block,
             add_rises(costs.remarks, costs.norm.name, block.schemes[scheme], ladders.back());
             if (k == 0)
                 add_standing_clocks(costs.remarks, block.schemes[scheme], schemes[scheme]);
-            if (k == 0)
-                costs.remarks.insert(costs.remarks.end(), schemes[scheme].unsteady.begin(),
-                                     schemes[scheme].unsteady.end());
+            if (k == 0 && !schemes[scheme].unsteady.empty())
+                costs.remarks.push_back(schemes[scheme].unsteady);
         }
         const auto targets = block.targets.find(costs.norm.name);
         costs.errors = errors_to_reach(

@@ -17,8 +17,7 @@ struct SchemeRuns {
     std::vector<RungResult> runs;
     /// One a run; none where the run failed, or an interruption came before.
     std::vector<std::optional<Timing>> timings;
-    /// A sentence for every run whose errors were others when it was timed.
-    std::vector<std::string> unsteady;
+    std::string unsteady; ///< on errors that were others when they were timed; mostly empty
 };
 
 /// Two schemes at the same error.

@@ -317,7 +317,8 @@ BOOST_AUTO_TEST_CASE(python_without_numpy_goes_on_beyond_the_range_of_doubles) {
                  "at = lambda x, t: u_exact(*[{'x': x, 't': t}[name] for name in names])\n"
                  "assert at(1.0, 0.0) == 0.0\n"
                  "assert abs(at(0.0, 1.0) - 2.5) < 1e-15\n"
-                 "from code import sinh\nassert sinh(-1000.0) == -float('inf')\n");
+                 "from code import sinh\nassert sinh(-1000.0) == -float('inf')\n"
+                 "assert at(float('nan'), 0.5) != at(float('nan'), 0.5)\n");
     const std::string command =
         "cd '" + folder.path().string() + "' && PYTHONPATH=. python3 -B driver.py";
     BOOST_TEST(std::system(command.c_str()) == 0);

@@ -349,6 +349,10 @@ BOOST_AUTO_TEST_CASE(a_front_that_the_driven_problem_does_not_see_leaves_no_size
     BOOST_TEST(!sizes_of("x*(1 - x)*(1 + exp(-((t - 0.5371)*3000)^2)/1000)", "x^2*t", 0.0, "euler")
                     .unknown.empty());
     BOOST_TEST(sizes_of("x*(1 - x)*sin(20*t)", "x^2*cos(9*x)*t", 0.0, "euler").unknown.empty());
+    // Where Euler's scheme has no use for a third derivative it may be infinite.
+    for (const std::string t : {"t^2.5", "((t - 0.3)^2)^1.3", "((t - 0.35)^2)^1.3"})
+        BOOST_TEST(sizes_of("sin(pi*x)*" + t, "x^2*(3 - x)*t/100", 0.3, "euler").unknown.empty(),
+                   t);
 }
 
 // Third derivatives have a delta function where a second rate jumps: schemes of order 2 meet it.

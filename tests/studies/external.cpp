@@ -206,6 +206,15 @@ BOOST_AUTO_TEST_CASE(a_pattern_that_ends_within_a_number_is_a_failure) {
         BOOST_TEST(read({line}, R"(v = ([\d.]+))").failure.find("print its exponent") !=
                        std::string::npos,
                    line);
+    // The power that the pattern names, names of files, and what is no number behind 10.
+    for (const auto& [line, pattern] : std::vector<std::pair<std::string, std::string>>{
+             {"v = 1.5 x 10^-3 m", R"(v = (\S+) x 10\^-3)"},
+             {"v = 1.5 * 10**s", R"(v = ([\d.]+))"},
+             {"v = 1.5e0 \u00b7 10\u207b\u00b3", "v = (\\S+) \u00b7 10"}})
+        BOOST_TEST(read({line}, pattern).value.value_or(0.0) == 1.5, line);
+    for (const auto& [line, pattern] : std::vector<std::pair<std::string, std::string>>{
+             {"cg_4_001: iters", R"(cg_(\d+))"}, {"iters 4_001.vtu", R"(iters (\d+))"}})
+        BOOST_TEST(read({line}, pattern).value.value_or(0.0) == 4.0, line);
     for (const std::string line : {"v = 1.5 x 10 cells", "v = 1.5 * 10", "v = 1.5 10^3 cells"})
         BOOST_TEST(*read({line}, R"(v = ([\d.]+))").value == 1.5, line);
     // Rows, pairs, and a comma that the pattern names.

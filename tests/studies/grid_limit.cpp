@@ -1,8 +1,11 @@
 // The limit of values on a grid of h and Δt, where no exact solution is known.
 
 #include "studies/grid/grid_limit.hpp"
+#include "studies/data/printed_digits.hpp"
 
 #include <boost/test/unit_test.hpp>
+
+#include <fmt/format.h>
 
 #include <cmath>
 #include <functional>
@@ -92,6 +95,23 @@ BOOST_AUTO_TEST_CASE(values_out_of_line_are_named) {
         BOOST_TEST(named[0].elements == runs.front().rung.elements);
         BOOST_TEST(named[0].dt == runs.front().rung.dt);
     }
+}
+
+// Rounding of the four finest values is multiplied by what grows with the widths.
+BOOST_AUTO_TEST_CASE(values_of_few_digits_are_in_line) {
+    const auto laws = {+[](double h, double dt) { return 2.5 + 20.0 * h * dt * dt; },
+                       +[](double h, double dt) { return 0.5 * (1.0 + 48.0 * h * h * dt); },
+                       +[](double h, double dt) { return 1.0 + 32.0 * h * h * dt * dt; }};
+    for (const auto& law : laws)
+        for (const int decimals : {3, 4, 5}) {
+            const double unit = std::pow(10.0, -decimals);
+            auto runs =
+                grid_of([&](double h, double dt) { return unit * std::round(law(h, dt) / unit); });
+            for (auto& run : runs)
+                run.printed = {printed_digits(fmt::format("{:.{}f}", run.errors[0], decimals))};
+            const GridLimit found = limit_of("drag", runs, 0);
+            BOOST_TEST(found.out_of_line.empty(), decimals);
+        }
 }
 
 // Of m h² Δt, where h is halved and Δt a third, (2² − 1)(3 − 1) m h² Δt is what four runs show;

@@ -379,7 +379,7 @@ BOOST_AUTO_TEST_CASE(what_a_program_prints_when_it_is_timed_is_read) {
     const auto changed = found(0.25, false);
     BOOST_REQUIRE(changed.norms[0].remarks.size() == 1U);
     BOOST_TEST(changed.norms[0].remarks[0].find("s = 8") != std::string::npos);
-    BOOST_TEST(changed.norms[0].remarks[0].find("by up to 0.2 of") != std::string::npos);
+    BOOST_TEST(changed.norms[0].remarks[0].find("by a part of 0.2;") != std::string::npos);
     BOOST_TEST(changed.schemes[0].timings[1].has_value());
     const auto failed = found(0.0, true);
     BOOST_TEST((failed.schemes[0].runs[1].status == RungStatus::failed));
