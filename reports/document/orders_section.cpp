@@ -194,7 +194,9 @@ Section orders_section(const OrdersResult& orders, const OrdersBlock& block) {
     }
     if (!orders.values.empty()) {
         blocks.emplace_back(BlankLine{});
-        blocks.emplace_back(Paragraph{basis_of_limits(orders.runs)});
+        if (std::ranges::any_of(orders.values,
+                                [](const GridLimit& of) { return of.limit.determined; }))
+            blocks.emplace_back(Paragraph{basis_of_limits(orders.runs)});
     }
     for (const auto& value : orders.values) {
         blocks.emplace_back(finding(value));
