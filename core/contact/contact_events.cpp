@@ -34,8 +34,14 @@ std::optional<double> ContactEvents::Levels::reaches(double target, double lowes
 
 ContactEvents::ContactEvents(const Stops& stops, double tip, double round_off)
     : stops_(stops), round_off_(round_off), tip_before_(tip) {
-    free_.push(0.0, tip);
     beyond_ = beyond(tip);
+    if (stops.epsilon > 0.0 && beyond_ > 0.0) { // a stop that yields pushes from the start
+        events_.push_back(
+            {Kind::onset, tip > stops.upper ? Stop::upper : Stop::lower, 0.0, beyond_});
+        pressed_.push(0.0, (tip > stops.upper ? -beyond_ : beyond_) / stops.epsilon);
+        return;
+    }
+    free_.push(0.0, tip);
     // A start on a rigid stop is one, whichever side of it the state's round-off puts the tip.
     const double stop = tip > stops.upper ? stops.upper : stops.lower;
     if (stops.epsilon == 0.0 && beyond_ <= round_off * std::abs(stop))
@@ -63,9 +69,12 @@ void ContactEvents::add(double t, double tip, double stress) {
     const bool changes_sides = pressed && presses && stress * pressed_.value[0] < 0.0;
     if (pressed && (!presses || changes_sides)) {
         const Stop stop = pressed_.value[0] > 0.0 ? Stop::lower : Stop::upper;
-        events_.push_back({Kind::release, stop,
-                           pressed_.reaches(0.0, before_, t).value_or(passes(stop, t, tip)),
-                           events_[onset_].beyond});
+        double at = pressed_.reaches(0.0, before_, t).value_or(passes(stop, t, tip));
+        if (changes_sides) // one stop is left before the other is met
+            if (const double met = passes(stop == Stop::lower ? Stop::upper : Stop::lower, t, tip);
+                at > met)
+                at = std::min(met, passes(stop, t, tip));
+        events_.push_back({Kind::release, stop, at, events_[onset_].beyond});
         pressed_ = {};
         free_ = {};
     }

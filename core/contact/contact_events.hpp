@@ -35,8 +35,10 @@ std::string name_of(ContactEvent::Stop stop); ///< "g1", "g2"
 /// each where it lies within its step. Both are exact to the order two in Δt for a smooth motion
 /// that is itself exact. Where there are no two such levels, or their line leaves the step, a
 /// penalised stop, which the tip passes, is met where the line through the tips at both ends of the
-/// step meets it, and of a rigid one the end of the step stands for the event; a tip that starts on
-/// a stop and is held there by the first step has its onset at t = 0.
+/// step meets it, and of a rigid one the end of the step stands for the event; so it is where the
+/// tip goes from one stop to the other within a step and would leave the one after it met the
+/// other. A tip that starts on a stop and is held there by the first step has its onset at t = 0,
+/// as has one that starts within a penalised stop.
 class ContactEvents {
 public:
     /// At the state of t = 0. round_off: of the tip there, relative; one as near to a stop starts

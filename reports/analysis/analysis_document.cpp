@@ -44,9 +44,11 @@ Table rows_table(const DataAnalysis& analysis, const ColumnAnalysis& column) {
             rows.column(width.name, [&](std::size_t i) { return shortest(width.numbers[i]); }));
     Table::Group group{"", {rows.column(column.name, [&](std::size_t i) {
                            const double number = column.numbers[i];
-                           return !std::isfinite(number) ? std::string("failed")
-                                  : column.is_value      ? shortest(number)
-                                                         : scientific(number, 4);
+                           const bool is_missing = !column.missing.empty() && column.missing[i];
+                           return is_missing               ? std::string("-")
+                                  : !std::isfinite(number) ? std::string("failed")
+                                  : column.is_value        ? shortest(number)
+                                                           : scientific(number, 4);
                        })}};
     if (!column.verdicts.empty()) {
         if (!column.orders.empty())

@@ -26,7 +26,8 @@ struct TimeScale {
         const double decade = std::floor(std::log10(final_time));
         constexpr double most = 6; // of zeros, on either side of the point
         if (std::abs(decade) > most)
-            return t == 0 ? "0" : scientific(t, 4);
+            return scientific(
+                t, static_cast<int>(std::clamp(std::ceil(std::log10(final_time / dt)), 4.0, 16.0)));
         return fixed(
             t, static_cast<int>(std::max(4 + std::max(0.0, -decade), std::ceil(-std::log10(dt)))));
     }
@@ -98,7 +99,7 @@ void add_contact(Section& section, const EvolutionResult& result, const TimeScal
     if (whole)
         section.blocks.emplace_back(
             Finding{result.beyond_stops > 0.0
-                        ? "The tip penetrates a stop by " + scientific(result.beyond_stops, 1) +
+                        ? "The tip penetrates a stop by " + rounded_up(result.beyond_stops, 1) +
                               " at most" + (stops.epsilon > 0.0 ? ": the stops yield." : ".")
                         : "The tip never penetrates a stop."});
 }
@@ -123,8 +124,11 @@ Section evolution_section(const EvolutionResult& result, const Scene& scene) {
     const TimeScale times{block.final_time, block.rung.dt};
     Section section{"Evolution", {}};
     section.blocks.emplace_back(Paragraph{fmt::format(
-        "Evolution up to T = {} with s = {}, dt = {}, {} samples", shortest(block.final_time),
-        block.rung.elements, shortest(block.rung.dt), result.t.size())});
+        "Evolution up to T = {} with s = {}, dt = {}, {} samples{}", shortest(block.final_time),
+        block.rung.elements, shortest(block.rung.dt), result.t.size(),
+        block.every > 1
+            ? fmt::format(", one every {} steps, which all figures of probes are of", block.every)
+            : "")});
     section.blocks.emplace_back(BlankLine{});
     if (result.run.status != RungStatus::ok)
         section.blocks.emplace_back(
@@ -144,7 +148,7 @@ Section evolution_section(const EvolutionResult& result, const Scene& scene) {
         const auto& last = result.periods.back().changes;
         section.blocks.emplace_back(Finding{fmt::format(
             "From the last period but one to the last, no probe changes by more than {}.",
-            scientific(*std::max_element(last.begin(), last.end()), 1))});
+            rounded_up(*std::max_element(last.begin(), last.end()), 1))});
     }
     return section;
 }

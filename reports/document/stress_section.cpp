@@ -8,7 +8,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <map>
+#include <vector>
 
 namespace tvbeam {
 
@@ -170,11 +172,12 @@ Section contraction_section(const ContractionMap& map, const ContractionBlock& b
     const std::string legend = fmt::format(
         "Contraction of the fixed point, {}, {} mass, zeta = {}, s = {}: across, alpha from {} to "
         "{}; down, dt from {} to {}. A digit: tenths of the measured contraction; ^: 1 or more, "
-        "refused; .: too small to be measured; !: the measured one is not within 10 % of the "
+        "{}refused; .: too small to be measured; !: the measured one is not within 10 % of the "
         "predicted",
         block.time, name_of(block.thermal_mass), shortest(block.zeta), block.elements,
-        shortest(block.alpha.front()), scientific(block.alpha.back(), 1),
-        shortest(block.dt.front()), scientific(block.dt.back(), 1));
+        shortest(block.alpha.front()), shortest(block.alpha.back()), shortest(block.dt.front()),
+        shortest(block.dt.back()),
+        (map.greatest > map.predicted).any() ? "or that of the first step, " : "");
     std::string text;
     for (Eigen::Index i = 0; i < map.predicted.rows(); ++i) {
         text += fmt::format("{:>9} ", scientific(block.dt[static_cast<std::size_t>(i)], 1));
@@ -185,10 +188,11 @@ Section contraction_section(const ContractionMap& map, const ContractionBlock& b
                 text += '.';
             else if (!(std::abs(ratio - 1.0) <= 0.1))
                 text += '!';
-            else if (map.predicted(i, j) >= 1.0)
+            else if (map.greatest(i, j) >= 1.0)
                 text += '^';
-            else
-                text += static_cast<char>('0' + static_cast<int>(map.measured(i, j) * 10.0));
+            else // 0.9999999 may be 1.0000001 as measured
+                text += static_cast<char>('0' +
+                                          std::min(9, static_cast<int>(map.measured(i, j) * 10.0)));
         }
         text += '\n';
     }
@@ -200,6 +204,28 @@ Section contraction_section(const ContractionMap& map, const ContractionBlock& b
                      ? "all too small to be measured"
                      : fmt::format("{:.6f} to {:.6f}", map.least_ratio(), map.greatest_ratio()),
                  map.refused(), map.predicted.size())}}};
+}
+
+/// "from s = 1000 on: …", of the numbers of elements that are in the table, whatever their order;
+/// where one that is greater has no remark, those that have.
+std::string where_remarked(const RoundOffTable& table) {
+    std::map<std::int64_t, std::string> remarks;
+    for (const auto& row : table.rows)
+        remarks[row.elements] = row.remark;
+    std::string last;
+    std::vector<std::string> where;
+    bool up_to_the_finest = false;
+    for (const auto& [elements, remark] : remarks) {
+        up_to_the_finest = !remark.empty() && (where.empty() || up_to_the_finest);
+        if (remark.empty())
+            continue;
+        where.push_back(std::to_string(elements));
+        last = remark;
+    }
+    if (where.empty())
+        return {};
+    return up_to_the_finest ? fmt::format("from s = {} on: {}", where.front(), last)
+                            : fmt::format("s = {}: {}", fmt::join(where, ", "), last);
 }
 
 Section round_off_section(const RoundOffTable& table) {
@@ -228,12 +254,8 @@ Section round_off_section(const RoundOffTable& table) {
             if (!floor->reason.empty())
                 section.blocks.emplace_back(Finding{fmt::format(
                     "s = {}: the {} form stopped: {}", row.elements, form, floor->reason)});
-    for (const auto& row : table.rows)
-        if (!row.remark.empty()) {
-            section.blocks.emplace_back(
-                Finding{fmt::format("from s = {} on: {}", row.elements, row.remark)});
-            break;
-        }
+    if (const std::string where = where_remarked(table); !where.empty())
+        section.blocks.emplace_back(Finding{where});
     return section;
 }
 
@@ -247,6 +269,17 @@ std::vector<Section> stress_sections(const StressResult& result) {
         sections.push_back(contraction_section(*result.contraction, result.contraction->block));
     if (result.roundoff)
         sections.push_back(round_off_section(*result.roundoff));
+    if (!result.reached.empty()) {
+        Section section{"What is not there", {}};
+        for (const auto& [study, there, all] : result.reached)
+            section.blocks.emplace_back(Finding{
+                study == "stress"
+                    ? fmt::format("{} of {} cases were reached; what is said is of these", there,
+                                  all)
+                    : fmt::format("{}: {} of {} rows were reached; it is shown when all are there",
+                                  study, there, all)});
+        sections.push_back(std::move(section));
+    }
     return sections;
 }
 

@@ -150,6 +150,7 @@ std::vector<ResultDifference> differences(const JsonValues& first, const JsonVal
 
 ComparedResults compare_results(const std::string& first, const std::string& second,
                                 double tolerance) {
+    ComparedResults compared;
     std::array<JsonValues, 2> scenes;
     std::array<JsonValues, 2> results;
     const std::array<const std::string*, 2> names{&first, &second};
@@ -166,6 +167,9 @@ ComparedResults compare_results(const std::string& first, const std::string& sec
             scenes.at(i)[swept] = values;
         }
         leave_out_races(json);
+        if (const auto stress = json.find("stress");
+            stress != json.end() && stress->is_object() && stress->contains("cases_left_out"))
+            compared.not_compared = {"stress: " + stress->value("cases_left_out", std::string())};
         json.erase("file"); // of a table that was analysed
         if (auto remarks = json.find("remarks"); remarks != json.end() && remarks->is_array())
             remarks->erase(std::remove_if(remarks->begin(), remarks->end(),
@@ -176,7 +180,6 @@ ComparedResults compare_results(const std::string& first, const std::string& sec
                            remarks->end());
         results.at(i) = json_values(json, is_time);
     }
-    ComparedResults compared;
     std::size_t in_scene = 0;
     compared.scene = differences(scenes[0], scenes[1], 0.0, in_scene);
     compared.results = differences(results[0], results[1], tolerance, compared.equal);

@@ -21,6 +21,8 @@ struct ComparedResults {
     /// What was asked for, in the order of the scene; then what was found, the largest first.
     std::vector<ResultDifference> scene;
     std::vector<ResultDifference> results;
+    /// What neither file holds, though the study has it: "stress: 30000 cases are more than …".
+    std::vector<std::string> not_compared;
 };
 
 /// Compares two files that `tvbeam run --json` or `--out` has written, or the directories that hold

@@ -243,12 +243,16 @@ Floor floor_of(const Json& json, const char* name) {
 } // namespace
 
 nlohmann::ordered_json kept(const ContractionRow& row) {
-    return {{"predicted", numbers(row.predicted)}, {"measured", numbers(row.measured)}};
+    return {{"predicted", numbers(row.predicted)},
+            {"measured", numbers(row.measured)},
+            {"greatest", numbers(row.greatest)}};
 }
 
 ContractionRow kept_contraction(const nlohmann::ordered_json& json, std::size_t width) {
-    ContractionRow row{numbers(json, "predicted"), numbers(json, "measured")};
-    require(row.predicted.size() == width && row.measured.size() == width,
+    ContractionRow row{numbers(json, "predicted"), numbers(json, "measured"),
+                       numbers(json, "greatest")};
+    require(row.predicted.size() == width && row.measured.size() == width &&
+                row.greatest.size() == width,
             "contractions are not one an alpha");
     return row;
 }

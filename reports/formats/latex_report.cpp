@@ -121,6 +121,11 @@ std::string power_of_ten(const WrittenNumber& number) {
     return number.exponent.empty() ? "" : fmt::format("\\times10^{{{}}}", number.exponent);
 }
 
+/// The first cell of a row: rules and ends of rows take what begins with [ or * for an option.
+std::string first_cell(const std::string& latex) {
+    return "  " + std::string(latex.starts_with('[') || latex.starts_with('*') ? "{}" : "") + latex;
+}
+
 /// The columns of LaTeX that one column takes: one for what stands before the point, one behind
 /// it, one for the power of ten.
 struct Layout {
@@ -205,14 +210,16 @@ std::string tabular(const Table& table, std::size_t first_row, std::size_t end_r
     std::string headings;
     for (std::size_t i = 0; i < out.columns.size(); ++i) {
         specification += out.layouts[i].specification();
-        headings += (i == 0 ? "  " : " & ") + out.layouts[i].heading(out.columns[i]->heading);
+        const std::string heading = out.layouts[i].heading(out.columns[i]->heading);
+        headings += i == 0 ? first_cell(heading) : " & " + heading;
     }
     std::string text = "\\begin{tabular}{" + specification + "}\n  \\toprule\n" +
                        group_headings(table) + headings + " \\\\\n  \\midrule\n";
     for (std::size_t row = first_row; row < end_row; ++row) {
-        text += "  ";
-        for (std::size_t i = 0; i < out.columns.size(); ++i)
-            text += (i == 0 ? "" : " & ") + out.layouts[i].cell(out.columns[i]->cells[row]);
+        for (std::size_t i = 0; i < out.columns.size(); ++i) {
+            const std::string cell = out.layouts[i].cell(out.columns[i]->cells[row]);
+            text += i == 0 ? first_cell(cell) : " & " + cell;
+        }
         text += " \\\\\n";
     }
     return text + "  \\bottomrule\n\\end{tabular}";
@@ -280,7 +287,7 @@ std::string breakable(std::string latex) {
 std::string pairs(const std::vector<std::pair<std::string, std::string>>& rows) {
     std::string text = "\\noindent\\begin{tabular}{@{}lp{0.75\\linewidth}@{}}\n";
     for (const auto& [name, value] : rows)
-        text += "  " + latex_text(name) + " & " + breakable(latex_text(value)) + " \\\\\n";
+        text += first_cell(latex_text(name)) + " & " + breakable(latex_text(value)) + " \\\\\n";
     return text + "\\end{tabular}\n\n";
 }
 

@@ -12,12 +12,12 @@ namespace tvbeam {
 
 namespace {
 
-/// The points of the map whose measured contraction is below 1, or those where it is not.
+/// The points of the map where runs are taken, or those where they are refused.
 std::string points_of(const ContractionMap& map, bool contracts) {
     std::string rows;
     for (Eigen::Index i = 0; i < map.measured.rows(); ++i)
         for (Eigen::Index j = 0; j < map.measured.cols(); ++j)
-            if (std::isfinite(map.measured(i, j)) && (map.measured(i, j) < 1.0) == contracts)
+            if (std::isfinite(map.measured(i, j)) && (map.greatest(i, j) < 1.0) == contracts)
                 rows += fmt::format("{} {} {}\n", map.block.alpha[static_cast<std::size_t>(j)],
                                     map.block.dt[static_cast<std::size_t>(i)], map.measured(i, j));
     return rows;
@@ -59,12 +59,14 @@ std::vector<Plot> contraction_plots(const StudyResult& result) {
                          .size = 0.8,
                          .width = 1.4};
     };
-    add(points_of(map, true), points("#56B4E9", 6), "measured: below 1");
-    add(points_of(map, false), points("#000000", 2), "measured: 1 or more, refused");
+    add(points_of(map, true), points("#56B4E9", 6), "measured");
+    add(points_of(map, false), points("#000000", 2), "measured: refused");
     std::size_t line = 0;
     for (const double level : {0.01, 0.1, 1.0})
         add(level_line(map, level), {.colour = "#D55E00", .dash = series_style(line++).dash},
             "predicted: " + shortest(level));
+    if (drawing.is_empty())
+        return {};
     constexpr double room = 1.3;
     drawing.x = {.title = "thermal expansion α",
                  .is_logarithmic = true,

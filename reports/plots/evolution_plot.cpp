@@ -30,6 +30,7 @@ struct Window {
     std::string words;
     double begin = 0.0;
     double end = 0.0;
+    double rounding = 0.0; ///< of times
 };
 
 /// Rows of t and value within the window.
@@ -37,18 +38,20 @@ std::string rows_of(const EvolutionResult& result, const std::vector<double>& va
                     const Window& window) {
     std::string rows;
     for (std::size_t i = 0; i < values.size(); ++i)
-        if (std::isfinite(values[i]) && result.t[i] >= window.begin && result.t[i] <= window.end)
+        if (std::isfinite(values[i]) && result.t[i] >= window.begin - window.rounding &&
+            result.t[i] <= window.end + window.rounding)
             rows += fmt::format("{} {}\n", result.t[i], values[i]);
     return rows;
 }
 
 std::vector<Window> windows_of(const EvolutionResult& result, const EvolutionBlock& block) {
-    std::vector<Window> windows{{"", "", 0.0, block.final_time}};
+    const double rounding = block.rung.dt / 2.0; // of sums of steps, less than this
+    std::vector<Window> windows{{"", "", 0.0, block.final_time, rounding}};
     if (!result.periods.empty()) {
         const double period = static_cast<double>(*block.period) * block.rung.dt;
         const double end = result.periods.back().end;
         if (end > 2.0 * period * (1.0 + 1e-9))
-            windows.push_back({"_last", ", its last two periods", end - 2.0 * period, end});
+            windows.push_back({"_last", ", its last two periods", end - 2.0 * period, end, rounding});
     }
     return windows;
 }

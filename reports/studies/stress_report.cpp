@@ -73,7 +73,8 @@ Json json_of(const ContractionMap& map) {
             points.push_back({{"alpha", map.block.alpha[static_cast<std::size_t>(j)]},
                               {"dt", map.block.dt[static_cast<std::size_t>(i)]},
                               {"predicted", number_json(map.predicted(i, j))},
-                              {"measured", number_json(map.measured(i, j))}});
+                              {"measured", number_json(map.measured(i, j))},
+                              {"greatest", number_json(map.greatest(i, j))}});
     return {{"zeta", map.block.zeta},
             {"elements", map.block.elements},
             {"refused", map.refused()},
@@ -159,13 +160,13 @@ LongText stress_csv(const StressCases& cases) {
 }
 
 std::string contraction_csv(const ContractionMap& map) {
-    std::string text = "alpha,dt,predicted,measured\n";
+    std::string text = "alpha,dt,predicted,measured,greatest\n";
     for (Eigen::Index i = 0; i < map.predicted.rows(); ++i)
         for (Eigen::Index j = 0; j < map.predicted.cols(); ++j)
-            text +=
-                fmt::format("{},{}{}{}\n", map.block.alpha[static_cast<std::size_t>(j)],
-                            map.block.dt[static_cast<std::size_t>(i)],
-                            finite_field(map.predicted(i, j)), finite_field(map.measured(i, j)));
+            text += fmt::format("{},{}{}{}{}\n", map.block.alpha[static_cast<std::size_t>(j)],
+                                map.block.dt[static_cast<std::size_t>(i)],
+                                finite_field(map.predicted(i, j)), finite_field(map.measured(i, j)),
+                                finite_field(map.greatest(i, j)));
     return text;
 }
 

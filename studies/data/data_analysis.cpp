@@ -50,17 +50,18 @@ std::vector<std::size_t> refined(const std::vector<DataColumn>& widths) {
     return result;
 }
 
-/// Whether two widths have as many levels together as each has alone: none changes without the
-/// other.
+/// Whether one width grows with the other, or falls, in all rows: none changes without the other.
 bool change_together(const DataColumn& first, const DataColumn& second) {
-    std::set<double> of_first, of_second;
     std::set<std::pair<double, double>> of_both;
-    for (std::size_t r = 0; r < first.numbers.size(); ++r) {
-        of_first.insert(first.numbers[r]);
-        of_second.insert(second.numbers[r]);
+    for (std::size_t r = 0; r < first.numbers.size(); ++r)
         of_both.emplace(first.numbers[r], second.numbers[r]);
+    bool grows = true;
+    bool falls = true;
+    for (auto next = of_both.begin(), one = next++; next != of_both.end(); one = next++) {
+        grows = grows && next->first > one->first && next->second > one->second;
+        falls = falls && next->first > one->first && next->second < one->second;
     }
-    return of_both.size() == of_first.size() && of_both.size() == of_second.size();
+    return grows || falls;
 }
 
 /// Of a width that changes together with another one.
@@ -121,6 +122,34 @@ std::optional<std::size_t> neighbour_of(const DataAnalysis& data, const std::vec
     return std::nullopt;
 }
 
+/// Whether an error of zero may be one that its uncertainty hides: the least that the next coarser
+/// row with an error leaves there, by the order 8, or by twice that of the two rows before.
+bool hides_an_error(const DataAnalysis& data, const std::vector<double>& errors, std::size_t zero,
+                    double unknown) {
+    const auto log_ratio = [&](std::size_t coarse, std::size_t fine) {
+        double ratio = 0; // of the width that is refined most
+        for (const DataColumn& width : data.widths)
+            ratio = std::max(ratio, std::log(width.numbers[coarse] / width.numbers[fine]));
+        return ratio;
+    };
+    const auto coarser_than = [&](std::size_t row) -> std::optional<std::size_t> {
+        for (std::size_t r = row; r-- > 0;)
+            if (is_positive(errors[r]) && std::ranges::all_of(data.widths, [&](const auto& width) {
+                    return width.numbers[r] >= width.numbers[row];
+                }))
+                return r;
+        return std::nullopt;
+    };
+    const auto next = coarser_than(zero);
+    if (!next)
+        return true;
+    double order = 8;
+    if (const auto before = coarser_than(*next); before && log_ratio(*before, *next) > 0)
+        order = std::max(order,
+                         2 * std::log(errors[*before] / errors[*next]) / log_ratio(*before, *next));
+    return errors[*next] * std::exp(-order * log_ratio(*next, zero)) <= unknown;
+}
+
 /// What a verdict says of an order of two rows may be what is not known of their errors: of a floor
 /// in 0.002 and 0.001 nobody can tell. A row that is asymptotic has the order of others, and on a
 /// grid each is judged by all.
@@ -134,7 +163,8 @@ void leave_open(const DataAnalysis& data, const DataColumn& errors,
     const auto unknown = [&](std::size_t r) { return uncertainty_of(errors, stated, r); };
     for (std::size_t r = 0; r < column.verdicts.size(); ++r) {
         RowVerdict& row = column.verdicts[r];
-        if (row.verdict == Verdict::exact && unknown(r) > 0)
+        if (row.verdict == Verdict::exact && unknown(r) > 0 &&
+            hides_an_error(data, error, r, unknown(r)))
             row = {Verdict::unresolved,
                    stated.empty() ? "zero to the digits printed" : "zero within its deviation"};
         if (std::ranges::find(events, row.verdict) == events.end())
@@ -165,22 +195,40 @@ std::vector<double> of_rows_with_numbers(const std::vector<double>& widths,
     return result;
 }
 
-/// The width at which one that coarser rows refine stands still where the finest refine another;
-/// none where it does not. Of the rows that have a number.
-std::optional<double> standing_still(const DataColumn& width, const DataColumn& along,
-                                     const std::vector<double>& numbers) {
+std::vector<std::size_t> rows_with_numbers(const std::vector<double>& numbers) {
     std::vector<std::size_t> rows;
     for (std::size_t r = 0; r < numbers.size(); ++r)
         if (std::isfinite(numbers[r]))
             rows.push_back(r);
-    if (rows.empty() || width.numbers[rows.front()] == width.numbers[rows.back()])
+    return rows;
+}
+
+/// Whether a width changes with a twentieth of the order of another one from one row to the other,
+/// or with less, as steps do that something else limits: it is not refined.
+bool hardly_changes(const DataColumn& width, const DataColumn& along, std::size_t coarse,
+                    std::size_t fine) {
+    constexpr double of_nothing = 0.05;
+    return std::abs(std::log(width.numbers[coarse] / width.numbers[fine])) <=
+           of_nothing * std::abs(std::log(along.numbers[coarse] / along.numbers[fine]));
+}
+
+/// Whether a width is the same in all rows that have a number, or as good as that.
+bool is_held(const DataColumn& width, const DataColumn& along, const std::vector<double>& numbers) {
+    const auto rows = rows_with_numbers(numbers);
+    return !rows.empty() && hardly_changes(width, along, rows.front(), rows.back());
+}
+
+/// The width at which one that coarser rows refine stands still where the finest refine another;
+/// none where it does not. Of the rows that have a number.
+std::optional<double> standing_still(const DataColumn& width, const DataColumn& along,
+                                     const std::vector<double>& numbers) {
+    const auto rows = rows_with_numbers(numbers);
+    if (rows.empty() || is_held(width, along, numbers))
         return std::nullopt;
-    const auto at_the_end = [&](const DataColumn& column, std::size_t r) {
-        return column.numbers[r] == column.numbers[rows.back()];
-    };
-    const auto before = std::find_if(rows.rbegin(), rows.rend(),
-                                     [&](std::size_t r) { return !at_the_end(along, r); });
-    return before != rows.rend() && at_the_end(width, *before)
+    const auto before = std::find_if(rows.rbegin(), rows.rend(), [&](std::size_t r) {
+        return along.numbers[r] != along.numbers[rows.back()];
+    });
+    return before != rows.rend() && hardly_changes(width, along, *before, rows.back())
                ? std::optional(width.numbers[rows.back()])
                : std::nullopt;
 }
@@ -190,6 +238,8 @@ std::string path_words(const DataColumn& width, const DataColumn& along,
                        const std::vector<double>& numbers) {
     if (!varies(of_rows_with_numbers(width.numbers, numbers)))
         return "it is the same in all rows";
+    if (is_held(width, along, numbers))
+        return "it is hardly refined with " + along.name;
     const auto still = standing_still(width, along, numbers);
     return still ? fmt::format("it stands still at {:.4g} where the finest rows refine {}", *still,
                                along.name)
@@ -476,8 +526,10 @@ ColumnAnalysis analyse_values(const DataAnalysis& data, const DataColumn& values
     std::string held; // its error is in the limit
     for (const auto& width : data.widths)
         if (const auto found = of_rows_with_numbers(width.numbers, column.numbers);
-            on_one_path && !found.empty() && !varies(found))
-            held += fmt::format(" at {} = {:.4g}", width.name, found.front());
+            on_one_path && !found.empty() && is_held(width, data.widths[along], column.numbers))
+            held += varies(found) ? fmt::format(" at {} = {:.4g} to {:.4g}", width.name,
+                                                found.front(), found.back())
+                                  : fmt::format(" at {} = {:.4g}", width.name, found.front());
     column.findings.push_back(
         column.name + ": " +
         (limit.determined

@@ -19,7 +19,7 @@ namespace tvbeam {
 namespace {
 
 /// What a name says of the numbers in its column; level: how often a mesh was refined.
-enum class Meaning { width, count, level, unsaid };
+enum class Meaning { width, count, level, logarithm, unsaid };
 
 bool has_one_of(const std::set<std::string>& these, const std::set<std::string>& words) {
     return std::ranges::any_of(these,
@@ -68,6 +68,8 @@ Meaning meaning_of(const std::string& whole) {
     if (name.find_first_of("/^*") != std::string::npos)
         return Meaning::unsaid;
     auto words = words_in(name);
+    if (has_one_of({"log", "log2", "log10", "ln"}, words))
+        return Meaning::logarithm;
     for (const char* inverse : {"inv", "inverse", "reciprocal"})
         is_inverse = words.erase(inverse) > 0 || is_inverse;
     const Meaning meaning = meaning_of_words(words);
@@ -75,6 +77,12 @@ Meaning meaning_of(const std::string& whole) {
            : meaning == Meaning::width ? Meaning::count
            : meaning == Meaning::count ? Meaning::width
                                        : meaning;
+}
+
+void require_no_logarithm(const ColumnNames& names, const std::string& name, Meaning meaning) {
+    if (meaning == Meaning::logarithm)
+        throw InputError(names.place,
+                         "column " + name + " is a logarithm; give a column of what it is of");
 }
 
 /// The widths that a choice names, or those that need no name.
@@ -92,12 +100,14 @@ void choose_widths(const ColumnNames& names, const DataChoice& choice, DataFile&
             throw InputError(names.place, "column " + size +
                                               " numbers levels of refinement, which have widths as "
                                               "h = 2^-level; give a column of these");
+        require_no_logarithm(names, size, meaning);
         if (choice.dimension && meaning == Meaning::width)
             throw InputError(names.place, "column " + size +
                                               " is a width already; --dimension is for numbers of "
                                               "cells or unknowns");
         const bool counts = choice.dimension || meaning == Meaning::count;
         use.is_unsaid = !counts && meaning == Meaning::unsaid;
+        use.may_count = !counts && has_one_of({"size", "step"}, words_in(size));
         const std::string name = !counts ? size : sizes.size() == 1 ? "h" : "h_" + size;
         if (counts) {
             const double dimension = choice.dimension.value_or(1.0);
@@ -120,6 +130,7 @@ void choose_widths(const ColumnNames& names, const DataChoice& choice, DataFile&
                              [&](const ColumnUse& use) { return use.column == *step; })) {
         const std::string name = choice.step.value_or("dt");
         const Meaning meaning = meaning_of(name);
+        require_no_logarithm(names, name, meaning);
         const bool counts = meaning == Meaning::count;
         if (counts)
             data.remarks.push_back("dt = 1/" + name + ": the time 1 was assumed");
@@ -127,6 +138,7 @@ void choose_widths(const ColumnNames& names, const DataChoice& choice, DataFile&
         uses.push_back({*step, true, counts ? -1.0 : 1.0});
         uses.back().is_step = true;
         uses.back().is_unsaid = meaning == Meaning::unsaid || meaning == Meaning::level;
+        uses.back().may_count = !counts && words_in(name).contains("step");
     }
     if (uses.empty())
         throw InputError(names.place, "no column h, elements or dt among " +
@@ -248,11 +260,13 @@ std::vector<ColumnUse> choose_columns(const ColumnNames& names, const DataChoice
 void require_sizes_that_are_known(const ColumnNames& names, const std::vector<ColumnUse>& uses,
                                   DataFile& data) {
     for (const auto& use : uses) {
-        if (!use.is_unsaid)
+        if (!use.is_unsaid && !use.may_count)
             continue;
         const auto& numbers = use.target->numbers;
         if (std::ranges::adjacent_find(numbers, std::not_equal_to()) == numbers.end())
             continue; // nothing is refined
+        if (!use.is_unsaid && !std::ranges::is_sorted(numbers))
+            continue; // widths from coarse to fine
         const std::string& name = names.all[use.column];
         const std::string otherwise = fmt::format(
             fmt::runtime(use.is_step
@@ -268,7 +282,8 @@ void require_sizes_that_are_known(const ColumnNames& names, const std::vector<Co
                 fmt::format("column {} has whole numbers, and its name does not say whether they "
                             "are widths or count something; call it {} where they are widths; {}",
                             name, use.is_step ? "dt" : "h", otherwise));
-        data.remarks.push_back(fmt::format("{} was taken for a width; {}", name, otherwise));
+        if (use.is_unsaid)
+            data.remarks.push_back(fmt::format("{} was taken for a width; {}", name, otherwise));
     }
 }
 

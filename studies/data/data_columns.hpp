@@ -31,6 +31,7 @@ struct ColumnUse {
     double power = 1;       ///< the width is the number to this power
     bool is_step = false;   ///< in time
     bool is_unsaid = false; ///< the name of a width says neither width nor count
+    bool may_count = false; ///< … or may count, where all are whole and grow: size, step
     DataColumn* target = nullptr;
     std::vector<double>* plain = nullptr;    ///< in place of it, of deviations
     std::vector<PrintedDigits> printed = {}; ///< one a record

@@ -261,6 +261,14 @@ private:
     std::string comma_;
 };
 
+/// As of a number with a separator of thousands: 1.089, 1,089 or 1.089.000.
+bool has_three_decimals(std::string_view text) {
+    const auto mark = text.find_last_of(".,");
+    constexpr std::size_t three = 3;
+    return mark != std::string_view::npos && text.size() - mark - 1 == three &&
+           text.find_first_of("eEdD", mark) == std::string_view::npos;
+}
+
 void read_record(const Lines& lines, const std::vector<TextField>& fields, const Head& head,
                  DecimalMark& mark, std::vector<ColumnUse>& uses) {
     bool found = false; // an error or a value; deviations come behind them
@@ -277,12 +285,14 @@ void read_record(const Lines& lines, const std::vector<TextField>& fields, const
         if (use.is_width && use.power < 0 && number < 1)
             throw InputError(lines.place(field.column),
                              "'" + std::string(field.text) + "' in column " + name +
-                                 " counts nothing; it must be 1 or more");
-        if (name == "elements" && use.power < 0 && std::floor(number) != number)
+                                 " counts nothing; it must be 1 or more; where it is a width, "
+                                 "call the column h");
+        if (use.power < 0 && std::floor(number) != number &&
+            (name == "elements" || has_three_decimals(field.text)))
             throw InputError(lines.place(field.column),
                              "'" + std::string(field.text) + "' in column " + name +
-                                 " is no number of elements, which is whole; write thousands "
-                                 "without a separator");
+                                 " is no number of " + (name == "elements" ? name : "things") +
+                                 ", which is whole; write thousands without a separator");
         const double width = use.power == 1    ? number
                              : use.power == -1 ? 1 / number
                                                : std::pow(number, use.power);

@@ -7,6 +7,7 @@
 #include <functional>
 #include <limits>
 #include <map>
+#include <set>
 #include <utility>
 
 namespace tvbeam {
@@ -197,6 +198,17 @@ std::vector<double> levels_of(Eigen::VectorXd log_widths, double one_level) {
 int level_of(const std::vector<double>& levels, double log_width) {
     const auto finer = std::upper_bound(levels.begin(), levels.end(), log_width, std::greater<>());
     return static_cast<int>(finer - levels.begin()) - 1;
+}
+
+bool are_refined_apart(const TermRows& rows, const std::vector<std::vector<double>>& levels,
+                       Eigen::Index first, Eigen::Index second) {
+    const auto& of_first = levels[static_cast<std::size_t>(first)];
+    const auto& of_second = levels[static_cast<std::size_t>(second)];
+    std::set<std::pair<int, int>> pairs;
+    for (Eigen::Index r = 0; r < rows.size(); ++r)
+        pairs.emplace(level_of(of_first, rows.log_widths(r, first)),
+                      level_of(of_second, rows.log_widths(r, second)));
+    return pairs.size() >= of_first.size() + of_second.size(); // a tree has one less
 }
 
 } // namespace tvbeam

@@ -49,6 +49,12 @@ std::vector<Eigen::Index> moving_widths(const TermRows& rows, double most);
 /// With these widths alone; rows that are equal in them are one, of their mean, as certain as they.
 TermRows with_widths(const TermRows& rows, const std::vector<Eigen::Index>& widths);
 
+/// Whether two widths are refined apart from each other: their levels stand in more pairs than rows
+/// have that refine one after the other, or each from one point. What the terms of the two do
+/// together, of three widths, is not known of those.
+bool are_refined_apart(const TermRows& rows, const std::vector<std::vector<double>>& levels,
+                       Eigen::Index first, Eigen::Index second);
+
 /// ln of the coarsest width of each level, coarse to fine; a level is what lies within one factor.
 std::vector<double> levels_of(Eigen::VectorXd log_widths, double one_level);
 

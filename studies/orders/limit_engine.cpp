@@ -1,6 +1,7 @@
 #include "studies/orders/limit_engine.hpp"
 
 #include "studies/orders/observed_order.hpp"
+#include "studies/orders/value_steps.hpp"
 
 #include <fmt/format.h>
 
@@ -15,9 +16,6 @@ namespace tvbeam {
 
 namespace {
 
-/// An interval is no narrower than this many roundings of the finest value.
-constexpr double roundings = 8;
-
 using Next = LimitModel::Next;
 const LimitModel limit_models[] = {{std::nullopt},
                                    {1.0},
@@ -28,72 +26,6 @@ const LimitModel limit_models[] = {{std::nullopt},
                                    {std::nullopt, Next::none, true},
                                    {std::nullopt, Next::none, false, 1},
                                    {std::nullopt, Next::none, false, 2}};
-
-using Rows = std::vector<ValueRow>;
-
-/// Coarse to fine, finite, one row a width; of very many widths, one row a cell of ln h. Where no
-/// σ is stated, it is that of values of equal widths, with Student's factor for their number.
-Rows levels_of(std::span<const ValueRow> given) {
-    constexpr std::size_t most_levels = 48; // less than the designs of fit_at hold
-    Rows rows;
-    for (const auto& row : given)
-        if (is_positive(row.h) && std::isfinite(row.value))
-            rows.push_back(row);
-    std::stable_sort(rows.begin(), rows.end(),
-                     [](const auto& left, const auto& right) { return left.h > right.h; });
-    std::size_t widths = 0;
-    for (std::size_t i = 0; i < rows.size(); ++i)
-        widths += i == 0 || rows[i].h < rows[i - 1].h ? 1 : 0;
-    const double cell =
-        widths > most_levels ? std::log(rows.front().h / rows.back().h) / (most_levels - 1) : 0.0;
-    Rows levels;
-    std::vector<double> counts;
-    double squares = 0;
-    for (std::size_t i = 0, next = 0; i < rows.size(); i = next) {
-        ValueRow mean{0, 0, 0, 0};
-        double square = 0;
-        for (next = i; next < rows.size() && rows[next].h >= rows[i].h * std::exp(-cell); ++next) {
-            const double off = rows[next].value - rows[i].value;
-            mean.h += rows[next].h;
-            mean.value += off;
-            mean.sigma += rows[next].sigma * rows[next].sigma;
-            mean.unit = std::max(mean.unit, rows[next].unit);
-            square += off * off;
-        }
-        const auto n = counts.emplace_back(static_cast<double>(next - i));
-        squares += square - mean.value * mean.value / n;
-        levels.push_back(
-            {mean.h / n, rows[i].value + mean.value / n, std::sqrt(mean.sigma) / n, mean.unit});
-    }
-    const auto dof = static_cast<int>(rows.size() - levels.size());
-    const double pooled = std::sqrt(squares / dof) * student_over_normal(dof);
-    for (std::size_t i = 0; i < levels.size() && dof > 0 && cell == 0; ++i)
-        if (std::isnan(levels[i].sigma))
-            levels[i].sigma = pooled / std::sqrt(counts[i]);
-    return levels;
-}
-
-/// The finest step in units of the last digit printed; none where it is `exact` of them or more.
-std::optional<double> coarsely_printed_step(const Rows& levels, double exact) {
-    const auto& fine = levels.back();
-    const auto& coarse = levels[levels.size() - 2];
-    const double step = std::abs(fine.value - coarse.value) / std::max(fine.unit, coarse.unit);
-    return step < exact ? std::optional(step) : std::nullopt;
-}
-
-/// Rounding is a scatter that values of equal widths, which are rounded alike, may not show.
-void add_rounding(Rows& levels) {
-    const double uniform = 1 / std::sqrt(12.0); // the deviation of what is spread over one unit
-    for (auto& level : levels)
-        level.sigma = std::isnan(level.sigma) ? uniform * level.unit
-                                              : std::max(level.sigma, uniform * level.unit);
-}
-
-/// How far from printed values that are all the same their limit may be: rounding is half a unit,
-/// and what hides in a unit goes on at first order at worst.
-double hidden_by_digits(const Rows& levels) {
-    return levels.back().unit * (0.5 + 1 / (levels.front().h / levels.back().h - 1));
-}
 
 Weights weights_of(std::span<const ValueRow> rows) {
     Eigen::VectorXd weights(static_cast<Eigen::Index>(rows.size()));
@@ -131,8 +63,12 @@ std::optional<Mean> mean_of(const std::vector<Weighed>& all, double agreement) {
     return Mean{origin + mean, std::sqrt(std::max(0.0, square / weights - mean * mean))};
 }
 
+double finest_step(const ValueLevels& levels) {
+    return std::abs(levels[levels.size() - 2].value - levels.back().value);
+}
+
 /// All windows that end at the finest level, each compared with the one a level coarser.
-void weigh(const Rows& levels, const LimitModel& model, std::vector<Weighed>& limits,
+void weigh(const ValueLevels& levels, const LimitModel& model, std::vector<Weighed>& limits,
            std::vector<double>& orders) {
     const std::size_t n = levels.size();
     for (std::size_t length = static_cast<std::size_t>(model.parameters()); length <= n; ++length) {
@@ -157,14 +93,14 @@ void weigh(const Rows& levels, const LimitModel& model, std::vector<Weighed>& li
         if (!compared || !std::isfinite(fit->limit_error))
             continue;
         limits.push_back({fit->limit, std::hypot(change, fit->limit_error)});
-        if (!model.order && model.logarithmic == 0)
+        if (!model.order)
             orders.push_back(fit->order);
     }
 }
 
 /// The deviation that the best of the models leaves, with Student's factor. Three levels do not
 /// show any.
-double scatter_of(const Rows& levels) {
+double scatter_of(const ValueLevels& levels) {
     double least = levels.size() > 3 ? infinity : 0.0;
     for (const auto& model : limit_models) {
         const int dof = static_cast<int>(levels.size()) - model.parameters();
@@ -176,131 +112,6 @@ double scatter_of(const Rows& levels) {
     return least;
 }
 
-/// Do the last three steps, or the two that there are, go to and fro?
-bool alternates(const Rows& levels) {
-    const std::size_t n = levels.size();
-    const auto step = [&](std::size_t back) {
-        return levels[n - back].value - levels[n - back - 1].value;
-    };
-    return step(1) * step(2) < 0 && (n < 4 || step(2) * step(3) < 0);
-}
-
-/// Whether the ratios of the steps rise and fall, as those of values that scatter do; of a smooth
-/// sequence they go one way. Two show nothing.
-bool is_erratic(const Rows& levels) {
-    std::vector<double> ratios;
-    for (std::size_t i = 2; i < levels.size(); ++i)
-        ratios.push_back((levels[i].value - levels[i - 1].value) /
-                         (levels[i - 1].value - levels[i - 2].value));
-    return ratios.size() >= 3 && (!std::is_sorted(ratios.begin(), ratios.end()) &&
-                                  !std::is_sorted(ratios.rbegin(), ratios.rend()));
-}
-
-/// Is the finest step more than what the known deviations make of no step at all?
-bool is_significant(const ValueRow& coarse, const ValueRow& fine) {
-    constexpr double deviations = 3;
-    const double sigma = std::hypot(fine.sigma, coarse.sigma);
-    return !(std::abs(fine.value - coarse.value) <= deviations * sigma);
-}
-
-bool is_significant(const Rows& levels) {
-    return is_significant(levels[levels.size() - 2], levels.back());
-}
-
-/// Whether all steps together are more than rounding to the digits printed makes, if none of them
-/// is. Of scatter that is more than rounding each step must be.
-bool goes_further_than_digits(const Rows& levels) {
-    constexpr double units = 4;
-    const double unit = levels.back().unit;
-    return unit > 0 && levels.front().sigma <= unit && levels.back().sigma <= unit &&
-           std::abs(levels.back().value - levels.front().value) >= units * unit;
-}
-
-/// The steps between levels, each over the logarithm of its ratio.
-std::vector<double> steps_of(const Rows& levels) {
-    std::vector<double> steps;
-    for (std::size_t i = 1; i < levels.size(); ++i)
-        steps.push_back((levels[i].value - levels[i - 1].value) /
-                        std::log(levels[i - 1].h / levels[i].h));
-    return steps;
-}
-
-constexpr double equal_steps = 1 - 1e-6; // those of ln h are, but for rounding
-
-/// Do the values go one way in steps that grow up to the finest, while h falls further than steps
-/// of a sum of two powers can grow? Those of C h^p + D h^q with opposite signs do from their zero
-/// to their greatest, while h falls by (q/p)^(1/(q − p)): 2 of h − h², 4 of √h − h; and by one
-/// ratio of levels more, as the greatest may lie between two.
-bool runs_apart_in_the_end(const Rows& levels) {
-    const auto steps = steps_of(levels);
-    constexpr double growing = 4;
-    constexpr double rounding = 1 + 1e-9;
-    std::size_t first = steps.size() - 1;
-    double ratio = levels[first].h / levels[first + 1].h; // the greatest
-    while (first > 0 && steps[first - 1] * steps[first] > 0 &&
-           equal_steps * std::abs(steps[first - 1]) <= std::abs(steps[first]) &&
-           is_significant(levels[first - 1], levels[first])) {
-        --first;
-        ratio = std::max(ratio, levels[first].h / levels[first + 1].h);
-    }
-    return levels[first].h > growing * ratio * rounding * levels[steps.size() - 1].h;
-}
-
-/// Do the values go one way, or to and fro throughout, and the steps between levels, each over the
-/// logarithm of its ratio, grow towards the finest, which is the greatest of all? Those of h^p
-/// shrink for every p > 0, so that no limit is in sight.
-bool steps_grow(const Rows& levels) {
-    std::vector<double> steps = steps_of(levels);
-    const bool to_and_fro = steps[0] * steps[1] < 0;
-    for (std::size_t i = 1; i < steps.size(); ++i)
-        if ((steps[i] * steps[i - 1] < 0) != to_and_fro)
-            return false;
-    for (auto& step : steps)
-        step = std::abs(step);
-    const std::size_t last = steps.size() - 1;
-    for (std::size_t i = 0; i < last; ++i)
-        if (steps[last] < equal_steps * steps[i] ||
-            (i + 2 >= last && steps[i + 1] < equal_steps * steps[i]))
-            return false;
-    return steps[last] >
-           roundings * std::numeric_limits<double>::epsilon() * std::abs(levels.back().value);
-}
-
-/// The levels less the finest value and over the greatest distance from it, so that no square of
-/// theirs leaves the range of doubles. The scale is zero where the values are all the same.
-struct ScaledRows {
-    Rows levels;
-    double origin = 0;
-    double scale = 0;
-};
-
-ScaledRows scaled(const Rows& levels) {
-    ScaledRows result{levels, levels.back().value};
-    for (auto& row : result.levels) {
-        row.value -= result.origin;
-        result.scale = std::max(result.scale, std::abs(row.value));
-    }
-    if (result.scale > 0)
-        for (auto& row : result.levels) {
-            row.value /= result.scale;
-            row.sigma /= result.scale;
-        }
-    return result;
-}
-
-/// The levels from the last at which the values turn back, where three differences or more follow:
-/// next to a turn differences are small, as of a steeper order.
-Rows past_the_turn(const Rows& levels) {
-    constexpr std::size_t fewest = 4; // levels
-    std::size_t first = 0;
-    for (std::size_t k = 1; k + 1 < levels.size(); ++k)
-        if ((levels[k].value - levels[k - 1].value) * (levels[k + 1].value - levels[k].value) < 0)
-            first = k;
-    return levels.size() - first < fewest
-               ? levels
-               : Rows(levels.begin() + static_cast<std::ptrdiff_t>(first), levels.end());
-}
-
 /// The order of the differences between consecutive levels, as the engine of orders sees that of
 /// errors. Of f_0 + C h^p + D h^{p+1} they are, over (h_k^p − h_{k+1}^p) / H_k^p with the widths
 ///
@@ -308,9 +119,9 @@ Rows past_the_turn(const Rows& levels) {
 ///
 /// C H_k^p + D H_k^{p+1}, whatever the ratios of the widths. p is the order found before;
 /// from_models: the first.
-OrderInterval order_of_differences(const Rows& given, double from_models) {
+OrderInterval order_of_differences(const ValueLevels& given, double from_models) {
     OrderInterval order;
-    const Rows levels = past_the_turn(given);
+    const ValueLevels levels = past_the_turn(given);
     double p = from_models;
     double least = infinity, greatest = 0;
     for (std::size_t k = 0; k + 1 < levels.size(); ++k) {
@@ -340,38 +151,7 @@ OrderInterval order_of_differences(const Rows& given, double from_models) {
     return order;
 }
 
-/// How many of the finest values are one, to the digits that they have, though the steps before
-/// show no such order: a solver that is exact from there on, or one that refines no more, or a
-/// maximum over nodes that stays at one of them. After one step every order that a method has may
-/// have led there; of two steps the order goes on; and from three on it may grow as that of what
-/// converges exponentially, like exp(−c/h). 0 where the values move, or may have converged.
-std::size_t standing_still(const Rows& levels, double rounding) {
-    const auto& finest = levels.back();
-    const auto is_same = [&](const ValueRow& row) {
-        return std::abs(row.value - finest.value) <= std::max(rounding, finest.unit / 2);
-    };
-    std::size_t first = levels.size() - 1; // of those that are one
-    while (first > 0 && is_same(levels[first - 1]))
-        --first;
-    const std::size_t count = levels.size() - first;
-    constexpr std::size_t fewest = 3; // of two every window has a step
-    if (count < fewest || first == 0)
-        return 0;
-    constexpr double deviations = 3;
-    const double scatter = is_positive(finest.sigma) ? deviations * finest.sigma : 0.0;
-    const double resolution = std::max({rounding, finest.unit, scatter});
-    const double last = std::abs(levels[first].value - levels[first - 1].value);
-    const double ratio = levels[first - 1].h / levels[first].h;
-    if (first == 1)
-        return last > resolution * std::pow(ratio, greatest_order) ? count : 0;
-    const double before = std::abs(levels[first - 1].value - levels[first - 2].value);
-    const double shrinks = before > last ? last / before : 1.0;
-    const double next = last * std::pow(shrinks, first < 3 ? 1.0 : std::max(2.0, ratio));
-    constexpr double of_steps = 3; // rounding moves each step by one
-    return next > of_steps * resolution ? count : 0;
-}
-
-Rows with_scatter(Rows levels, double scatter) {
+ValueLevels with_scatter(ValueLevels levels, double scatter) {
     for (auto& level : levels)
         if (std::isnan(level.sigma))
             level.sigma = scatter;
@@ -389,148 +169,188 @@ OrderInterval hull(const OrderInterval& one, const OrderInterval& other) {
     return both;
 }
 
-/// Of 60 limits from four levels 1 % apart the intervals of 6 missed, of 58 3 % apart those of 3.
-bool has_three_widths(const Rows& levels) {
-    constexpr double least_ratio = 1.05;
-    int widths = 1;
-    double coarser = levels.front().h;
-    for (const auto& level : levels)
-        if (coarser >= least_ratio * level.h) {
-            ++widths;
-            coarser = level.h;
-        }
-    return widths >= 3 && levels.front().h >= OrderTuning{}.one_level * levels.back().h;
+/// What the fits of all models to all windows say, of values over their scale.
+struct LimitFits {
+    std::vector<Weighed> limits;          ///< by models in powers of h
+    std::vector<Weighed> with_logarithms; ///< … and in ln h, where these may be meant
+    double order = 1;                     ///< of the models in powers, the median
+    double scatter = 0;
+    bool is_scattered = false;
+};
+
+LimitFits fit_all(const ValueLevels& levels, const LimitTuning& tuning) {
+    LimitFits fits;
+    std::vector<double> orders;
+    const auto weigh_all = [&](bool logarithmic, std::vector<Weighed>& limits) {
+        for (const auto& model : limit_models)
+            if ((model.logarithmic > 0) == logarithmic &&
+                (!model.alternating || alternates(levels)))
+                weigh(levels, model, limits, orders);
+    };
+    weigh_all(false, fits.limits);
+    std::sort(orders.begin(), orders.end());
+    if (!orders.empty())
+        fits.order = orders[orders.size() / 2];
+    fits.scatter = scatter_of(levels);
+    fits.is_scattered = finest_step(levels) < tuning.exact_steps * fits.scatter;
+    fits.with_logarithms = fits.limits;
+    // Where values scatter every low order follows them, and every logarithm.
+    if (!fits.is_scattered && fits.order < tuning.logarithmic_below)
+        weigh_all(true, fits.with_logarithms);
+    return fits;
 }
 
-} // namespace
-
-LimitEstimate estimate_limit(std::span<const ValueRow> rows, const LimitTuning& tuning) {
-    Rows given = levels_of(rows);
-    LimitEstimate result;
-    if (given.size() < 3) {
-        result.limit.status = result.order.status =
-            "a limit needs values at three different widths";
-        return result;
-    }
-    if (!has_three_widths(given)) {
-        result.limit.status = result.order.status =
-            "a limit needs values at three widths, each 5 % or more from the next, and 12 % in all";
-        return result;
-    }
-    // Rounding counts for more between levels that are closer than halved widths; closer ones than
-    // an eighth show no order.
-    const double halvings =
-        std::log2(given.front().h / given.back().h) / static_cast<double>(given.size() - 1);
-    result.finest_step =
-        coarsely_printed_step(given, tuning.units_of_exact_steps / std::clamp(halvings, 0.15, 1.0));
-    if (result.finest_step)
-        add_rounding(given);
-    const bool apart = runs_apart_in_the_end(given);
-    if ((is_significant(given) || goes_further_than_digits(given)) &&
-        (apart || steps_grow(given))) {
-        // Those of h − 4 h² grow, too, while h falls from 1/8 to 1/16, and those of noise may.
-        result.limit.status = result.order.status =
-            apart ? "the values run apart" : "the steps between the values do not shrink";
-        result.finest_step.reset(); // no digits make them do that
-        return result;
-    }
-    const auto [levels, origin, scale] = scaled(given);
-    const double rounding = roundings * std::numeric_limits<double>::epsilon() * std::abs(origin);
-    if (scale <= rounding) {
-        const double half = std::max(rounding, hidden_by_digits(given));
-        result.limit = {origin, origin - half, origin + half, true, 1, ""};
-        result.uncertainty = half;
-        result.basis = std::to_string(levels.size()) + " levels that are the same";
-        result.order.status = "the values stand still";
-        return result;
-    }
-    if (const std::size_t count = standing_still(given, rounding); count > 0) {
-        result.limit.status = result.order.status = fmt::format(
-            "the {} finest values are the same, and the step before was {:.2g}: they are exact, or "
-            "no longer refined",
-            count,
-            std::abs(given[given.size() - count].value - given[given.size() - count - 1].value));
-        result.finest_step.reset();
-        return result;
-    }
-    result.gci = gci_of(given);
-    result.celik = celik_of(given);
-    result.eca_hoekstra = eca_hoekstra_of(levels);
-    if (auto& least_squares = result.eca_hoekstra) {
-        least_squares->limit = origin + scale * least_squares->limit;
-        least_squares->uncertainty *= scale;
-    }
-    if (const auto order = order_of_finest(given);
-        is_significant(given) && order && *order < least_order) {
-        result.limit.status = result.order.status = "the order of the finest values is below 0.2";
-        return result;
-    }
-    std::vector<Weighed> limits;
-    std::vector<double> orders;
-    std::vector<Weighed> with_logarithms;
-    for (const auto& model : limit_models)
-        if (!model.alternating || alternates(levels))
-            weigh(levels, model, model.logarithmic > 0 ? with_logarithms : limits, orders);
-    std::sort(orders.begin(), orders.end());
-    const double first = orders.empty() ? 1.0 : orders[orders.size() / 2];
-    const double last_step = std::abs(levels[levels.size() - 2].value - levels.back().value);
-    const auto spare = static_cast<double>(levels.size()) - 2;
-    const double scatter = scatter_of(levels);
-    const bool is_scattered = last_step < tuning.exact_steps * scatter;
-    // Where values scatter every low order follows them, and every logarithm.
-    if (is_scattered || !(first < tuning.logarithmic_below))
-        with_logarithms.clear();
-    with_logarithms.insert(with_logarithms.end(), limits.begin(), limits.end());
-    const bool is_wider = is_scattered && is_erratic(levels);
+/// The mean of the limits and an interval of their spread, at the scale of the values as given.
+void set_limit(LimitEstimate& result, const LimitFits& fits, const ScaledLevels& of,
+               const LimitTuning& tuning) {
+    const auto spare = static_cast<double>(of.levels.size()) - 2;
+    const bool is_wider = fits.is_scattered && is_erratic(of.levels);
     const double factor =
         (is_wider ? tuning.scattered : tuning.factor) * (1 + tuning.few_levels / (spare * spare));
     // What the doubles of the values do not know, in units of the scale.
-    const double unknown =
-        std::max(rounding / scale, roundings * std::numeric_limits<double>::epsilon());
-    const double agreement = tuning.agreement * last_step + unknown;
-    if (const auto mean = mean_of(limits, agreement)) {
-        const auto half_of = [&](const Mean& of) {
-            return std::abs(of.value - mean->value) + factor * of.spread +
-                   tuning.narrowest * std::abs(of.value) + unknown;
-        };
-        const double half = std::max(
-            scale * std::max(half_of(*mean), half_of(*mean_of(with_logarithms, agreement))),
-            std::max(given.back().unit / 2, is_wider ? scale * scatter : 0.0));
-        const double limit = origin + scale * mean->value;
-        if (!std::isfinite(limit) || !std::isfinite(half)) {
-            result.limit.status = "values or deviations of so many sizes overflow";
-            return result;
-        }
-        result.limit = {.value = limit,
-                        .low = limit - half,
-                        .high = limit + half,
-                        .determined = true,
-                        .share = 1,
-                        .status = ""};
-        result.uncertainty = scale * std::abs(mean->value) + half;
-        result.basis =
-            std::to_string(levels.size()) + " levels, " + std::to_string(limits.size()) + " fits";
-    } else {
+    const double unknown = roundings * std::numeric_limits<double>::epsilon() *
+                           std::max(std::abs(of.origin) / of.scale, 1.0);
+    const double agreement = tuning.agreement * finest_step(of.levels) + unknown;
+    const auto mean = mean_of(fits.limits, agreement);
+    if (!mean) {
         result.limit.status = "no model fits";
+        return;
     }
-    result.order = order_of_differences(levels, first);
+    const auto half_of = [&](const Mean& other) {
+        return std::abs(other.value - mean->value) + factor * other.spread +
+               tuning.narrowest * std::abs(other.value) + unknown;
+    };
+    const double half = std::max(
+        of.scale * std::max(half_of(*mean), half_of(*mean_of(fits.with_logarithms, agreement))),
+        std::max(of.scale * of.levels.back().unit / 2, is_wider ? of.scale * fits.scatter : 0.0));
+    const double limit = of.origin + of.scale * mean->value;
+    if (!std::isfinite(limit) || !std::isfinite(half)) {
+        result.limit.status = "values or deviations of so many sizes overflow";
+        return;
+    }
+    result.limit = {limit, limit - half, limit + half, true, 1, ""};
+    result.uncertainty = of.scale * std::abs(mean->value) + half;
+    result.basis = std::to_string(of.levels.size()) + " levels, " +
+                   std::to_string(fits.limits.size()) + " fits";
+}
+
+OrderInterval order_of(const ValueLevels& levels, const LimitFits& fits) {
+    OrderInterval order = order_of_differences(levels, fits.order);
     // Of scatter that is not stated the differences show none: it would pass for their order.
-    if (is_scattered)
-        result.order =
-            hull(result.order, order_of_differences(with_scatter(levels, scatter), first));
+    if (fits.is_scattered)
+        order = hull(order, order_of_differences(with_scatter(levels, fits.scatter), fits.order));
     // The engine's errors are the steps from value to value.
     std::size_t moves = 0;
     for (std::size_t i = 1; i < levels.size(); ++i)
         moves += levels[i].value != levels[i - 1].value ? 1 : 0;
     constexpr std::size_t fewest_moves = 3;
-    if (!result.order.determined && moves < fewest_moves)
-        result.order.status = "an order of values needs three steps that are not zero";
+    if (!order.determined && moves < fewest_moves)
+        order.status = "an order of values needs three steps that are not zero";
     if (levels.size() < 4)
-        result.order.status = "an order of values with an interval needs four widths";
+        order.status = "an order of values with an interval needs four widths";
+    // Of h² − 17 h⁴ on five halved widths the interval was 1.676 ± 0.198.
+    if (const std::size_t turn = last_turn(levels); order.determined && turn > 0 &&
+                                                    levels.size() - turn < fewest_past_a_turn &&
+                                                    !fits.is_scattered && !alternates(levels)) {
+        order.determined = false;
+        order.status = fmt::format("the values turn back at the width {:.4g}, and an order shows "
+                                   "on {} levels from there on",
+                                   levels[turn].h, fewest_past_a_turn);
+    }
+    return order;
+}
+
+/// Where the order of the steps falls so low that slow terms may be behind all that is seen: to
+/// what; 0 elsewhere.
+double slow_order(const LimitEstimate& result, const ValueLevels& levels,
+                  const LimitTuning& tuning) {
     const auto [from, to] = result.order.falls.value_or(std::pair(infinity, infinity));
     const bool is_slow =
         to < tuning.slow_order || (to < tuning.first_order && from - to > tuning.far_fall);
-    if (!is_erratic(levels) && to > 0 && is_slow) {
+    return is_slow && to > 0 && !is_erratic(levels) ? to : 0.0;
+}
+
+/// Why values have no limit, before anything is fitted; empty otherwise.
+std::string without_limit(const ValueLevels& levels) {
+    const bool apart = runs_apart_in_the_end(levels);
+    // Those of h − 4 h² grow, too, while h falls from 1/8 to 1/16, and those of noise may.
+    if ((is_significant(levels) || goes_further_than_digits(levels)) &&
+        (apart || steps_grow(levels)))
+        return apart ? "the values run apart" : "the steps between the values do not shrink";
+    return {};
+}
+
+/// The limit of values that are all the same to the digits printed.
+void set_same(LimitEstimate& result, const ValueLevels& levels) {
+    const double value = levels.back().value;
+    const double half = hidden_by_digits(levels);
+    result.limit = {value, value - half, value + half, true, 1, ""};
+    result.uncertainty = half;
+    result.basis = std::to_string(levels.size()) + " levels that are the same";
+    result.order.status = "the values stand still";
+}
+
+LimitEstimate refused(LimitEstimate result, const std::string& reason) {
+    result.limit.status = result.order.status = reason;
+    return result;
+}
+
+} // namespace
+
+LimitEstimate estimate_limit(std::span<const ValueRow> rows, const LimitTuning& tuning) {
+    ValueLevels given = value_levels(rows);
+    LimitEstimate result;
+    if (given.size() < 3)
+        return refused(result, "a limit needs values at three different widths");
+    if (!has_three_widths(given))
+        return refused(result, "a limit needs values at three widths, each 5 % or more from the "
+                               "next, and 12 % in all");
+    // Rounding counts for more between levels that are closer than halved widths; closer ones than
+    // an eighth show no order.
+    const double halvings =
+        std::log2(given.front().h / given.back().h) / static_cast<double>(given.size() - 1);
+    const auto printed =
+        coarsely_printed_step(given, tuning.units_of_exact_steps / std::clamp(halvings, 0.15, 1.0));
+    if (printed)
+        add_rounding(given);
+    // No digits make values do that.
+    if (const std::string reason = without_limit(given); !reason.empty())
+        return refused(result, reason);
+    const ScaledLevels of = scaled(given);
+    const double rounding =
+        roundings * std::numeric_limits<double>::epsilon() * std::abs(of.origin);
+    if (const std::size_t count = standing_still(given, rounding); of.scale > rounding && count > 0)
+        return refused(
+            result,
+            fmt::format(
+                "the {} finest values are the same, and the step before was {:.2g}: they are "
+                "exact, or no longer refined",
+                count,
+                std::abs(given[given.size() - count].value -
+                         given[given.size() - count - 1].value)));
+    result.finest_step = printed;
+    if (of.scale <= rounding) {
+        if (hidden_by_digits(given) <= rounding)
+            return refused(result, fmt::format("all {} values are the same to rounding: they are "
+                                               "exact, or nothing is refined",
+                                               given.size()));
+        set_same(result, given);
+        return result;
+    }
+    result.gci = gci_of(given);
+    result.celik = celik_of(given);
+    result.eca_hoekstra = eca_hoekstra_of(of.levels);
+    if (auto& least_squares = result.eca_hoekstra) {
+        least_squares->limit = of.origin + of.scale * least_squares->limit;
+        least_squares->uncertainty *= of.scale;
+    }
+    if (const auto order = order_of_finest(given);
+        is_significant(given) && order && *order < least_order)
+        return refused(result, "the order of the finest values is below 0.2");
+    const LimitFits fits = fit_all(of.levels, tuning);
+    set_limit(result, fits, of, tuning);
+    result.order = order_of(of.levels, fits);
+    if (const double to = slow_order(result, of.levels, tuning); to > 0) {
         result.limit = {.status = fmt::format("the order of the steps falls over finer windows, to "
                                               "{:.2f}: how far slow terms still go, as 1/ln h, no "
                                               "model tells",

@@ -83,11 +83,12 @@ std::optional<MethodLimit> celik_of(std::span<const ValueRow> levels) {
     if (e21 == 0 || e32 == 0)
         return std::nullopt;
     const double sign = e32 / e21 < 0 ? -1 : 1;
-    const auto next = [&](double p) {
-        return std::abs(std::log(std::abs(e32 / e21)) +
-                        std::log((std::pow(r21, p) - sign) / (std::pow(r32, p) - sign))) /
+    const auto signed_order = [&](double p) {
+        return (std::log(std::abs(e32 / e21)) +
+                std::log((std::pow(r21, p) - sign) / (std::pow(r32, p) - sign))) /
                std::log(r21);
     };
+    const auto next = [&](double p) { return std::abs(signed_order(p)); };
     // The iteration of the procedure, and where that goes round in circles half its steps: what
     // solves the equation counts, not what an iteration ends with.
     const auto solved = [&](double part) -> std::optional<double> {
@@ -102,6 +103,10 @@ std::optional<MethodLimit> celik_of(std::span<const ValueRow> levels) {
     if (!order)
         return std::nullopt;
     const double p = *order;
+    // The procedure takes an absolute value: of steps that grow it finds the order that those of
+    // the opposite sequence have.
+    if (signed_order(p) < 0)
+        return std::nullopt;
     const double gain = std::expm1(p * std::log(r21));
     return MethodLimit{fine.value - e21 / gain, 1.25 * std::abs(e21) / gain, p,
                        sign < 0 ? "oscillatory" : "f0 + C h^p"};

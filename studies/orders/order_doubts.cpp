@@ -195,6 +195,9 @@ bool OrderEnsemble::is_settled(Index width, const OrderInterval& order) const {
 }
 
 std::string OrderEnsemble::status_of(Index width, const OrderInterval& order) const {
+    if (std::ranges::none_of(members_,
+                             [](const EnsembleMember& member) { return member.along < 0; }))
+        return fmt::format("no model of all {} widths follows so few rows", rows_.widths());
     if (order.share < tuning_.least_share)
         return "hidden: its term is less than 15 % of every error";
     if ((std::abs(order.value) <= 2 * tuning_.narrowest && order.half_width() <= tuning_.widest) ||

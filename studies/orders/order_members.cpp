@@ -207,6 +207,8 @@ void fit_all_widths(const TermRows& rows, const AllLevels& levels,
     };
     for (const auto& place : places_within(most)) {
         const auto window = rows_from(rows, levels, place);
+        if (window.size() == 0)
+            continue; // of a grid without its finest corner
         TermSearch search(window);
         std::optional<TermFit> plain;
         double least_scale = infinity; // of those with next terms of one kind

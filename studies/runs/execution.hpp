@@ -29,6 +29,8 @@ struct Parts {
     std::size_t count = 0;
     std::function<double(std::size_t)> work;   ///< of a part; unit: work_of
     std::function<std::any(std::size_t)> make; ///< its result; several threads call at a time
+    /// Whether a result says that it has failed; empty: none does.
+    std::function<bool(const std::any&)> has_failed = {};
 };
 
 /// Results of single runs, kept from an earlier attempt at the same scene and for a later one.

@@ -24,9 +24,13 @@ bool is_there(const Task& task, FinishedRuns& finished) {
 
 RungStatus make(const Task& task, const RunCall& run, const Execution& execution) {
     const auto& [group, index] = task;
-    if (!group->series)
-        return make_or_find(group->parts, index, execution).has_value() ? RungStatus::ok
-                                                                        : RungStatus::interrupted;
+    if (!group->series) {
+        const Parts& parts = group->parts;
+        const std::any result = make_or_find(parts, index, execution);
+        if (!result.has_value())
+            return RungStatus::interrupted;
+        return parts.has_failed && parts.has_failed(result) ? RungStatus::failed : RungStatus::ok;
+    }
     if (!execution.advance(0.0))
         return RungStatus::interrupted;
     return run_or_find(*group->series, index, run, execution).status;

@@ -10,7 +10,7 @@ namespace tvbeam {
 /// How a shard ended.
 struct ShardEnd {
     std::size_t there = 0;   ///< runs and cases that are its own and are finished
-    std::size_t failed = 0;  ///< runs of those, made now, that failed
+    std::size_t failed = 0;  ///< of those, made now, that failed
     std::size_t missing = 0; ///< that were interrupted
 };
 

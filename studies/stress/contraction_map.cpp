@@ -57,7 +57,9 @@ ContractionRow measure_contraction(const ContractionBlock& block, std::size_t ro
         Scheme scheme;
         scheme.algorithm = Algorithm::fixed_point;
         scheme.thermal_mass = block.thermal_mass;
-        scheme.time = without_history(TimeScheme::named(block.time));
+        scheme.time = TimeScheme::named(block.time);
+        ratios.greatest.push_back(greatest_contraction(beam, mesh, scheme, dt));
+        scheme.time = without_history(scheme.time);
         // Two changes are compared; they are not to be lost in round-off.
         scheme.tolerance = std::numeric_limits<double>::min();
         const double c = scheme.time.stages.back().leading / dt;
@@ -71,11 +73,13 @@ ContractionMap contraction_map(const ContractionBlock& block,
                                const std::vector<ContractionRow>& rows) {
     const auto height = static_cast<Eigen::Index>(rows.size());
     const auto width = static_cast<Eigen::Index>(block.alpha.size());
-    ContractionMap map{block, Eigen::ArrayXXd(height, width), Eigen::ArrayXXd(height, width)};
+    ContractionMap map{block, Eigen::ArrayXXd(height, width), Eigen::ArrayXXd(height, width),
+                       Eigen::ArrayXXd(height, width)};
     for (Eigen::Index i = 0; i < height; ++i) {
         const ContractionRow& row = rows[static_cast<std::size_t>(i)];
         map.predicted.row(i) = Eigen::Map<const Eigen::RowVectorXd>(row.predicted.data(), width);
         map.measured.row(i) = Eigen::Map<const Eigen::RowVectorXd>(row.measured.data(), width);
+        map.greatest.row(i) = Eigen::Map<const Eigen::RowVectorXd>(row.greatest.data(), width);
     }
     return map;
 }

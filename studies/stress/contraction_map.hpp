@@ -16,6 +16,8 @@ struct ContractionMap {
     ContractionBlock block;
     Eigen::ArrayXXd predicted;
     Eigen::ArrayXXd measured;
+    /// Predicted, of a run, its first steps included: by which it is refused.
+    Eigen::ArrayXXd greatest;
 
     /// From this prediction on, the third change is not lost in round-off.
     static constexpr double least_measurable = 1e-6;
@@ -23,13 +25,14 @@ struct ContractionMap {
     /// Of measured over predicted, where it can be measured. Not a number where that is nowhere.
     [[nodiscard]] double least_ratio() const;
     [[nodiscard]] double greatest_ratio() const;
-    [[nodiscard]] Eigen::Index refused() const { return (predicted >= 1.0).count(); }
+    [[nodiscard]] Eigen::Index refused() const { return (greatest >= 1.0).count(); }
 };
 
 /// One row of the map: the same Δt, every α.
 struct ContractionRow {
     std::vector<double> predicted;
     std::vector<double> measured;
+    std::vector<double> greatest;
 };
 
 ContractionRow measure_contraction(const ContractionBlock& block, std::size_t row);

@@ -48,7 +48,10 @@ double work_of(const StressParameters& parameters) {
 
 Parts case_parts(const StressBlock& block) {
     return {"stress", block.cases(), [&block](std::size_t i) { return work_of(block.case_at(i)); },
-            [&block](std::size_t i) -> std::any { return judge(block.case_at(i)); }};
+            [&block](std::size_t i) -> std::any { return judge(block.case_at(i)); },
+            [](const std::any& judged) {
+                return std::any_cast<const StressCase&>(judged).outcome == Outcome::failed;
+            }};
 }
 
 Parts contraction_parts(const ContractionBlock& block) {
@@ -69,15 +72,24 @@ Parts round_off_parts(const RoundOffBlock& block) {
             [&block](std::size_t row) -> std::any { return measure_round_off(block, row); }};
 }
 
+void note_reached(StressResult& result, const Parts& parts, std::size_t there) {
+    if (there == parts.count)
+        return;
+    result.interrupted = true;
+    result.reached.push_back({parts.study, there, parts.count});
+}
+
 /// All results of the parts, in their order; none where one is missing.
 template <typename Row>
-std::optional<std::vector<Row>> rows_of(const Parts& parts, const Execution& execution) {
+std::optional<std::vector<Row>> rows_of(const Parts& parts, const Execution& execution,
+                                        StressResult& result) {
     std::vector<Row> rows(parts.count);
     std::size_t there = 0;
     run_parts(parts, execution, [&](std::size_t i, std::any row) {
         rows[i] = std::any_cast<Row>(std::move(row));
         ++there;
     });
+    note_reached(result, parts, there);
     return there == parts.count ? std::optional(std::move(rows)) : std::nullopt;
 }
 
@@ -99,19 +111,14 @@ StressResult run_stress(const StressBlock& block, const Execution& execution) {
         one.parameters = block.case_at(i); // results are kept without
         result.cases.set(i, one);
     });
-    result.interrupted = result.cases.size() < block.cases();
-    if (block.contraction) {
-        const auto rows = rows_of<ContractionRow>(contraction_parts(*block.contraction), execution);
-        if (rows)
+    note_reached(result, case_parts(block), result.cases.size());
+    if (block.contraction)
+        if (const auto rows =
+                rows_of<ContractionRow>(contraction_parts(*block.contraction), execution, result))
             result.contraction = contraction_map(*block.contraction, *rows);
-        result.interrupted = result.interrupted || !rows;
-    }
-    if (block.roundoff) {
-        auto rows = rows_of<RoundOffRow>(round_off_parts(*block.roundoff), execution);
-        result.interrupted = result.interrupted || !rows;
-        if (rows)
+    if (block.roundoff)
+        if (auto rows = rows_of<RoundOffRow>(round_off_parts(*block.roundoff), execution, result))
             result.roundoff = RoundOffTable{*std::move(rows)};
-    }
     return result;
 }
 

@@ -18,6 +18,13 @@ struct StressResult {
     std::optional<ContractionMap> contraction;
     std::optional<RoundOffTable> roundoff;
     bool interrupted = false;
+    /// Of each part that is not whole, as "stress.contraction", how many of how many are there.
+    struct Reached {
+        std::string study;
+        std::size_t there = 0;
+        std::size_t all = 0;
+    };
+    std::vector<Reached> reached = {};
 
     [[nodiscard]] bool failed() const { return interrupted || cases.count(Outcome::failed) > 0; }
 

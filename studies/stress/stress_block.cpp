@@ -193,12 +193,17 @@ std::vector<double> geometric(TableReader& table, const char* key) {
     const double from = single(*range, "from", 0.0, true);
     const double to = single(*range, "to", 0.0, true);
     const auto points = count(*range, "count", 20, 1000);
+    if (points == 1 && from != to)
+        throw range->error("count", " is 1, of a range of more than one value; make it 2 or more, "
+                                    "or to the same as from");
     range->finish();
-    std::vector<double> values;
-    for (std::int64_t i = 0; i < points; ++i)
-        values.push_back(from * std::pow(to / from, static_cast<double>(i) /
-                                                        static_cast<double>(std::max<std::int64_t>(
-                                                            points - 1, 1))));
+    std::vector<double> values{from};
+    for (std::int64_t i = 1; i + 1 < points; ++i) {
+        const double part = static_cast<double>(i) / static_cast<double>(points - 1);
+        values.push_back(std::pow(from, 1.0 - part) * std::pow(to, part)); // to/from may overflow
+    }
+    if (points > 1)
+        values.push_back(to);
     return values;
 }
 

@@ -50,7 +50,17 @@ std::string scientific(std::optional<double> value, int decimals) {
         return {};
     if (*value == 0.0)
         return "0";
+    if (std::isnan(*value)) // has no sign that means anything
+        return "nan";
     return without_filling(fmt::format("{:.{}e}", *value, decimals));
+}
+
+std::string rounded_up(double value, int decimals) {
+    const std::string text = scientific(value, decimals);
+    if (!(number_in(text) < value) || !std::isfinite(value))
+        return text;
+    const double unit = std::pow(10.0, std::floor(std::log10(value)) - decimals);
+    return scientific(value + unit / 2.0, decimals);
 }
 
 double number_in(const std::string& text) {
@@ -72,6 +82,8 @@ std::string without_numbers(const std::string& text) {
 }
 
 std::string shortest(double value) {
+    if (std::isnan(value)) // has no sign that means anything
+        return "nan";
     const std::string plain = without_filling(fmt::format("{}", value));
     const std::string exponent = without_filling(fmt::format("{:e}", value));
     // {:e} has six decimals; take it only when it says the same number in fewer characters.
@@ -108,6 +120,8 @@ int digits_within(double value, double half) {
 }
 
 std::string significant(double value, int digits) {
+    if (std::isnan(value)) // has no sign that means anything
+        return "nan";
     const std::string rounded = fmt::format("{:.{}e}", value, digits - 1);
     const int power = static_cast<int>(std::floor(std::log10(std::abs(number_in(rounded)))));
     if (value == 0.0 || power < -4 || power > 4)
@@ -118,6 +132,8 @@ std::string significant(double value, int digits) {
 std::string fixed(std::optional<double> value, int decimals) {
     if (!value)
         return {};
+    if (std::isnan(*value)) // has no sign that means anything
+        return "nan";
     std::string text = fmt::format("{:.{}f}", *value, decimals);
     return number_in(text) == 0.0 ? fmt::format("{:.{}f}", 0.0, decimals) : text; // no "-0.00"
 }

@@ -10,6 +10,9 @@ namespace tvbeam {
 /// missing value.
 std::string scientific(std::optional<double> value, int decimals);
 
+/// The same of a bound from above: rounded away from zero, > 0.
+std::string rounded_up(double value, int decimals);
+
 /// The number that a text begins with, whatever the locale; NaN where there is none or it is beyond
 /// the doubles.
 double number_in(const std::string& text);

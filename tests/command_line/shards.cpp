@@ -200,6 +200,21 @@ BOOST_AUTO_TEST_CASE(a_shard_whose_run_failed_is_no_finished_one_when_it_is_star
         has(merge(directory, " --status").output, "what failed is made again by\n  tvbeam run "));
 }
 
+// Without viscosity so strong a coupling leaves the energy law: the case fails its certificate.
+BOOST_AUTO_TEST_CASE(a_shard_with_a_case_that_failed_says_so) {
+    const TemporaryDirectory directory;
+    const std::string scene = directory.write(
+        "scene.toml", "title = \"too strong\"\n[stress.sweep.a]\nalpha = [1e12]\nzeta = [0.0]\n"
+                      "dt = [1e-300]\nelements = [1]\ngap = [1e-3]\nsides = [\"upper\"]\n"
+                      "load = [1e150]\ninitial = [\"rough\"]\ntheta_A = [-1e150]\n"
+                      "thermal_mass = [\"lumped\"]\n");
+    const std::string run = "run " + scene + out(directory, "parts");
+    BOOST_TEST(call(directory, run + " --quiet").exit == 3);
+    const Called shard = call(directory, run + " --shard 1/1");
+    BOOST_TEST(shard.exit == 3);
+    BOOST_TEST(has(shard.errors, "of the runs of shard 1/1 failed"), shard.errors);
+}
+
 // 1e6 elements in 1e7 steps are a day's work, which is one shard's.
 BOOST_AUTO_TEST_CASE(the_shard_that_takes_too_long_is_refused_and_no_other) {
     const TemporaryDirectory directory;

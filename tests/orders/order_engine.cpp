@@ -619,6 +619,41 @@ BOOST_AUTO_TEST_CASE(a_product_of_both_widths_does_not_pass_for_an_order) {
     BOOST_TEST((!orders[1].determined || holds(orders[1], 1.0)));
 }
 
+// The finest levels of all widths together have no row.
+BOOST_AUTO_TEST_CASE(a_grid_without_its_finest_corner_has_orders_or_says_why_not) {
+    for (const int levels : {4, 5, 6}) {
+        std::vector<ErrorRow> rows;
+        for (int i = 0; i < levels; ++i)
+            for (int k = 0; k < levels; ++k)
+                if (i < levels / 2 || k < levels / 2) {
+                    const double h = std::exp2(-i), dt = std::exp2(-k);
+                    rows.push_back({{h, dt}, 0.3 * h * h + 0.2 * dt});
+                }
+        const auto orders = estimate_orders(rows);
+        for (const std::size_t k : {0U, 1U})
+            BOOST_TEST((orders[k].determined ? orders[k].low <= 2.0 - static_cast<double>(k) &&
+                                                   orders[k].high >= 2.0 - static_cast<double>(k)
+                                             : !orders[k].status.empty()));
+    }
+    // Of three widths each refined by itself.
+    for (const int levels : {3, 4, 5}) {
+        std::vector<ErrorRow> rows{{{1.0, 1.0, 1.0}, 0.9}};
+        for (const std::size_t width : {0U, 1U, 2U})
+            for (int k = 1; k < levels; ++k) {
+                std::vector<double> widths(3, 1.0);
+                widths[width] = std::exp2(-k);
+                rows.push_back(
+                    {widths, 0.3 * widths[0] * widths[0] + 0.4 * widths[1] + 0.2 * widths[2]});
+            }
+        const auto orders = estimate_orders(rows);
+        for (const auto& order : orders) {
+            BOOST_TEST(!order.determined);
+            BOOST_TEST(order.status.find("refine each two of them apart") != std::string::npos,
+                       order.status);
+        }
+    }
+}
+
 BOOST_AUTO_TEST_CASE(a_hidden_term_has_no_order) {
     const auto orders = estimate_orders(
         grid([](double h, double dt) { return h * h * (1 + 0.3 * h) + 1e-7 * dt; }));

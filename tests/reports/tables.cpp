@@ -323,6 +323,15 @@ BOOST_AUTO_TEST_CASE(a_stress_study_has_what_was_measured_of_each_case) {
     BOOST_TEST(has(text, "10 1.2e-15 4.3e-16"), text);
     BOOST_TEST(has(text, "from s = 20 on: too much"), text);
     BOOST_TEST(!has(text, "from s = 40 on"), text);
+    std::ranges::reverse(stress.roundoff->rows);
+    BOOST_TEST(has(text_document(result_document(result)), "from s = 20 on: too much"));
+    stress.roundoff->rows.front().remark.clear(); // of s = 40
+    BOOST_TEST(has(text_document(result_document(result)), "s = 20: too much"));
+    BOOST_TEST(!has(text_document(result_document(result)), "from s = 20 on"));
+    stress.reached = {{"stress", 2, 5}, {"stress.contraction", 3, 9}};
+    const std::string partial = text_document(result_document(result));
+    BOOST_TEST(has(partial, "2 of 5 cases were reached"), partial);
+    BOOST_TEST(has(partial, "stress.contraction: 3 of 9 rows were reached"), partial);
     const auto csvs = study_csvs(result);
     const auto csv = std::find_if(csvs.begin(), csvs.end(),
                                   [](const StudyCsv& one) { return one.name == "stress"; });

@@ -431,6 +431,37 @@ BOOST_AUTO_TEST_CASE(a_tip_that_starts_in_a_penalised_stop_has_its_onset_at_zero
     BOOST_TEST(contact.beyond_stops() == 0.25);
 }
 
+BOOST_AUTO_TEST_CASE(a_penalised_stop_that_is_left_within_the_first_step_was_met_at_zero) {
+    for (const double side : {1.0, -1.0}) {
+        ContactEvents contact({.lower = -0.5, .upper = 0.5, .epsilon = 0.1}, 0.75 * side);
+        contact.add(1.0, 0.25 * side, 0.0);
+        const auto& events = contact.events();
+        BOOST_REQUIRE(events.size() == 2U);
+        BOOST_TEST(int(events[0].kind == Kind::onset && events[1].kind == Kind::release));
+        for (const auto& event : events) {
+            BOOST_TEST(int(event.stop == (side > 0.0 ? Stop::upper : Stop::lower)));
+            BOOST_TEST(event.beyond == 0.25);
+        }
+        BOOST_TEST(events[0].t == 0.0);
+        BOOST_TEST(events[1].t == 0.5);
+    }
+}
+
+// By the stresses before, −1 and −0.4, g2 would be left at t = 8/3, but the tip, which goes from
+// 0.14 to −0.6, passes it at 2 + 0.04/0.74 and meets g1 at 2 + 0.24/0.74.
+BOOST_AUTO_TEST_CASE(one_penalised_stop_is_left_before_the_other_is_met) {
+    ContactEvents contact({.lower = -0.1, .upper = 0.1, .epsilon = 0.1}, 0.0);
+    contact.add(1.0, 0.2, -1.0);
+    contact.add(2.0, 0.14, -0.4);
+    contact.add(3.0, -0.6, 5.0);
+    const auto& events = contact.events();
+    BOOST_REQUIRE(events.size() == 3U);
+    BOOST_TEST(int(events[1].kind == Kind::release && events[1].stop == Stop::upper));
+    BOOST_TEST(events[1].t == 2.0 + 0.04 / 0.74, boost::test_tools::tolerance(1e-14));
+    BOOST_TEST(int(events[2].kind == Kind::onset && events[2].stop == Stop::lower));
+    BOOST_TEST(events[2].t == 2.0 + 0.24 / 0.74, boost::test_tools::tolerance(1e-14));
+}
+
 // The tip is 1/40 + 9/80 sin 3t: 3/80 beyond either stop at its turning points.
 BOOST_AUTO_TEST_CASE(a_run_tells_how_far_its_tip_passes_penalised_stops) {
     const EvolutionResult result =

@@ -468,12 +468,107 @@ BOOST_AUTO_TEST_CASE(sizes_whose_name_says_neither_are_refused_where_they_are_wh
     const auto by_dimension =
         data_of("mesh,error\n1,1\n2,0.25\n", {.sizes = {"mesh"}, .dimension = 1.0});
     BOOST_TEST(by_dimension.widths[0].numbers[1] == 0.5);
+    // A size or a step that grows from row to row may count, too.
+    for (const std::string name : {"mesh size", "cell_size", "step"}) {
+        BOOST_CHECK_EXCEPTION(
+            data_of(name + ",error\n8,1\n16,0.25\n", {.sizes = {name}}), InputError,
+            [&](const InputError& error) {
+                return std::string(error.what()).find("column " + name + " has whole numbers") !=
+                       std::string::npos;
+            });
+        BOOST_TEST(data_of(name + ",error\n0.5,1\n1,4\n", {.sizes = {name}}).remarks.empty());
+    }
     // One that is the same throughout refines nothing; others are widths, which is said.
     BOOST_TEST(data_of("mesh,error\n2,1\n2,0.25\n", {.sizes = {"mesh"}}).remarks.empty());
     const auto values =
         data_of("mesh,drag\n2.5,1\n1.25,0.25\n", {.sizes = {"mesh"}, .values = {"drag"}});
     BOOST_TEST(values.widths[0].numbers[0] == 2.5);
     BOOST_TEST(values.remarks.at(0).starts_with("mesh was taken for a width; --dimension D"));
+}
+
+BOOST_AUTO_TEST_CASE(a_logarithm_is_no_size) {
+    for (const std::string name : {"log2_n", "log(h)", "ln h", "log10(dt)"})
+        BOOST_CHECK_EXCEPTION(
+            data_of(name + ",error\n3,1\n4,0.25\n", {.sizes = {name}}), InputError,
+            [&](const InputError& error) {
+                return std::string(error.what()).find("column " + name + " is a logarithm") !=
+                       std::string::npos;
+            });
+}
+
+// 1.089 dofs are 1089, by one who writes thousands so.
+BOOST_AUTO_TEST_CASE(a_count_with_a_separator_of_thousands_is_refused) {
+    for (const std::string number : {"1.089", "16.641"})
+        BOOST_CHECK_EXCEPTION(
+            data_of("ndofs;error\n289;1\n" + number + ";0.25\n", {.sizes = {"ndofs"}}), InputError,
+            [](const InputError& error) {
+                return std::string(error.what()).find("write thousands without a separator") !=
+                       std::string::npos;
+            });
+    BOOST_TEST(data_of("ndofs;error\n289;1\n1089.5;0.25\n", {.sizes = {"ndofs"}}).errors.size() ==
+               1U); // a mean
+}
+
+// What two rows show of an error that is printed as zero: it is no h² that was printed in six
+// digits, which is 1.56e-4.
+BOOST_AUTO_TEST_CASE(a_zero_that_its_digits_do_not_hide_is_one) {
+    const auto finest = [](const std::string& rows, const DataChoice& choice = {}) {
+        const auto analysis = analysis_of(rows, choice);
+        const auto& column = analysis.columns.front();
+        return std::pair(column.verdicts.back().verdict, vanishes_at_the_finest(analysis, column));
+    };
+    for (const std::string zero : {"0.000000", "0.0", "0", "0.00000000"}) {
+        const auto [verdict, vanishes] =
+            finest("h,error\n0.1,0.010123\n0.05,0.002531\n0.025,0.000633\n0.0125," + zero + "\n");
+        BOOST_TEST(int(verdict == Verdict::exact), zero);
+        BOOST_TEST(vanishes, zero);
+    }
+    // 1e-3 falls to 1.25e-4, and so to less than half a unit.
+    const auto [hidden, vanishes] =
+        finest("h,error\n0.4,0.064\n0.2,0.008\n0.1,0.001\n0.05,0.000\n");
+    BOOST_TEST(int(hidden == Verdict::unresolved));
+    BOOST_TEST(!vanishes);
+    // What converges exponentially.
+    BOOST_TEST(
+        int(finest("h,error\n0.4,1e-2\n0.2,1e-4\n0.1,0.0000000\n").first == Verdict::unresolved));
+    for (const auto& [sigma, verdict] :
+         {std::pair{"1e-9", Verdict::exact}, {"1e-4", Verdict::unresolved}})
+        BOOST_TEST(
+            int(finest(std::string("h,error,s\n0.1,0.01,") + sigma + "\n0.05,0.0025," + sigma +
+                           "\n0.025,0.000625," + sigma + "\n0.0125,0," + sigma + "\n",
+                       {.sigma = "s"})
+                    .first == verdict),
+            sigma);
+}
+
+// Steps that something else limits.
+BOOST_AUTO_TEST_CASE(a_width_that_hardly_changes_beside_another_is_not_refined) {
+    const auto values = [](const std::vector<double>& dt) {
+        std::string rows = "h,dt,value\n";
+        double h = 0.1;
+        for (const double step : dt) {
+            rows += std::to_string(h) + "," + std::to_string(step) + "," +
+                    std::to_string(1.0 + h * h + step) + "\n";
+            h /= 2.0;
+        }
+        return analysis_of(rows).columns.front();
+    };
+    const auto stops = values({0.04, 0.02, 0.01, 0.00999, 0.00998});
+    BOOST_TEST(!stops.limit->limit.determined);
+    BOOST_TEST(stops.limit->limit.status.starts_with("dt stands still at 0.00998"));
+    const auto held = values({0.01, 0.0098, 0.0096, 0.0094, 0.0093});
+    BOOST_TEST(held.findings.front().find(" at dt = 0.01 to 0.0093") != std::string::npos,
+               held.findings.front());
+    BOOST_TEST(held.by_width[1].status == "it is hardly refined with h");
+}
+
+// As many pairs as there are of each: drawn apart, no width goes with another.
+BOOST_AUTO_TEST_CASE(widths_that_are_drawn_apart_are_not_refined_together) {
+    const auto analysis = analysis_of("h,k,dt,error\n.4,.1,.3,1\n.3,.2,.1,2\n.2,.3,.2,3\n"
+                                      ".1,.4,.4,4\n.05,.25,.22,5\n",
+                                      {.sizes = {"h", "k"}});
+    for (const auto& order : analysis.columns.front().by_width)
+        BOOST_TEST(order.status.find("it ") != 0U, order.status);
 }
 
 BOOST_AUTO_TEST_CASE(an_empty_or_nan_error_is_a_failed_run) {
@@ -684,15 +779,19 @@ BOOST_AUTO_TEST_CASE(verdicts_know_stated_deviations) {
     }
 }
 
-// On a grid a zero that may be none is left out as what is not known.
-BOOST_AUTO_TEST_CASE(a_printed_zero_of_a_grid_is_not_exact) {
-    std::string text = "h,dt,error\n";
-    for (int k = 0; k < 16; ++k)
-        text +=
-            std::to_string(std::exp2(-(k % 4))) + "," + std::to_string(std::exp2(-(k / 4))) + "," +
-            (k == 15 ? "0.000" : two_digits(std::exp2(-2 * (k % 4)) + std::exp2(-(k / 4)))) + "\n";
-    const auto column = analysis_of(text).columns.at(0);
-    BOOST_TEST((column.verdicts.back().verdict == Verdict::unresolved));
+// On a grid a zero that may be none is left out as what is not known: 0.14 printed as 0.000 is one.
+BOOST_AUTO_TEST_CASE(a_printed_zero_of_a_grid_is_exact_where_its_digits_do_not_hide_an_error) {
+    for (const auto& [zero, verdict] :
+         {std::pair{"0.00", Verdict::unresolved}, {"0.000", Verdict::exact}}) {
+        std::string text = "h,dt,error\n";
+        for (int k = 0; k < 16; ++k)
+            text += std::to_string(std::exp2(-(k % 4))) + "," +
+                    std::to_string(std::exp2(-(k / 4))) + "," +
+                    (k == 15 ? zero : two_digits(std::exp2(-2 * (k % 4)) + std::exp2(-(k / 4)))) +
+                    "\n";
+        const auto column = analysis_of(text).columns.at(0);
+        BOOST_TEST((column.verdicts.back().verdict == verdict), zero);
+    }
 }
 
 BOOST_AUTO_TEST_CASE(a_table_of_markdown_is_read) {

@@ -196,6 +196,31 @@ BOOST_AUTO_TEST_CASE(contraction_is_measured_as_it_is_predicted_for_the_running_
         }
 }
 
+// BDF2 starts by a scheme whose first step has the greater contraction: runs are refused by it.
+BOOST_AUTO_TEST_CASE(a_contraction_map_refuses_what_runs_refuse) {
+    for (const auto& time : TimeScheme::names()) {
+        const ContractionBlock block{{1.8, 2.0, 2.2, 2.4, 2.7, 3.0}, {0.3, 1.0}, 0.1, 10, time,
+                                     ThermalMass::consistent};
+        const ContractionMap map =
+            contraction_map(block, {measure_contraction(block, 0), measure_contraction(block, 1)});
+        int refused = 0;
+        for (const double dt : block.dt)
+            for (const double alpha : block.alpha) {
+                StressParameters one;
+                one.alpha = alpha;
+                one.zeta = block.zeta;
+                one.dt = dt;
+                one.elements = block.elements;
+                one.time = time;
+                one.algorithm = Algorithm::fixed_point;
+                one.steps = 2;
+                refused += judge(one).outcome == Outcome::refused ? 1 : 0;
+            }
+        BOOST_TEST(map.refused() == refused, time);
+        BOOST_TEST(refused > 0, time);
+    }
+}
+
 BOOST_AUTO_TEST_CASE(a_form_that_stops_says_why_and_meets_no_expectation) {
     RoundOffBlock block;
     block.alpha = 100.0;

@@ -44,6 +44,8 @@ int compare_command(const std::string& first, const std::string& second, double 
     text += fmt::format("{} values are the same in both{}, {} differ\n", compared.equal,
                         tolerance > 0.0 ? fmt::format(" to a part of {}", tolerance) : "",
                         compared.results.size());
+    for (const std::string& what : compared.not_compared)
+        text += "not compared: " + wrapped(what, 2);
     write_standard_output(visible(text));
     return compared.results.empty() ? done : violated;
 }
