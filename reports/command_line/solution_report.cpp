@@ -130,78 +130,101 @@ std::string orders_table(const ExpectedOrders& expected) {
     return text;
 }
 
-/// a of each heat mass matrix, b of each time scheme.
-std::string sizes_table(const AdmissibleSolution& solution, const ExpectedOrders& expected) {
-    using Size = std::optional<LeadingTerm> NormConstants::*;
-    struct Shown {
-        std::string heading;
-        std::size_t method;
-        Size size;
-    };
-    std::vector<ForecastMethod> methods{{"euler", ThermalMass::lumped}};
-    std::vector<Shown> shown{{"a: consistent", 1, &NormConstants::in_h},
-                             {"lumped", 0, &NormConstants::in_h}};
+/// A column of the table of sizes: of a method, in one of the widths.
+struct SizeColumn {
+    std::string heading; ///< the first of a width has its letter before a colon
+    std::size_t method;  ///< its index among those that are asked
+    std::optional<LeadingTerm> NormConstants::*size;
+
+    [[nodiscard]] std::string method_name() const {
+        const std::size_t label = heading.find(": ");
+        return heading.substr(label == std::string::npos ? 0 : label + 2);
+    }
+};
+
+/// The two mass matrices in h, by Euler's scheme, and every scheme in Δt.
+std::vector<SizeColumn> size_columns(std::vector<ForecastMethod>& methods) {
+    methods = {{"euler", ThermalMass::lumped}};
+    std::vector<SizeColumn> columns{{"a: consistent", 1, &NormConstants::in_h},
+                                    {"lumped", 0, &NormConstants::in_h}};
     for (const auto& time : TimeScheme::names()) {
-        shown.push_back(
+        columns.push_back(
             {(methods.size() == 1 ? "b: " : "") + time, methods.size(), &NormConstants::in_dt});
         methods.push_back({time, ThermalMass::consistent});
     }
+    return columns;
+}
+
+/// Which columns are not there, and why; one sentence where that is so of all, by one reason.
+std::string unknown_columns(const std::vector<SizeColumn>& columns,
+                            const std::vector<ErrorConstants>& sizes) {
+    const std::string& first = sizes.front().unknown;
+    if (!first.empty() &&
+        std::ranges::all_of(sizes, [&](const auto& one) { return one.unknown == first; }))
+        return wrapped("not known: " + first);
+    std::string text;
+    for (const SizeColumn& column : columns)
+        if (const std::string& why = sizes[column.method].unknown; !why.empty())
+            text += wrapped(column.method_name() + ": not known: " + why);
+    return text;
+}
+
+/// Why a column that is there has no size in some norm.
+std::string unknown_norms(const std::vector<SizeColumn>& columns,
+                          const std::vector<ErrorConstants>& sizes) {
+    std::map<std::string, std::vector<std::string>> norms_by_reason;
+    for (const SizeColumn& column : columns)
+        for (const NormConstants& row : sizes[column.method].norms)
+            if (auto& norms = norms_by_reason[row.unknown];
+                std::ranges::find(norms, row.norm) == norms.end())
+                norms.push_back(row.norm);
+    norms_by_reason.erase("");
+    std::string text;
+    for (const auto& [reason, norms] : norms_by_reason)
+        text += wrapped(fmt::format("?: not known of {}: {}", fmt::join(norms, ", "), reason));
+    return text;
+}
+
+/// Where an order shows on meshes alone that are finer than any that is likely.
+std::string hidden_orders(const ErrorConstants& sizes) {
+    constexpr double coarse = 0.1;
+    std::string text;
+    for (const NormConstants& row : sizes.norms)
+        if (row.in_h && row.shows_below > 0.0 && row.shows_below < coarse)
+            text += wrapped(fmt::format(
+                "{}: the order {:g} in h comes through alpha and shows for h far below {:.2g} "
+                "alone; with longer elements the beam's own error, of a higher order, is larger.",
+                row.norm, row.in_h->order, row.shows_below));
+    return text;
+}
+
+/// a of each heat mass matrix, b of each time scheme.
+std::string sizes_table(const AdmissibleSolution& solution, const ExpectedOrders& expected) {
+    std::vector<ForecastMethod> methods;
+    const std::vector<SizeColumn> shown = size_columns(methods);
     const auto sizes = error_constants(expected, solution, methods);
-    const auto why_not = [&](const Shown& column) {
-        const std::size_t label = column.heading.find(": ");
-        return wrapped(column.heading.substr(label == std::string::npos ? 0 : label + 2) +
-                       ": not known: " + sizes[column.method].unknown);
-    };
-    if (!sizes[1].unknown.empty()) { // of Euler's scheme with the consistent mass matrix
-        const bool alike = std::ranges::all_of(
-            sizes, [&](const auto& one) { return one.unknown == sizes[1].unknown; });
-        if (alike)
-            return wrapped("not known: " + sizes[1].unknown);
-        std::string text;
-        for (const Shown& column : shown)
-            if (!sizes[column.method].unknown.empty())
-                text += why_not(column);
-        return text;
-    }
+    const ErrorConstants& usual = sizes[1]; // Euler's scheme with the consistent mass matrix
+    if (!usual.unknown.empty())
+        return unknown_columns(shown, sizes);
     Table::Column norm{"norm", {}};
-    for (const NormConstants& row : sizes[1].norms) {
+    for (const NormConstants& row : usual.norms) {
         const auto known = Norm::named(row.norm);
         norm.cells.push_back(row.norm + (known && known->squared ? "^(1/2)" : ""));
     }
     std::vector<Table::Column> columns;
-    std::map<std::string, std::vector<std::string>> norms_by_reason;
-    std::string unknown;
-    for (const Shown& column : shown) {
-        const ErrorConstants& one = sizes[column.method];
-        if (!one.unknown.empty()) {
-            unknown += why_not(column);
+    for (const SizeColumn& column : shown) {
+        if (!sizes[column.method].unknown.empty())
             continue;
-        }
         columns.push_back({column.heading, {}});
-        for (const NormConstants& row : one.norms) {
+        for (const NormConstants& row : sizes[column.method].norms) {
             const auto& size = row.*column.size;
             columns.back().cells.push_back(size                  ? scientific(size->constant, 3)
                                            : row.unknown.empty() ? "-"
                                                                  : "?");
-            auto& norms = norms_by_reason[row.unknown];
-            if (std::ranges::find(norms, row.norm) == norms.end())
-                norms.push_back(row.norm);
         }
     }
-    norms_by_reason.erase("");
-    std::string unknown_norms;
-    for (const auto& [reason, norms] : norms_by_reason)
-        unknown_norms +=
-            wrapped(fmt::format("?: not known of {}: {}", fmt::join(norms, ", "), reason));
-    constexpr double coarse = 0.1;
-    std::string hidden;
-    for (const NormConstants& row : sizes[1].norms)
-        if (row.in_h && row.shows_below > 0.0 && row.shows_below < coarse)
-            hidden += wrapped(fmt::format(
-                "{}: the order {:g} in h comes through alpha and shows for h far below {:.2g} "
-                "alone; with longer elements the beam's own error, of a higher order, is larger.",
-                row.norm, row.in_h->order, row.shows_below));
-    return text_table({"", {"", {norm}}, {{"", columns}}}) + unknown_norms + hidden + unknown;
+    return text_table({"", {"", {norm}}, {{"", columns}}}) + unknown_norms(shown, sizes) +
+           hidden_orders(usual) + unknown_columns(shown, sizes);
 }
 
 } // namespace
