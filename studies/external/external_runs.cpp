@@ -267,17 +267,24 @@ private:
             failure += " after " + shortest(*solver_.timeout) + " s";
         if (failure.empty())
             failure = figures(task, readings, directory.path(), result);
-        if (failure.empty() && clock) {
-            const ReadFigure seconds = clock->figure();
-            failure = seconds.failure;
-            result.wall_clock = result.seconds;
-            result.seconds = seconds.value.value_or(result.seconds);
-            result.printed_seconds = seconds.printed;
-            if (failure.empty() && !(result.seconds >= 0.0))
-                failure = "seconds is " + shortest(result.seconds);
-        }
-        if (failure.empty())
-            return;
+        if (failure.empty() && clock)
+            failure = take_time(clock->figure(), result);
+        if (!failure.empty())
+            set_failed(result, failure, process, directory.path());
+    }
+
+    /// By the program's own clock; why not, where it says no time.
+    static std::string take_time(const ReadFigure& seconds, RungResult& result) {
+        result.wall_clock = result.seconds;
+        result.seconds = seconds.value.value_or(result.seconds);
+        result.printed_seconds = seconds.printed;
+        if (!seconds.failure.empty())
+            return seconds.failure;
+        return result.seconds >= 0.0 ? "" : "seconds is " + shortest(result.seconds);
+    }
+
+    static void set_failed(RungResult& result, const std::string& failure,
+                           const ProcessResult& process, const fs::path& directory) {
         result.status = RungStatus::failed;
         result.reason = failure + (process.last_lines.empty() ? "; it wrote nothing"
                                    : process.are_of_errors
@@ -285,8 +292,8 @@ private:
                                        : "; it wrote: " + process.last_lines);
         // The next run is made in another directory, and fails for the same reason.
         std::error_code error;
-        const auto real = fs::weakly_canonical(directory.path(), error).string();
-        for (const auto& path : {real, directory.path().string()})
+        const auto real = fs::weakly_canonical(directory, error).string();
+        for (const auto& path : {real, directory.string()})
             result.reason = without_directory(result.reason, path);
     }
 
