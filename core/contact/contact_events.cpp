@@ -35,17 +35,17 @@ std::optional<double> ContactEvents::Levels::reaches(double target, double lowes
 ContactEvents::ContactEvents(const Stops& stops, double tip, double round_off)
     : stops_(stops), round_off_(round_off), tip_before_(tip) {
     beyond_ = beyond(tip);
+    // A start on a stop is one, whichever side of it the state's round-off puts the tip.
+    const double stop = tip > stops.upper ? stops.upper : stops.lower;
+    if (beyond_ <= round_off * std::abs(stop))
+        beyond_ = 0.0;
     if (stops.epsilon > 0.0 && beyond_ > 0.0) { // a stop that yields pushes from the start
         events_.push_back(
             {Kind::onset, tip > stops.upper ? Stop::upper : Stop::lower, 0.0, beyond_});
         pressed_.push(0.0, (tip > stops.upper ? -beyond_ : beyond_) / stops.epsilon);
-        return;
+    } else {
+        free_.push(0.0, tip);
     }
-    free_.push(0.0, tip);
-    // A start on a rigid stop is one, whichever side of it the state's round-off puts the tip.
-    const double stop = tip > stops.upper ? stops.upper : stops.lower;
-    if (stops.epsilon == 0.0 && beyond_ <= round_off * std::abs(stop))
-        beyond_ = 0.0;
 }
 
 double ContactEvents::beyond(double tip) const {

@@ -186,10 +186,10 @@ Section contraction_section(const ContractionMap& map, const ContractionBlock& b
             text += ' ';
             if (map.predicted(i, j) < ContractionMap::least_measurable)
                 text += '.';
-            else if (!(std::abs(ratio - 1.0) <= 0.1))
-                text += '!';
             else if (map.greatest(i, j) >= 1.0)
                 text += '^';
+            else if (!(std::abs(ratio - 1.0) <= 0.1))
+                text += '!';
             else // 0.9999999 may be 1.0000001 as measured
                 text += static_cast<char>('0' +
                                           std::min(9, static_cast<int>(map.measured(i, j) * 10.0)));

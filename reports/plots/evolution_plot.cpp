@@ -51,7 +51,8 @@ std::vector<Window> windows_of(const EvolutionResult& result, const EvolutionBlo
         const double period = static_cast<double>(*block.period) * block.rung.dt;
         const double end = result.periods.back().end;
         if (end > 2.0 * period * (1.0 + 1e-9))
-            windows.push_back({"_last", ", its last two periods", end - 2.0 * period, end, rounding});
+            windows.push_back(
+                {"_last", ", its last two periods", end - 2.0 * period, end, rounding});
     }
     return windows;
 }

@@ -119,6 +119,8 @@ Json json_of(const StressResult& result) {
         json["contraction"] = json_of(*result.contraction);
     if (result.roundoff)
         json["roundoff"] = json_of(*result.roundoff);
+    for (const auto& [study, there, all] : result.reached)
+        json["reached"][study] = {{"there", there}, {"all", all}};
     return json;
 }
 

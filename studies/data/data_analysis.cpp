@@ -50,18 +50,43 @@ std::vector<std::size_t> refined(const std::vector<DataColumn>& widths) {
     return result;
 }
 
-/// Whether one width grows with the other, or falls, in all rows: none changes without the other.
+/// ln of the greatest width over the least.
+double log_range(const DataColumn& width) {
+    const auto [least, greatest] = std::ranges::minmax(width.numbers);
+    return std::log(greatest / least);
+}
+
+/// Of a width that changes with a twentieth of the order of another, or with less, as steps do that
+/// something else limits, nobody would say that it is refined.
+constexpr double of_nothing = 0.05;
+
+bool hardly_changes(const DataColumn& width, const DataColumn& beside) {
+    return log_range(width) <= of_nothing * log_range(beside);
+}
+
+/// Whether of two widths none changes without the other: one has a value to each of the other, and
+/// grows with it, or falls, but for a few rows; drawn apart, they do neither.
 bool change_together(const DataColumn& first, const DataColumn& second) {
+    std::set<double> of_first, of_second;
     std::set<std::pair<double, double>> of_both;
-    for (std::size_t r = 0; r < first.numbers.size(); ++r)
+    for (std::size_t r = 0; r < first.numbers.size(); ++r) {
+        of_first.insert(first.numbers[r]);
+        of_second.insert(second.numbers[r]);
         of_both.emplace(first.numbers[r], second.numbers[r]);
-    bool grows = true;
-    bool falls = true;
-    for (auto next = of_both.begin(), one = next++; next != of_both.end(); one = next++) {
-        grows = grows && next->first > one->first && next->second > one->second;
-        falls = falls && next->first > one->first && next->second < one->second;
     }
-    return grows || falls;
+    if (of_both.size() != std::max(of_first.size(), of_second.size()))
+        return false;
+    if (hardly_changes(first, second) || hardly_changes(second, first))
+        return true;
+    double agree = 0, pairs = 0;
+    for (auto one = of_both.begin(); one != of_both.end(); ++one)
+        for (auto other = std::next(one); other != of_both.end(); ++other) {
+            const double both = (other->first - one->first) * (other->second - one->second);
+            agree += both > 0 ? 1 : both < 0 ? -1 : 0;
+            ++pairs;
+        }
+    constexpr double all_but_a_few = 0.65; // Kendall's τ
+    return std::abs(agree) >= all_but_a_few * pairs;
 }
 
 /// Of a width that changes together with another one.
@@ -71,6 +96,8 @@ std::string together_with(const DataColumn& other, const DataColumn& width) {
         const auto at = least ? std::ranges::min_element(of) : std::ranges::max_element(of);
         return width.numbers[static_cast<std::size_t>(at - of.begin())];
     };
+    if (hardly_changes(width, other))
+        return "it hardly changes with " + other.name;
     return (extremes(true) <= extremes(false) ? "it is refined with " : "it grows with a finer ") +
            other.name;
 }
@@ -122,32 +149,45 @@ std::optional<std::size_t> neighbour_of(const DataAnalysis& data, const std::vec
     return std::nullopt;
 }
 
-/// Whether an error of zero may be one that its uncertainty hides: the least that the next coarser
-/// row with an error leaves there, by the order 8, or by twice that of the two rows before.
+/// Whether an error of zero may be one that its uncertainty hides: signed errors go through zero
+/// where finer rows have errors again; at the finest it is the least that the next coarser row
+/// leaves there, by the order 8, or by the orders of the rows before as far as they may rise.
 bool hides_an_error(const DataAnalysis& data, const std::vector<double>& errors, std::size_t zero,
                     double unknown) {
-    const auto log_ratio = [&](std::size_t coarse, std::size_t fine) {
-        double ratio = 0; // of the width that is refined most
+    const auto is_as_fine = [&](std::size_t fine, std::size_t coarse) {
+        return std::ranges::all_of(data.widths, [&](const DataColumn& width) {
+            return width.numbers[fine] <= width.numbers[coarse];
+        });
+    };
+    const auto next_coarser = [&](std::size_t row) -> std::optional<std::size_t> {
+        for (std::size_t r = row; r-- > 0;)
+            if (is_positive(errors[r]) && is_as_fine(row, r))
+                return r;
+        return std::nullopt;
+    };
+    const auto log_ratio = [&](std::size_t coarse, std::size_t fine) { // of the most refined width
+        double ratio = 0;
         for (const DataColumn& width : data.widths)
             ratio = std::max(ratio, std::log(width.numbers[coarse] / width.numbers[fine]));
         return ratio;
     };
-    const auto coarser_than = [&](std::size_t row) -> std::optional<std::size_t> {
-        for (std::size_t r = row; r-- > 0;)
-            if (is_positive(errors[r]) && std::ranges::all_of(data.widths, [&](const auto& width) {
-                    return width.numbers[r] >= width.numbers[row];
-                }))
-                return r;
-        return std::nullopt;
-    };
-    const auto next = coarser_than(zero);
-    if (!next)
+    for (std::size_t r = 0; r < errors.size(); ++r)
+        if (is_positive(errors[r]) && is_as_fine(r, zero))
+            return true;
+    auto fine = next_coarser(zero);
+    if (!fine)
         return true;
-    double order = 8;
-    if (const auto before = coarser_than(*next); before && log_ratio(*before, *next) > 0)
-        order = std::max(order,
-                         2 * std::log(errors[*before] / errors[*next]) / log_ratio(*before, *next));
-    return errors[*next] * std::exp(-order * log_ratio(*next, zero)) <= unknown;
+    const double at_hand = errors[*fine];
+    const double ratio = log_ratio(*fine, zero);
+    std::vector<double> orders; // fine to coarse
+    for (auto coarse = next_coarser(*fine); coarse && log_ratio(*coarse, *fine) > 0;
+         fine = coarse, coarse = next_coarser(*fine))
+        orders.push_back(std::log(errors[*coarse] / errors[*fine]) / log_ratio(*coarse, *fine));
+    constexpr double great = 8;
+    const double last = orders.empty() ? 0.0 : orders[0];
+    const double rises = orders.size() < 2 || !(orders[1] > 0) ? 2.0 : last / orders[1];
+    const double order = std::max(great, last * std::max(2.0, rises));
+    return at_hand * std::exp(-order * ratio) <= unknown;
 }
 
 /// What a verdict says of an order of two rows may be what is not known of their errors: of a floor
@@ -203,11 +243,8 @@ std::vector<std::size_t> rows_with_numbers(const std::vector<double>& numbers) {
     return rows;
 }
 
-/// Whether a width changes with a twentieth of the order of another one from one row to the other,
-/// or with less, as steps do that something else limits: it is not refined.
 bool hardly_changes(const DataColumn& width, const DataColumn& along, std::size_t coarse,
                     std::size_t fine) {
-    constexpr double of_nothing = 0.05;
     return std::abs(std::log(width.numbers[coarse] / width.numbers[fine])) <=
            of_nothing * std::abs(std::log(along.numbers[coarse] / along.numbers[fine]));
 }
@@ -378,6 +415,14 @@ std::string known_to_digits(const DataAnalysis& data, const DataColumn& errors) 
            (words.size() == 1 && errors.units.empty() ? " is" : " are");
 }
 
+/// Of two widths that are refined together the first stands for both, unless it hardly changes.
+void put_the_refined_first(const std::vector<DataColumn>& widths, std::vector<std::size_t>& used) {
+    for (std::size_t k = 1; k < used.size(); ++k)
+        if (hardly_changes(widths[used.front()], widths[used[k]]) &&
+            change_together(widths[used.front()], widths[used[k]]))
+            std::swap(used.front(), used[k]);
+}
+
 ColumnAnalysis analyse_errors(const DataAnalysis& data, const DataColumn& errors,
                               const std::vector<double>& stated) {
     const auto sigma = stated.empty() ? rounding(data, errors) : stated;
@@ -393,6 +438,7 @@ ColumnAnalysis analyse_errors(const DataAnalysis& data, const DataColumn& errors
     if (used.empty())
         used = {0};
     const auto refined_widths = used;
+    put_the_refined_first(data.widths, used);
     // Of two alone the ladder of both is analysed; of four that are refined by themselves, no
     // orders are found.
     constexpr std::size_t most_widths = 3;
@@ -484,7 +530,8 @@ ColumnAnalysis analyse_values(const DataAnalysis& data, const DataColumn& values
     column.numbers = values.numbers;
     column.missing = values.missing;
     column.by_width.resize(data.widths.size());
-    const auto used = refined(data.widths);
+    auto used = refined(data.widths);
+    put_the_refined_first(data.widths, used);
     const std::size_t along = used.empty() ? 0 : used.front();
     std::vector<ValueRow> rows(data.rows());
     const auto units = units_seen_in_values(data.widths[along], values);

@@ -13,6 +13,7 @@
 #include <functional>
 #include <set>
 #include <tuple>
+#include <utility>
 
 namespace tvbeam {
 
@@ -24,6 +25,12 @@ enum class Meaning { width, count, level, logarithm, unsaid };
 bool has_one_of(const std::set<std::string>& these, const std::set<std::string>& words) {
     return std::ranges::any_of(these,
                                [&](const std::string& word) { return words.contains(word); });
+}
+
+bool is_logarithm(const std::set<std::string>& words) {
+    return has_one_of({"log", "log2", "log10", "ln", "lg", "logn", "log2n", "log10n", "logh",
+                       "log2h", "log10h", "lnn", "lnh"},
+                      words);
 }
 
 Meaning meaning_of_words(const std::set<std::string>& words) {
@@ -68,7 +75,7 @@ Meaning meaning_of(const std::string& whole) {
     if (name.find_first_of("/^*") != std::string::npos)
         return Meaning::unsaid;
     auto words = words_in(name);
-    if (has_one_of({"log", "log2", "log10", "ln"}, words))
+    if (is_logarithm(words))
         return Meaning::logarithm;
     for (const char* inverse : {"inv", "inverse", "reciprocal"})
         is_inverse = words.erase(inverse) > 0 || is_inverse;
@@ -107,7 +114,7 @@ void choose_widths(const ColumnNames& names, const DataChoice& choice, DataFile&
                                               "cells or unknowns");
         const bool counts = choice.dimension || meaning == Meaning::count;
         use.is_unsaid = !counts && meaning == Meaning::unsaid;
-        use.may_count = !counts && has_one_of({"size", "step"}, words_in(size));
+        use.may_count = !counts && has_one_of({"size", "step", "spacing"}, words_in(size));
         const std::string name = !counts ? size : sizes.size() == 1 ? "h" : "h_" + size;
         if (counts) {
             const double dimension = choice.dimension.value_or(1.0);
@@ -171,6 +178,10 @@ void choose_figures(const ColumnNames& names, const DataChoice& choice, DataFile
     for (const auto& [chosen, columns, option] :
          {std::tuple(&errors, &data.errors, "--error"), {&values, &data.values, "--value"}}) {
         for (const auto& name : *chosen) {
+            const auto words = words_in(name);
+            require_no_logarithm(names, name,
+                                 is_logarithm(words) && words.size() > 1 ? Meaning::logarithm
+                                                                         : Meaning::unsaid);
             uses.push_back({names.need(name, option)});
             columns->push_back({name, {}});
         }
@@ -222,6 +233,16 @@ void require_one_column_each(const ColumnNames& names, const DataFile& data) {
         add(value.name);
 }
 
+/// Whether each number that is new is greater than those before it.
+bool appear_growing(const std::vector<double>& numbers) {
+    double greatest = 0;
+    std::set<double> seen;
+    for (const double number : numbers)
+        if (seen.insert(number).second && number < std::exchange(greatest, number))
+            return false;
+    return true;
+}
+
 } // namespace
 
 std::optional<std::size_t> ColumnNames::find(const std::string& name) const {
@@ -265,7 +286,7 @@ void require_sizes_that_are_known(const ColumnNames& names, const std::vector<Co
         const auto& numbers = use.target->numbers;
         if (std::ranges::adjacent_find(numbers, std::not_equal_to()) == numbers.end())
             continue; // nothing is refined
-        if (!use.is_unsaid && !std::ranges::is_sorted(numbers))
+        if (!use.is_unsaid && !appear_growing(numbers))
             continue; // widths from coarse to fine
         const std::string& name = names.all[use.column];
         const std::string otherwise = fmt::format(

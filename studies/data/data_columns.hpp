@@ -35,6 +35,9 @@ struct ColumnUse {
     DataColumn* target = nullptr;
     std::vector<double>* plain = nullptr;    ///< in place of it, of deviations
     std::vector<PrintedDigits> printed = {}; ///< one a record
+    /// Of a count: whether one has no mark, and the first like 1.089, which beside it is 1089.
+    bool has_plain = false;
+    std::optional<std::pair<Place, std::string>> with_mark = {};
 
     [[nodiscard]] bool is_figure() const { return !is_width && plain == nullptr; }
 };

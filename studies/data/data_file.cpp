@@ -269,6 +269,24 @@ bool has_three_decimals(std::string_view text) {
            text.find_first_of("eEdD", mark) == std::string_view::npos;
 }
 
+/// 289 and 1.089 of one count are 289 and 1089, by one who writes thousands so.
+void require_no_thousands(const Lines& lines, const TextField& field, const std::string& name,
+                          ColumnUse& use) {
+    if (!use.is_width || use.power >= 0)
+        return;
+    if (has_three_decimals(field.text)) {
+        if (!use.with_mark)
+            use.with_mark = std::pair(lines.place(field.column), std::string(field.text));
+    } else {
+        use.has_plain = use.has_plain || field.text.find_first_of(".,") == std::string_view::npos;
+    }
+    if (use.has_plain && use.with_mark)
+        throw InputError(use.with_mark->first,
+                         "'" + use.with_mark->second + "' in column " + name +
+                             " stands beside numbers without a mark: write thousands without a "
+                             "separator, and means with more decimals, or fewer");
+}
+
 void read_record(const Lines& lines, const std::vector<TextField>& fields, const Head& head,
                  DecimalMark& mark, std::vector<ColumnUse>& uses) {
     bool found = false; // an error or a value; deviations come behind them
@@ -287,12 +305,12 @@ void read_record(const Lines& lines, const std::vector<TextField>& fields, const
                              "'" + std::string(field.text) + "' in column " + name +
                                  " counts nothing; it must be 1 or more; where it is a width, "
                                  "call the column h");
-        if (use.power < 0 && std::floor(number) != number &&
-            (name == "elements" || has_three_decimals(field.text)))
+        if (name == "elements" && use.power < 0 && std::floor(number) != number)
             throw InputError(lines.place(field.column),
                              "'" + std::string(field.text) + "' in column " + name +
-                                 " is no number of " + (name == "elements" ? name : "things") +
-                                 ", which is whole; write thousands without a separator");
+                                 " is no number of elements, which is whole; write thousands "
+                                 "without a separator");
+        require_no_thousands(lines, field, name, use);
         const double width = use.power == 1    ? number
                              : use.power == -1 ? 1 / number
                                                : std::pow(number, use.power);

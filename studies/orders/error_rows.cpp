@@ -7,6 +7,7 @@
 #include <functional>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <set>
 #include <utility>
 
@@ -204,11 +205,24 @@ bool are_refined_apart(const TermRows& rows, const std::vector<std::vector<doubl
                        Eigen::Index first, Eigen::Index second) {
     const auto& of_first = levels[static_cast<std::size_t>(first)];
     const auto& of_second = levels[static_cast<std::size_t>(second)];
+    // Levels that some rows have together, as a graph: which of its parts each belongs to.
+    std::vector<std::size_t> part(of_first.size() + of_second.size());
+    std::iota(part.begin(), part.end(), std::size_t{0});
+    std::size_t parts = part.size();
     std::set<std::pair<int, int>> pairs;
-    for (Eigen::Index r = 0; r < rows.size(); ++r)
-        pairs.emplace(level_of(of_first, rows.log_widths(r, first)),
-                      level_of(of_second, rows.log_widths(r, second)));
-    return pairs.size() >= of_first.size() + of_second.size(); // a tree has one less
+    for (Eigen::Index r = 0; r < rows.size(); ++r) {
+        const int one = level_of(of_first, rows.log_widths(r, first));
+        const int other = level_of(of_second, rows.log_widths(r, second));
+        if (!pairs.emplace(one, other).second)
+            continue;
+        const std::size_t from = part[static_cast<std::size_t>(one)];
+        const std::size_t to = part[of_first.size() + static_cast<std::size_t>(other)];
+        if (from == to)
+            return true; // a circle
+        --parts;
+        std::ranges::replace(part, from, to);
+    }
+    return parts > 1; // drawn apart, and no tree
 }
 
 } // namespace tvbeam

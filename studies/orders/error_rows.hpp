@@ -49,8 +49,8 @@ std::vector<Eigen::Index> moving_widths(const TermRows& rows, double most);
 /// With these widths alone; rows that are equal in them are one, of their mean, as certain as they.
 TermRows with_widths(const TermRows& rows, const std::vector<Eigen::Index>& widths);
 
-/// Whether two widths are refined apart from each other: their levels stand in more pairs than rows
-/// have that refine one after the other, or each from one point. What the terms of the two do
+/// Whether two widths are refined apart from each other: not one after the other, nor each from one
+/// point, so that their levels that stand together make a tree. What the terms of the two do
 /// together, of three widths, is not known of those.
 bool are_refined_apart(const TermRows& rows, const std::vector<std::vector<double>>& levels,
                        Eigen::Index first, Eigen::Index second);

@@ -249,9 +249,9 @@ OrderInterval order_of(const ValueLevels& levels, const LimitFits& fits) {
     if (levels.size() < 4)
         order.status = "an order of values with an interval needs four widths";
     // Of h² − 17 h⁴ on five halved widths the interval was 1.676 ± 0.198.
-    if (const std::size_t turn = last_turn(levels); order.determined && turn > 0 &&
-                                                    levels.size() - turn < fewest_past_a_turn &&
-                                                    !fits.is_scattered && !alternates(levels)) {
+    const std::size_t turn = last_turn(levels);
+    if (turn > 0 && levels.size() >= fewest_past_a_turn &&
+        levels.size() - turn < fewest_past_a_turn && !fits.is_scattered && !alternates(levels)) {
         order.determined = false;
         order.status = fmt::format("the values turn back at the width {:.4g}, and an order shows "
                                    "on {} levels from there on",
@@ -280,10 +280,9 @@ std::string without_limit(const ValueLevels& levels) {
     return {};
 }
 
-/// The limit of values that are all the same to the digits printed.
-void set_same(LimitEstimate& result, const ValueLevels& levels) {
+/// The limit of values that are all the same to the digits printed, or within their deviation.
+void set_same(LimitEstimate& result, const ValueLevels& levels, double half) {
     const double value = levels.back().value;
-    const double half = hidden_by_digits(levels);
     result.limit = {value, value - half, value + half, true, 1, ""};
     result.uncertainty = half;
     result.basis = std::to_string(levels.size()) + " levels that are the same";
@@ -330,11 +329,15 @@ LimitEstimate estimate_limit(std::span<const ValueRow> rows, const LimitTuning& 
                          given[given.size() - count - 1].value)));
     result.finest_step = printed;
     if (of.scale <= rounding) {
-        if (hidden_by_digits(given) <= rounding)
+        constexpr double of_95 = 1.96;
+        const double sigma = given.back().sigma;
+        const double half =
+            std::max(hidden_by_digits(given), is_positive(sigma) ? of_95 * sigma : 0.0);
+        if (half <= rounding)
             return refused(result, fmt::format("all {} values are the same to rounding: they are "
                                                "exact, or nothing is refined",
                                                given.size()));
-        set_same(result, given);
+        set_same(result, given, half);
         return result;
     }
     result.gci = gci_of(given);

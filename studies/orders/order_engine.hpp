@@ -141,6 +141,7 @@ private:
     bool has_width_of_few_levels() const;
     double distance_to_slow_terms(Eigen::Index width, double order) const;
     double distance_to_close_terms(double order) const;
+    std::optional<double> drifts_away() const;
 
     OrderTuning tuning_;
     TermRows rows_;

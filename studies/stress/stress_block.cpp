@@ -200,7 +200,9 @@ std::vector<double> geometric(TableReader& table, const char* key) {
     std::vector<double> values{from};
     for (std::int64_t i = 1; i + 1 < points; ++i) {
         const double part = static_cast<double>(i) / static_cast<double>(points - 1);
-        values.push_back(std::pow(from, 1.0 - part) * std::pow(to, part)); // to/from may overflow
+        const double ratio = to / from;
+        values.push_back(std::isnormal(ratio) ? from * std::pow(ratio, part)
+                                              : std::pow(from, 1.0 - part) * std::pow(to, part));
     }
     if (points > 1)
         values.push_back(to);

@@ -57,7 +57,8 @@ std::string scientific(std::optional<double> value, int decimals) {
 
 std::string rounded_up(double value, int decimals) {
     const std::string text = scientific(value, decimals);
-    if (!(number_in(text) < value) || !std::isfinite(value))
+    constexpr double rounding = 1e-12; // of the value itself
+    if (!(number_in(text) < value * (1.0 - rounding)) || !std::isfinite(value))
         return text;
     const double unit = std::pow(10.0, std::floor(std::log10(value)) - decimals);
     return scientific(value + unit / 2.0, decimals);

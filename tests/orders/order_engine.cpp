@@ -619,6 +619,38 @@ BOOST_AUTO_TEST_CASE(a_product_of_both_widths_does_not_pass_for_an_order) {
     BOOST_TEST((!orders[1].determined || holds(orders[1], 1.0)));
 }
 
+// Next to where |h^p − c h^q| cancels models have orders, of which a quarter was wrong.
+BOOST_AUTO_TEST_CASE(errors_that_cancel_near_the_finest_have_no_wrong_order) {
+    const auto order = [](double p, double q, double zero, double coarsest, int levels) {
+        std::vector<ErrorRow> rows;
+        for (int k = 0; k < levels; ++k) {
+            const double h = coarsest / std::exp2(k);
+            rows.push_back(
+                {{h}, std::abs(std::pow(h, p) - std::pow(zero, p - q) * std::pow(h, q))});
+        }
+        return estimate_orders(rows).front();
+    };
+    BOOST_TEST(!order(1, 2, 1 / 30.45, 1, 6).determined);
+    std::mt19937_64 random(31);
+    const auto between = [&](double low, double high) {
+        return std::uniform_real_distribution<>(low, high)(random);
+    };
+    int determined = 0;
+    int missed = 0;
+    for (int k = 0; k < (short_tests ? 100 : 600); ++k) {
+        const double p = k % 3 == 0 ? 0.5 : k % 3 == 1 ? 1.0 : 2.0;
+        const double q = p + (k % 2 == 0 ? 0.5 : 1.0);
+        const int levels = 4 + k % 4;
+        const double coarsest = std::exp(between(-3.0, 0.0));
+        const auto found =
+            order(p, q, coarsest * std::exp2(between(-1.0 - levels, 0.0)), coarsest, levels);
+        determined += found.determined ? 1 : 0;
+        missed += found.determined && (found.low > p || found.high < p) ? 1 : 0;
+    }
+    BOOST_TEST(determined >= (short_tests ? 10 : 60));
+    BOOST_TEST(missed <= 0.05 * determined, missed << " of " << determined);
+}
+
 // The finest levels of all widths together have no row.
 BOOST_AUTO_TEST_CASE(a_grid_without_its_finest_corner_has_orders_or_says_why_not) {
     for (const int levels : {4, 5, 6}) {

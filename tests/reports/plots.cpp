@@ -510,8 +510,8 @@ BOOST_AUTO_TEST_CASE(the_lines_of_a_contraction_map_are_where_it_is_predicted) {
                                    ThermalMass::lumped, 1.0 / row[1]) == level,
                        boost::test_tools::tolerance(1e-12));
     }
-    const Rows& below = block(blocks, "measured: alpha");
-    const Rows& above = block(blocks, "measured: refused");
+    const Rows& below = block(blocks, "measured, run taken");
+    const Rows& above = block(blocks, "measured, refused");
     BOOST_TEST(below.size() + above.size() == 6U);
     for (const auto& row : above)
         BOOST_TEST(row[2] >= 1.0);

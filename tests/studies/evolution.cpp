@@ -447,6 +447,16 @@ BOOST_AUTO_TEST_CASE(a_penalised_stop_that_is_left_within_the_first_step_was_met
     }
 }
 
+// The tip of a start on the stop, as the state's round-off leaves it, is on it.
+BOOST_AUTO_TEST_CASE(a_start_on_a_penalised_stop_is_no_contact_by_round_off) {
+    for (const double off : {-5e-17, 0.0, 5e-17}) {
+        ContactEvents contact({.lower = -0.3, .upper = 0.3, .epsilon = 0.5}, 0.3 + off);
+        contact.add(1.0, 0.25, 0.0);
+        BOOST_TEST(contact.events().empty());
+        BOOST_TEST(contact.beyond_stops() == 0.0);
+    }
+}
+
 // By the stresses before, −1 and −0.4, g2 would be left at t = 8/3, but the tip, which goes from
 // 0.14 to −0.6, passes it at 2 + 0.04/0.74 and meets g1 at 2 + 0.24/0.74.
 BOOST_AUTO_TEST_CASE(one_penalised_stop_is_left_before_the_other_is_met) {

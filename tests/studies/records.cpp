@@ -15,6 +15,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <iomanip>
 #include <ostream>
 #include <random>
@@ -487,7 +488,7 @@ BOOST_AUTO_TEST_CASE(sizes_whose_name_says_neither_are_refused_where_they_are_wh
 }
 
 BOOST_AUTO_TEST_CASE(a_logarithm_is_no_size) {
-    for (const std::string name : {"log2_n", "log(h)", "ln h", "log10(dt)"})
+    for (const std::string name : {"log2_n", "log(h)", "ln h", "log10(dt)", "log10N", "lg(N)"})
         BOOST_CHECK_EXCEPTION(
             data_of(name + ",error\n3,1\n4,0.25\n", {.sizes = {name}}), InputError,
             [&](const InputError& error) {
@@ -505,6 +506,11 @@ BOOST_AUTO_TEST_CASE(a_count_with_a_separator_of_thousands_is_refused) {
                 return std::string(error.what()).find("write thousands without a separator") !=
                        std::string::npos;
             });
+    BOOST_CHECK_THROW(data_of("ndofs,error\n250,.004\n1.000,.001\n", {.sizes = {"ndofs"}}),
+                      InputError);
+    // Means, all printed in three decimals.
+    BOOST_TEST(
+        data_of("ndofs,error\n12.599,1\n27.144,0.25\n", {.sizes = {"ndofs"}}).errors.size() == 1U);
     BOOST_TEST(data_of("ndofs;error\n289;1\n1089.5;0.25\n", {.sizes = {"ndofs"}}).errors.size() ==
                1U); // a mean
 }
@@ -531,6 +537,13 @@ BOOST_AUTO_TEST_CASE(a_zero_that_its_digits_do_not_hide_is_one) {
     // What converges exponentially.
     BOOST_TEST(
         int(finest("h,error\n0.4,1e-2\n0.2,1e-4\n0.1,0.0000000\n").first == Verdict::unresolved));
+    BOOST_TEST(int(finest("h,error\n2,1.705700000000\n1,0.034394000000\n0.5,0.000001251900\n"
+                          "0.25,0.000000000000\n")
+                       .first == Verdict::unresolved));
+    // What goes through zero between finer and coarser rows: |0.02 h − 0.401 h²|.
+    const auto crossing = analysis_of("h,error\n.2,0.01204\n.1,0.00201\n.05,0.00000\n.025,0.00025\n"
+                                      ".0125,0.00019\n.00625,0.00011\n");
+    BOOST_TEST(int(crossing.columns.front().verdicts[2].verdict == Verdict::unresolved));
     for (const auto& [sigma, verdict] :
          {std::pair{"1e-9", Verdict::exact}, {"1e-4", Verdict::unresolved}})
         BOOST_TEST(
@@ -560,6 +573,50 @@ BOOST_AUTO_TEST_CASE(a_width_that_hardly_changes_beside_another_is_not_refined) 
     BOOST_TEST(held.findings.front().find(" at dt = 0.01 to 0.0093") != std::string::npos,
                held.findings.front());
     BOOST_TEST(held.by_width[1].status == "it is hardly refined with h");
+}
+
+// The other way round: h hardly changes, and the order is that of dt.
+BOOST_AUTO_TEST_CASE(of_two_widths_the_one_that_is_refined_has_the_order) {
+    std::string rows = "h,dt,error\n";
+    std::string values = "h,dt,value\n";
+    for (int k = 0; k < 6; ++k) {
+        const std::string widths = std::to_string(0.1 * std::pow(0.936, k)) + "," +
+                                   std::to_string(0.1 * std::pow(0.25, k)) + ",";
+        rows += widths + std::to_string(std::pow(0.25, k)) + "\n";
+        values += widths + std::to_string(1.0 + std::pow(0.25, k)) + "\n";
+    }
+    for (const std::string& text : {rows, values}) {
+        const auto column = analysis_of(text).columns.front();
+        BOOST_TEST(!column.by_width[0].determined);
+        BOOST_REQUIRE(column.by_width[1].determined);
+        BOOST_TEST(std::abs(column.by_width[1].value - 1.0) <= column.by_width[1].half_width());
+    }
+}
+
+// A third width that goes with one of the others, or hardly changes, is theirs.
+BOOST_AUTO_TEST_CASE(a_third_width_that_goes_with_another_leaves_the_orders_of_two) {
+    for (const bool is_idle : {true, false}) {
+        std::string rows = "hmax,hmin,dt,error\n";
+        const double hmin[] = {0.02, 0.0094, 0.0101, 0.0049, 0.0025};
+        const double idle[] = {0.01, 0.0101, 0.0099, 0.0102, 0.01003};
+        for (int i = 0; i < 5; ++i)
+            for (int k = 0; k < 4; ++k) {
+                const double h = 0.2 / std::exp2(i);
+                const double dt = 0.1 / std::exp2(k);
+                char line[200];
+                std::snprintf(line, sizeof line, "%.17g,%.17g,%.17g,%.17g\n", h,
+                              is_idle ? idle[i] : hmin[i], dt, 0.3 * h * h + 0.2 * dt);
+                rows += line;
+            }
+        const auto column = analysis_of(rows, {.sizes = {"hmax", "hmin"}}).columns.front();
+        BOOST_TEST(column.by_width[1].status ==
+                   (is_idle ? "it hardly changes with hmax" : "it is refined with hmax"));
+        for (const auto& [width, order] : {std::pair{0U, 2.0}, {2U, 1.0}}) {
+            BOOST_REQUIRE(column.by_width[width].determined);
+            BOOST_TEST(std::abs(column.by_width[width].value - order) <=
+                       column.by_width[width].half_width());
+        }
+    }
 }
 
 // As many pairs as there are of each: drawn apart, no width goes with another.
