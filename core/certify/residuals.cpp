@@ -48,11 +48,8 @@ double heat_residual(const Beam& beam, const Mesh& mesh, ThermalMass mass,
     const double h = mesh.lengths.maxCoeff();
     const double size =
         c * h * temperature + 4.0 / mesh.lengths.minCoeff() * temperature +
-        beam.alpha * c * h *
-            (record.now.curvature_size + record.star.curvature_size +
-             (1.0 + beam.alpha) * underflow) + // what the temperature has lost is in the curvature
-        record.heat_load.cwiseAbs().maxCoeff() +
-        underflow;
+        beam.alpha * c * h * (record.now.curvature_size + record.star.curvature_size + underflow) +
+        record.heat_load.cwiseAbs().maxCoeff() + underflow;
     return in_round_off(residual, size, record.now);
 }
 
@@ -70,7 +67,7 @@ double beam_residual(const Beam& beam, const Mesh& mesh, const SolveRecord& reco
                               beam.alpha * theta + force * arm;
         largest(end) = residual.abs().maxCoeff<Eigen::PropagateNaN>();
     }
-    const double now = record.now.curvature_size + (1.0 + beam.alpha) * underflow;
+    const double now = record.now.curvature_size + underflow;
     const double size = now + viscous * (now + record.star.curvature_size + underflow) +
                         beam.alpha * (record.now.temperature_size + std::abs(unit_theta_A)) +
                         record.moment.abs().maxCoeff() + std::abs(record.stress) + underflow;

@@ -402,8 +402,9 @@ void run_case(StressCase& result) {
                                 ", where floating point has lost digits of it already");
     const Mesh mesh = Mesh::uniform(parameters.elements);
     const ProblemData data = stress_problem(parameters, mesh);
-    // The smallest normalised number, over the unit.
-    const double underflow = least / unit_of(parameters);
+    // The smallest normalised number, over the unit; what the temperature loses there the coupling
+    // takes into the curvature.
+    const double underflow = (1.0 + parameters.alpha) * least / unit_of(parameters);
     for (const double floor : {0.0, underflow}) {
         const Marched marched = march(parameters, mesh, data, floor);
         if (!marched.stopped.empty())

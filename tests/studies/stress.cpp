@@ -178,6 +178,28 @@ BOOST_AUTO_TEST_CASE(outcomes_have_their_reasons) {
     BOOST_TEST(name_of(judge(viscous).outcome) == "certified", judge(viscous).reason);
 }
 
+// What is lost below the range of doubles the coupling makes larger.
+BOOST_AUTO_TEST_CASE(a_strong_coupling_of_what_falls_below_doubles_is_no_failure) {
+    for (const double alpha : {1e4, 1e6, 1e8})
+        for (const double load : {1e-303, 1e-305, 1e-307})
+            for (const double dt : {1e-10, 1e-3, 1.0})
+                for (const auto& time : TimeScheme::names()) {
+                    StressParameters one;
+                    one.alpha = alpha;
+                    one.zeta = 0.0;
+                    one.dt = dt;
+                    one.elements = 3;
+                    one.load = load;
+                    one.time = time;
+                    one.steps = 12;
+                    one.initial = InitialData::zero;
+                    const StressCase found = judge(one);
+                    BOOST_TEST(name_of(found.outcome) != "failed", alpha << ", " << load << ", "
+                                                                         << dt << ", " << time
+                                                                         << ": " << found.reason);
+                }
+}
+
 BOOST_AUTO_TEST_CASE(contraction_is_measured_as_it_is_predicted_for_the_running_scheme) {
     // One solve of the running scheme, whatever its starter does, with c = leading/Δt.
     for (const auto& time : TimeScheme::names())
