@@ -6,6 +6,7 @@
 #include <boost/algorithm/string/join.hpp>
 #include <fmt/format.h>
 #include <gsl/gsl_fit.h>
+#include <gsl/gsl_statistics_double.h>
 
 #include <algorithm>
 #include <array>
@@ -78,15 +79,15 @@ bool change_together(const DataColumn& first, const DataColumn& second) {
         return false;
     if (hardly_changes(first, second) || hardly_changes(second, first))
         return true;
-    double agree = 0, pairs = 0;
-    for (auto one = of_both.begin(); one != of_both.end(); ++one)
-        for (auto other = std::next(one); other != of_both.end(); ++other) {
-            const double both = (other->first - one->first) * (other->second - one->second);
-            agree += both > 0 ? 1 : both < 0 ? -1 : 0;
-            ++pairs;
-        }
-    constexpr double all_but_a_few = 0.65; // Kendall's τ
-    return std::abs(agree) >= all_but_a_few * pairs;
+    std::vector<double> one, other;
+    for (const auto& [own, its] : of_both) {
+        one.push_back(own);
+        other.push_back(its);
+    }
+    std::vector<double> work(2 * one.size());
+    constexpr double all_but_a_few = 0.75; // of the ranks' correlation
+    return std::abs(gsl_stats_spearman(one.data(), 1, other.data(), 1, one.size(), work.data())) >=
+           all_but_a_few;
 }
 
 /// Of a width that changes together with another one.
@@ -180,7 +181,8 @@ bool hides_an_error(const DataAnalysis& data, const std::vector<double>& errors,
     const double at_hand = errors[*fine];
     const double ratio = log_ratio(*fine, zero);
     std::vector<double> orders; // fine to coarse
-    for (auto coarse = next_coarser(*fine); coarse && log_ratio(*coarse, *fine) > 0;
+    for (auto coarse = next_coarser(*fine);
+         coarse && log_ratio(*coarse, *fine) > 0 && orders.size() < 2;
          fine = coarse, coarse = next_coarser(*fine))
         orders.push_back(std::log(errors[*coarse] / errors[*fine]) / log_ratio(*coarse, *fine));
     constexpr double great = 8;

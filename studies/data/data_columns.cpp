@@ -89,7 +89,9 @@ Meaning meaning_of(const std::string& whole) {
 void require_no_logarithm(const ColumnNames& names, const std::string& name, Meaning meaning) {
     if (meaning == Meaning::logarithm)
         throw InputError(names.place,
-                         "column " + name + " is a logarithm; give a column of what it is of");
+                         "column " + name +
+                             " is a logarithm; give a column of what it is of, or another name "
+                             "where it is none");
 }
 
 /// The widths that a choice names, or those that need no name.
