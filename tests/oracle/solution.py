@@ -55,20 +55,33 @@ def expression(text, names):
     return translate(ast.parse(source.strip(), mode="eval").body)
 
 
+def in_extended_precision(function):
+    return lambda value: function(numpy.asarray(value, dtype=numpy.longdouble))
+
+
+# Of constants, too: exp(1000) of a Python number is infinite.
+EXTENDED = {name: in_extended_precision(getattr(numpy, name)) for name in
+            "sin cos tan arcsin arccos arctan sinh cosh tanh exp log sqrt".split()}
+
+
 class Compiled:
-    """A function of x and t in double precision. What is no finite number there is evaluated with 50 digits.
+    """A function of x and t in double precision. What is no finite number there is evaluated in extended precision, which has the range,
+    and with 50 digits where that has none either.
 
     SymPy writes (0.53 x + 0.47)^154 as (53 x + 47)^154/100^154. Numbers that no double holds, or nearly so, are handed over in extended
-    precision, which has the range."""
+    precision."""
 
     def __init__(self, formula):
         self.formula = sympy.sympify(formula)
         self.is_zero = self.formula == 0
         self.large = {number: sympy.Dummy() for number in self.formula.atoms(sympy.Rational) if max(abs(number.p), number.q) > 10**60}
         self.numbers = [numpy.longdouble(str(number.p)) / numpy.longdouble(str(number.q)) for number in self.large]
+        self.fast = self.lambdify("numpy")
+        self.wide = self.careful = None
+
+    def lambdify(self, modules):
         # Without cse: that of SymPy 1.11 changes the value of some sums with derivatives of tanh.
-        self.fast = sympy.lambdify((X, T, *self.large.values()), self.formula.xreplace(self.large), "numpy")
-        self.careful = None
+        return sympy.lambdify((X, T, *self.large.values()), self.formula.xreplace(self.large), modules)
 
     def __call__(self, x, t):
         """Values at all pairs; shape: times, points."""
@@ -76,16 +89,25 @@ class Compiled:
         shape = (t.shape[0], x.shape[1])
         if self.is_zero:
             return numpy.zeros(shape)
-        with warnings.catch_warnings(), numpy.errstate(all="ignore"):
-            warnings.simplefilter("ignore")
-            try:
-                wide = [array.astype(numpy.longdouble) for array in (x, t)] if self.large else [x, t]
-                values = numpy.array(numpy.broadcast_to(self.fast(*wide, *self.numbers), shape), dtype=float)
-            except (OverflowError, ZeroDivisionError, TypeError, AttributeError):  # of constants that no double holds
-                values = numpy.full(shape, math.nan)
+        number = numpy.longdouble if self.large else float
+        values = self.values(self.fast, x.astype(number), t.astype(number), shape)
+        rows, columns = numpy.nonzero(~numpy.isfinite(values))
+        if len(rows):
+            self.wide = self.wide or self.lambdify([EXTENDED, "numpy"])
+            values[rows, columns] = self.values(self.wide, x[0, columns].astype(numpy.longdouble),
+                                                t[rows, 0].astype(numpy.longdouble), rows.shape)
         for row, column in zip(*numpy.nonzero(~numpy.isfinite(values))):
             values[row, column] = self.with_digits(x[0, column], t[row, 0])
         return values
+
+    def values(self, function, x, t, shape):
+        """NaN where Python refuses constants that no double holds."""
+        with warnings.catch_warnings(), numpy.errstate(all="ignore"):
+            warnings.simplefilter("ignore")
+            try:
+                return numpy.array(numpy.broadcast_to(function(x, t, *self.numbers), shape), dtype=float)
+            except (OverflowError, ZeroDivisionError, TypeError, AttributeError):
+                return numpy.full(shape, math.nan)
 
     def with_digits(self, x, t, digits=50):
         if self.careful is None:
@@ -192,7 +214,7 @@ def beam_names(beam):
     return names
 
 
-@functools.lru_cache(maxsize=2)
+@functools.lru_cache(maxsize=None)
 def read_solution(text, beam):
     """The Problem of a solution file on a beam, which is pairs of names (alpha, zeta, theta_A, g1, g2) and Fractions."""
     document = parse_toml(text)
