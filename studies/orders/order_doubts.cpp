@@ -54,11 +54,10 @@ double OrderEnsemble::distance_to_slow_terms(Index width, double order) const {
 /// beside h^2 do, which no model has. The slope of the order over ln h is taken to fall as h^gap,
 /// the gap being what the last two slopes show, and no less than least_gap. Of orders that go one
 /// way alone: others scatter, or have turned.
-double OrderEnsemble::distance_to_close_terms(double order) const {
-    constexpr std::size_t fewest = 4; // levels: two differences of orders
-    if (rows_.widths() != 1 || rows_.scatter > 0 || rows_.log_reference.size() > 0 ||
-        rows_.size() != static_cast<Index>(levels_.front().size()) ||
-        levels_.front().size() < fewest || motion_of(0).is_explained())
+double OrderEnsemble::distance_to_close_terms(Index width, double order) const {
+    const OrderMotion motion = motion_of(width);
+    const auto levels = motion.levels_alone();
+    if (!levels || (rows_.widths() == 1 && motion.is_explained()))
         return 0;
     // A next term an order or two on leaves a millionth of what the leading one leaves alone, a
     // close one a sixth.
@@ -67,27 +66,26 @@ double OrderEnsemble::distance_to_close_terms(double order) const {
     for (const auto& member : members_)
         if (member.is_of_all_rows() && member.family == 0)
             leading = member.fit.scale;
-        else if (member.is_of_all_rows() && member.fit.shape.next.front() >= 1)
+        else if (member.is_of_all_rows() &&
+                 member.fit.shape.next[static_cast<std::size_t>(width)] >= 1)
             with_next = std::min(with_next, member.fit.scale);
     constexpr double all_but = 0.1;
     if (with_next < all_but * leading)
         return 0;
-    std::vector<std::pair<double, double>> rows; // ln h and ln e, coarse to fine
-    for (Index r = 0; r < rows_.size(); ++r)
-        rows.emplace_back(rows_.log_widths(r, 0), rows_.log_errors[r]);
-    std::ranges::sort(rows, std::greater<>());
-    std::vector<double> orders, places;
-    for (std::size_t r = 1; r < rows.size(); ++r) {
-        orders.push_back((rows[r - 1].second - rows[r].second) /
-                         (rows[r - 1].first - rows[r].first));
-        places.push_back((rows[r - 1].first + rows[r].first) / 2);
-    }
+    const auto orders = levels->orders(); // coarse to fine
+    constexpr double seen_on_grids = 0.1; // norms of two terms move orders, too
+    const auto changes = levels->changes();
     const std::size_t n = orders.size();
-    if (!std::ranges::is_sorted(orders) && !std::ranges::is_sorted(orders, std::greater<>()))
+    const auto by_order = [](const auto& one, const auto& other) {
+        return one.second < other.second;
+    };
+    if ((!std::ranges::is_sorted(orders, by_order) &&
+         !std::ranges::is_sorted(orders.rbegin(), orders.rend(), by_order)) ||
+        !(std::abs(changes.back()) > levels->noise() + (rows_.widths() == 1 ? 0 : seen_on_grids)))
         return 0;
-    const double last = (orders[n - 1] - orders[n - 2]) / (places[n - 2] - places[n - 1]);
-    const double before = (orders[n - 2] - orders[n - 3]) / (places[n - 3] - places[n - 2]);
-    const double step = (places[n - 3] - places[n - 1]) / 2;
+    const double last = changes[n - 2] / std::log(2.0);
+    const double before = changes[n - 3] / std::log(2.0);
+    const double step = (orders[n - 3].first - orders[n - 1].first) / 2;
     // Slopes of the order over ln h fall as h^gap, from the middle of two steps to that of the
     // next.
     constexpr double half_an_order = 0.5;
@@ -95,9 +93,10 @@ double OrderEnsemble::distance_to_close_terms(double order) const {
     const double gap = std::max(std::log(before / last) / step, least_gap);
     if (!(gap < half_an_order))
         return 0;
-    const double rest = last / gap * std::exp(-gap * (places[n - 2] - places[n - 1]) / 2);
+    const double rest =
+        last / gap * std::exp(-gap * (orders[n - 2].first - orders[n - 1].first) / 2);
     constexpr double margin = 1.5; // the gap shows too large where the two terms are as large
-    return std::abs(orders[n - 1] + margin * rest - order);
+    return std::abs(orders[n - 1].second + margin * rest - order);
 }
 
 /// By the leading terms; where against a reference their search went on to no order at all
@@ -193,38 +192,32 @@ bool OrderEnsemble::is_seen_as_a_power(Index width, const OrderInterval& order) 
 /// pairs of one width whose errors are exact it changes by more than in those before: of a power
 /// with a next term it changes less and less. Of |h − 30.45 h²|, next to where it cancels, pairs
 /// have 2.1, 2.2, 2.6 and then 5.2, and models 1.70 ± 0.32.
-std::optional<double> OrderEnsemble::drifts_away() const {
-    constexpr std::size_t fewest = 4; // levels: two changes
+std::optional<double> OrderEnsemble::drifts_away(Index width) const {
     constexpr std::size_t last_ones = 2;
     constexpr double little = 0.3; // on halved widths
-    if (rows_.widths() != 1 || rows_.scatter > 0 || rows_.log_reference.size() > 0 ||
-        !std::isfinite(tuning_.contradicted) || levels_.front().size() < fewest ||
-        rows_.size() != static_cast<Index>(levels_.front().size()))
+    const auto levels = motion_of(width).levels_alone();
+    if (!levels || !std::isfinite(tuning_.contradicted))
         return std::nullopt;
-    std::vector<std::pair<double, double>> points; // ln h and ln e, then order; fine to coarse
-    for (Index r = 0; r < rows_.size(); ++r)
-        points.emplace_back(rows_.log_widths(r, 0), rows_.log_errors[r]);
-    std::ranges::sort(points);
-    const auto slopes = [](const std::vector<std::pair<double, double>>& of) {
-        std::vector<std::pair<double, double>> result;
-        for (std::size_t k = 0; k + 1 < of.size(); ++k)
-            result.emplace_back(std::midpoint(of[k].first, of[k + 1].first),
-                                (of[k + 1].second - of[k].second) /
-                                    (of[k + 1].first - of[k].first));
-        return result;
-    };
-    const auto changes = slopes(slopes(points)); // of the order, over ln h
+    auto changes = levels->changes();
+    std::ranges::reverse(changes);
     for (std::size_t k = 0; k < last_ones && k + 1 < changes.size(); ++k)
-        if (const double change = std::abs(changes[k].second) * std::log(2.0);
-            change > little && std::abs(changes[k].second) > std::abs(changes[k + 1].second))
-            return change;
+        if (std::abs(changes[k]) > little + levels->noise() &&
+            std::abs(changes[k]) > std::abs(changes[k + 1]))
+            return std::abs(changes[k]);
     return std::nullopt;
+}
+
+/// OrderMotion::leaves() of errors.
+std::optional<double> OrderEnsemble::leaves(Index width, const OrderInterval& order) const {
+    return std::isfinite(tuning_.contradicted) ? motion_of(width).leaves(order.low, order.high)
+                                               : std::nullopt;
 }
 
 bool OrderEnsemble::is_settled(Index width, const OrderInterval& order) const {
     const OrderMotion motion = motion_of(width);
-    return !drifts_away() && !motion.goes_on(order.value) && !motion.rises_past(order.high) &&
-           is_followed() && !is_ambiguous(width) && is_seen_as_a_power(width, order);
+    return !drifts_away(width) && !motion.goes_on(order.value) && !motion.rises_past(order.high) &&
+           !leaves(width, order) && is_followed() && !is_ambiguous(width) &&
+           is_seen_as_a_power(width, order);
 }
 
 std::string OrderEnsemble::status_of(Index width, const OrderInterval& order) const {
@@ -246,7 +239,12 @@ std::string OrderEnsemble::status_of(Index width, const OrderInterval& order) co
     if (const auto last = motion_of(width).rises_past(order.high))
         moves = fmt::format("it rises from level to level where the others are finest, to {:.2f}",
                             *last);
-    if (const auto change = moves.empty() ? drifts_away() : std::nullopt)
+    if (const auto last = moves.empty() ? leaves(width, order) : std::nullopt)
+        return fmt::format(
+            "from level to level where the others are finest it moves more and more, "
+            "to {:.2f}",
+            *last);
+    if (const auto change = moves.empty() ? drifts_away(width) : std::nullopt)
         return fmt::format("between levels it changes by {:.2f} at the finest, more than before",
                            *change);
     if (moves.empty() && !is_seen_as_a_power(width, order))

@@ -170,7 +170,7 @@ std::vector<OrderInterval> OrderEnsemble::orders() const {
         if (mixture) {
             const double half =
                 std::max({mixture->half, distance_to_slow_terms(width, mixture->value),
-                          distance_to_close_terms(mixture->value)});
+                          distance_to_close_terms(width, mixture->value)});
             order.value = mixture->value;
             order.low = mixture->value - half;
             order.high = mixture->value + half;

@@ -24,7 +24,8 @@
 /// levels with equal ones. Where all of
 /// that is wide the order is not determined, nor where it still moves (order_motion.hpp), is steep
 /// and seen at two levels alone, or stands beside a constant that its few levels do not tell from
-/// it; the status says why. Where scatter, or a width of three levels, leaves open whether there is
+/// it, or where, of exact errors at the finest of all other widths, it turns or moves ever more
+/// from level to level (OrderMotion::leaves); the status says why. Where scatter, or a width of three levels, leaves open whether there is
 /// a logarithm or a next term half an order on, the interval reaches its order; and that which the
 /// orders of a sequence's levels go to, where they slow down less than by half an order. In a width
 /// of three levels models with next terms do not count whose term in another width stands still.
@@ -140,8 +141,9 @@ private:
     double grid_factor() const;
     bool has_width_of_few_levels() const;
     double distance_to_slow_terms(Eigen::Index width, double order) const;
-    double distance_to_close_terms(double order) const;
-    std::optional<double> drifts_away() const;
+    double distance_to_close_terms(Eigen::Index width, double order) const;
+    std::optional<double> drifts_away(Eigen::Index width) const;
+    std::optional<double> leaves(Eigen::Index width, const OrderInterval& order) const;
 
     OrderTuning tuning_;
     TermRows rows_;

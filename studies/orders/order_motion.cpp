@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <map>
+#include <numeric>
 #include <utility>
 
 namespace tvbeam {
@@ -29,6 +31,17 @@ std::vector<FittedNumber> order_by_window(std::span<const EnsembleMember> member
     for (const auto& [place, sum] : sums)
         means.push_back({sum.first.value / sum.second, sum.first.error / sum.second});
     return means;
+}
+
+/// (ln h, p) in the middle of each two levels.
+std::vector<std::pair<double, double>> orders_between(const std::vector<double>& log_widths,
+                                                      const std::vector<double>& log_errors) {
+    std::vector<std::pair<double, double>> result;
+    for (std::size_t k = 1; k < log_widths.size(); ++k)
+        result.emplace_back(std::midpoint(log_widths[k - 1], log_widths[k]),
+                            (log_errors[k - 1] - log_errors[k]) /
+                                (log_widths[k - 1] - log_widths[k]));
+    return result;
 }
 
 } // namespace
@@ -141,30 +154,51 @@ OrderMotion::local_orders(const std::vector<Eigen::Index>& rows,
     return orders;
 }
 
-/// Whether each of these rows has nearly the error of the one that is coarser by a level in another
-/// width: what is left of the other terms is then less.
-bool OrderMotion::others_change_nothing(const std::vector<Eigen::Index>& rows) const {
+/// The row that is coarser by a level in one width and like this one in all others.
+std::optional<Eigen::Index> OrderMotion::coarser_by_a_level(Eigen::Index row,
+                                                            Eigen::Index other) const {
     const auto level = [&](Eigen::Index r, Eigen::Index i) {
         return level_of(levels_[static_cast<std::size_t>(i)], rows_.log_widths(r, i));
     };
-    for (Eigen::Index other = 0; other < rows_.widths(); ++other) {
-        if (other == width_)
-            continue;
+    for (Eigen::Index r = 0; r < rows_.size(); ++r) {
+        bool is_beside = level(r, other) + 1 == level(row, other);
+        for (Eigen::Index i = 0; i < rows_.widths(); ++i)
+            is_beside = is_beside && (i == other || level(r, i) == level(row, i));
+        if (is_beside)
+            return r;
+    }
+    return std::nullopt;
+}
+
+/// Whether each of these rows has nearly the error of the one that is coarser by a level in another
+/// width: what is left of the other terms is then less.
+bool OrderMotion::others_change_nothing(const std::vector<Eigen::Index>& rows) const {
+    for (Eigen::Index other = 0; other < rows_.widths(); ++other)
         for (const auto row : rows) {
-            bool is_like_a_coarser_one = false;
-            for (Eigen::Index r = 0; r < rows_.size() && !is_like_a_coarser_one; ++r) {
-                bool is_beside = level(r, other) + 1 == level(row, other);
-                for (Eigen::Index i = 0; i < rows_.widths(); ++i)
-                    is_beside = is_beside && (i == other || level(r, i) == level(row, i));
-                is_like_a_coarser_one =
-                    is_beside &&
-                    std::abs(rows_.log_errors[r] - rows_.log_errors[row]) <= tuning_.unchanged;
-            }
-            if (!is_like_a_coarser_one)
+            if (other == width_)
+                continue;
+            const auto coarser = coarser_by_a_level(row, other);
+            if (!coarser || !(std::abs(rows_.log_errors[*coarser] - rows_.log_errors[row]) <=
+                              tuning_.unchanged))
                 return false;
         }
-    }
     return true;
+}
+
+/// Of a grid: whether leading terms follow all rows to rounding, of orders that methods have: where
+/// they cancel orders move as those of no power; or, from five levels on, whatever orders they
+/// have: so many show a constant, too, as of a reference that is not named.
+bool OrderMotion::terms_follow_to_rounding(std::size_t levels) const {
+    constexpr std::size_t five = 5;
+    constexpr double exactly = 1e-5;
+    return rows_.widths() > 1 && std::ranges::any_of(members_, [&](const EnsembleMember& member) {
+               if (member.family != 0 || !member.is_of_all_rows() || !(member.fit.scale <= exactly))
+                   return false;
+               bool are_usual = true;
+               for (Eigen::Index i = 0; i < rows_.widths(); ++i)
+                   are_usual = are_usual && member.fit.order(i).value >= tuning_.least_order;
+               return are_usual || levels >= five;
+           });
 }
 
 std::optional<double> OrderMotion::rises_past(double high) const {
@@ -174,18 +208,7 @@ std::optional<double> OrderMotion::rises_past(double high) const {
     const auto orders = local_orders(rows, [&](Eigen::Index r) { return rows_.log_errors[r]; });
     if (orders.size() < 2 || !others_change_nothing(rows))
         return std::nullopt;
-    // Two terms that methods have may do it where they cancel; five levels show a constant, too, as
-    // of a reference that is not named.
-    constexpr std::size_t of_five_levels = 4;
-    constexpr double exactly = 1e-5;
-    if (std::ranges::any_of(members_, [&](const EnsembleMember& member) {
-            if (member.family != 0 || !member.is_of_all_rows() || !(member.fit.scale <= exactly))
-                return false;
-            bool are_usual = true;
-            for (Eigen::Index i = 0; i < rows_.widths(); ++i)
-                are_usual = are_usual && member.fit.order(i).value >= tuning_.least_order;
-            return are_usual || orders.size() >= of_five_levels;
-        }))
+    if (terms_follow_to_rounding(orders.size() + 1))
         return std::nullopt;
     for (std::size_t i = 1; i < orders.size(); ++i)
         if (!(orders[i] - orders[i - 1] > tuning_.narrowest))
@@ -195,6 +218,106 @@ std::optional<double> OrderMotion::rises_past(double high) const {
         rows_.log_widths(rows[rows.size() - 2], width_) - rows_.log_widths(rows.back(), width_);
     const double least = tuning_.explained + deviations * std::sqrt(2.0) * rows_.scatter / step;
     return orders.back() - high > least ? std::optional(orders.back()) : std::nullopt;
+}
+
+std::vector<std::pair<double, double>> LevelErrors::orders() const {
+    auto without = log_errors;
+    for (std::size_t k = 0; k < without.size(); ++k)
+        without[k] += std::log1p(-parts_of_others[k]);
+    return orders_between(log_widths, without);
+}
+
+std::vector<double> LevelErrors::changes() const {
+    const auto with = orders_between(log_widths, log_errors);
+    const auto without = orders();
+    std::vector<double> result;
+    for (std::size_t k = 1; k < with.size(); ++k) {
+        const double scale = std::log(2.0) / (with[k - 1].first - with[k].first);
+        const double one = (with[k].second - with[k - 1].second) * scale;
+        const double other = (without[k].second - without[k - 1].second) * scale;
+        result.push_back(
+            one * other > 0 ? std::copysign(std::min(std::abs(one), std::abs(other)), one) : 0.0);
+    }
+    return result;
+}
+
+double LevelErrors::noise() const {
+    // What is taken off is wrong by half, as the order of the other term is not known, nor how it
+    // adds up; of a part that is the same in all errors no order changes.
+    constexpr double part_unknown = 0.5;
+    double step = std::numeric_limits<double>::infinity();
+    double difference = 0;
+    for (std::size_t k = 1; k < log_widths.size(); ++k) {
+        step = std::min(step, log_widths[k - 1] - log_widths[k]);
+        difference = std::max(difference, std::abs(parts_of_others[k] - parts_of_others[k - 1]));
+    }
+    return part_unknown * 2 * difference * std::log(2.0) / (step * step);
+}
+
+/// What other terms are of a row's error, as the next coarser step of each shows it: b x^q changes
+/// by b x^q (r^q − 1). None where there is no such row.
+std::optional<double> OrderMotion::part_of_others(Eigen::Index row) const {
+    constexpr double least_order = 1;
+    constexpr double greatest_order = 4;
+    double part = 0;
+    for (Eigen::Index other = 0; other < rows_.widths(); ++other) {
+        if (other == width_)
+            continue;
+        const auto coarser = coarser_by_a_level(row, other);
+        if (!coarser)
+            return std::nullopt;
+        const auto windows = order_by_window(members_, other);
+        const double order = windows.empty()
+                                 ? least_order
+                                 : std::clamp(windows.back().value, least_order, greatest_order);
+        part +=
+            std::expm1(rows_.log_errors[*coarser] - rows_.log_errors[row]) /
+            std::expm1(order * (rows_.log_widths(*coarser, other) - rows_.log_widths(row, other)));
+    }
+    return part;
+}
+
+std::optional<LevelErrors> OrderMotion::levels_alone() const {
+    constexpr std::size_t fewest = 4;
+    const auto& levels = levels_[static_cast<std::size_t>(width_)];
+    if (rows_.scatter > 0 || rows_.log_reference.size() > 0 || levels.size() < fewest ||
+        (rows_.widths() == 1 && rows_.size() != static_cast<Eigen::Index>(levels.size())))
+        return std::nullopt;
+    LevelErrors found;
+    for (const Eigen::Index row : finest_rows()) {
+        const auto part = part_of_others(row);
+        if (!part || !(std::abs(*part) < tuning_.others_left))
+            return std::nullopt;
+        found.log_widths.push_back(rows_.log_widths(row, width_));
+        found.log_errors.push_back(rows_.log_errors[row]);
+        found.parts_of_others.push_back(*part);
+    }
+    if (found.log_widths.size() < fewest || terms_follow_to_rounding(levels.size()))
+        return std::nullopt;
+    return found;
+}
+
+std::optional<double> OrderMotion::leaves(double low, double high) const {
+    const auto errors = levels_alone();
+    if (!errors)
+        return std::nullopt;
+    const auto changes = errors->changes();
+    const double last = changes.back();
+    const double before = changes[changes.size() - 2];
+    const double order = errors->orders().back().second;
+    const double noise = errors->noise();
+    constexpr double turned = 0.15; // set, as what follows, on half of 250 solutions of the beam
+    if (last * before < 0)
+        return std::min(std::abs(last), std::abs(before)) > turned + noise ? std::optional(order)
+                                                                           : std::nullopt;
+    constexpr double least = 0.002;
+    if (rows_.widths() == 1 || !(std::abs(last) > std::abs(before)) ||
+        !(std::abs(last) > std::max(least, noise)))
+        return std::nullopt;
+    constexpr double fastest = 4; // of exp(−1/h) and before a zero it grows without bound
+    const double growth = std::min(last / before, fastest);
+    const double ahead = order + last * (1 + growth + growth * growth);
+    return ahead < low || ahead > high ? std::optional(order) : std::nullopt;
 }
 
 /// Whether the fit is one of terms that a method may have: without any bound on their orders next

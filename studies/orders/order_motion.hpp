@@ -17,6 +17,20 @@
 
 namespace tvbeam {
 
+/// The errors of one width alone, from coarse to fine, each exact.
+struct LevelErrors {
+    std::vector<double> log_widths, log_errors;
+    std::vector<double> parts_of_others; ///< of each error, which terms of other widths are
+
+    /// (ln h, p) in the middle of each two levels, without these parts.
+    [[nodiscard]] std::vector<std::pair<double, double>> orders() const;
+    /// By how much the order changes over ln 2 of the width, from each such middle to the next:
+    /// what is seen with these parts as well as without them, the less of both.
+    [[nodiscard]] std::vector<double> changes() const;
+    /// What the changes may owe to these parts.
+    [[nodiscard]] double noise() const;
+};
+
 /// Of one width.
 class OrderMotion {
 public:
@@ -37,6 +51,15 @@ public:
     /// Of a sequence: whether one model's order stands still over its windows, all but one, while
     /// that of the leading term alone moves: then that model says what it moves to.
     [[nodiscard]] bool is_explained() const;
+    /// Of exact errors without a reference: those of a sequence; those of a grid where the other
+    /// widths are finest; none where much of an error is of their terms, as the next coarser step
+    /// of each shows it, there are fewer than four, or leading terms follow all rows to rounding.
+    [[nodiscard]] std::optional<LevelErrors> levels_alone() const;
+    /// Of these: the last order from level to level, where it turned and goes on as before, or, on
+    /// a grid, where it moves one way, and by more and more, and leaves the interval in three more
+    /// levels: a term of another order shows behind the one that is fitted. Of a leading term with
+    /// a next one it moves less and less.
+    [[nodiscard]] std::optional<double> leaves(double low, double high) const;
     /// As "it rises over finer windows, to 1.68"; empty where it moves to and fro, or not at all.
     [[nodiscard]] std::string words() const;
     /// The orders of the coarsest window and of the finest, where it falls from each to the next.
@@ -51,7 +74,11 @@ private:
     [[nodiscard]] std::vector<double>
     local_orders(const std::vector<Eigen::Index>& rows,
                  const std::function<double(Eigen::Index)>& log_error) const;
+    [[nodiscard]] std::optional<Eigen::Index> coarser_by_a_level(Eigen::Index row,
+                                                                 Eigen::Index other) const;
+    [[nodiscard]] std::optional<double> part_of_others(Eigen::Index row) const;
     [[nodiscard]] bool others_change_nothing(const std::vector<Eigen::Index>& rows) const;
+    [[nodiscard]] bool terms_follow_to_rounding(std::size_t levels) const;
     [[nodiscard]] bool has_usual_terms(const EnsembleMember& member) const;
     [[nodiscard]] std::optional<double> greatest_of_a_rise() const;
 

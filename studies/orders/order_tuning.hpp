@@ -97,6 +97,9 @@ struct OrderTuning {
     double followed = 0.15;
     /// Errors that differ by no more than this part show no other term beside them.
     double unchanged = 0.1;
+    /// What other widths leave of an error where they are finest is known well enough to be taken
+    /// off up to this part of it.
+    double others_left = 0.3;
     /// A width that changes no error by more than this part is left out: what the orders of others
     /// could owe to it is far below `narrowest`.
     double idle = 1e-4;
