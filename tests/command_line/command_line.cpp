@@ -283,9 +283,26 @@ BOOST_AUTO_TEST_CASE(a_device_is_written_to_and_not_replaced) {
 
 BOOST_AUTO_TEST_CASE(standard_output_that_cannot_be_written_is_said) {
     const TemporaryDirectory directory;
-    const Called called = call(directory, small + " >/dev/full");
-    BOOST_TEST(called.exit == 3);
-    BOOST_TEST(has(called.errors, "cannot write to standard output"));
+    for (const std::string& arguments :
+         {small, std::string("--help"), std::string("--version"), std::string("run --help")}) {
+        const Called called = call(directory, arguments + " >/dev/full");
+        BOOST_TEST(called.exit == 3, arguments);
+        BOOST_TEST(has(called.errors, "cannot write to standard output"), arguments);
+    }
+}
+
+// No name is known where what is shipped is not found, with --code as without.
+BOOST_AUTO_TEST_CASE(code_of_an_unknown_name_is_refused_as_its_formulas_are) {
+    const TemporaryDirectory directory;
+    const std::string elsewhere = "TVBEAM_DATA=" + directory.path().string() + " ";
+    const Called plain = call(directory, "derive heat-2d", elsewhere);
+    const Called code = call(directory, "derive heat-2d --code c", elsewhere);
+    BOOST_TEST(plain.exit == 2);
+    BOOST_TEST(has(plain.errors, "what tvbeam ships is not found"), plain.errors);
+    BOOST_TEST(code.exit == 2);
+    BOOST_TEST(code.errors == plain.errors);
+    BOOST_TEST(has(call(directory, "derive table1 --code c").errors,
+                   "--code and --out are for files of equations"));
 }
 
 BOOST_AUTO_TEST_CASE(what_a_stress_study_did_not_measure_is_blank_or_said) {

@@ -64,6 +64,10 @@ std::vector<Mistake> mistakes() {
         {"", "", "check mine.toml", "is a solution, not a scene"},
         {"", "", "check x.csv", "a table of errors is analysed by tvbeam analyse x.csv"},
         {"", "", "check mine-scene.toml --baseline b.json --tolerance -1", "--tolerance: -1 is no"},
+        {"", "", "check mine-scene.toml --baseline b.json --tolerance nan",
+         "--tolerance: nan is no"},
+        {"", "", "compare a.json b.json --tolerance -1", "--tolerance: -1 is no"},
+        {"", "", "compare a.json b.json --tolerance nan", "--tolerance: nan is no"},
         {"", "", "keys nonsense", "no key of a scene has to do with 'nonsense'"},
         {"stops = \\[-0.1, 0.1\\]", "stops = [0.1, -0.1]", run, "are they swapped?"},
         // Beyond the stop by less than six digits show.

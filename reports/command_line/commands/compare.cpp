@@ -50,6 +50,15 @@ int compare_command(const std::string& first, const std::string& second, double 
     return compared.results.empty() ? done : violated;
 }
 
+/// Not by CLI::Range, which lets nan pass.
+const CLI::Validator part(
+    [](std::string& text) {
+        double value = 0.0;
+        const bool holds = CLI::detail::lexical_cast(text, value) && value >= 0.0 && value <= 1.0;
+        return holds ? std::string() : text + " is no part from 0 to 1";
+    },
+    "", "part");
+
 } // namespace
 
 Command add_compare(CLI::App& app) {
@@ -66,11 +75,10 @@ Command add_compare(CLI::App& app) {
     compare->add_option("first", files->first, "a result.json, or the directory that holds it")
         ->required();
     compare->add_option("second", files->second, "the other")->required();
-    constexpr double all = 1.0;
     compare
         ->add_option("--tolerance", files->tolerance,
                      "what was found is the same where it differs by at most this part")
-        ->check(CLI::Range(0.0, all))
+        ->check(part)
         ->type_name("PART")
         ->capture_default_str();
     return {compare,

@@ -81,10 +81,12 @@ int derive_solution(const std::string& name, bool latex) {
 int derive_command(const DeriveOptions& options) {
     if (const auto file = equations_called(options.name))
         return derive_equations(*file, options);
-    if (!options.code.empty() || !options.out.empty())
+    if (!options.code.empty() || !options.out.empty()) {
+        static_cast<void>(solution_setting(options.name)); // which refuses what is no name
         throw InputError({options.name},
                          "--code and --out are for files of equations; the beam of the scenes is "
                          "one, as `tvbeam derive beam --code c`");
+    }
     return derive_solution(options.name, options.latex);
 }
 
