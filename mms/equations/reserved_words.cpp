@@ -77,7 +77,9 @@ constexpr const char* intrinsics_of_fortran =
 constexpr const char* words_of_python =
     "and as assert async await break class continue def del elif else except finally for from "
     "global if import in is lambda nonlocal not or pass raise return try while with yield None "
-    "True False";
+    "True False "
+    // what the code uses itself
+    "abs float ImportError";
 constexpr const char* words_of_julia =
     "baremodule begin break catch const continue do else elseif end export false finally for "
     "function global if import let local macro module quote return struct true try using while "

@@ -383,6 +383,27 @@ BOOST_AUTO_TEST_CASE(reserved_names_are_changed_also_where_they_are_used) {
     BOOST_TEST(c.find("double lambda = 0.6;") != std::string::npos);
 }
 
+BOOST_AUTO_TEST_CASE(no_name_of_a_file_hides_what_generated_python_uses) {
+    for (const std::string name : {"float", "abs", "ImportError"}) {
+        const auto derived = derive_system(parse_equation_system(
+            "[parameters]\n" + name + " = 2\n[unknowns]\nu = \"(exp(300*x) + sinh(300*x))*" + name +
+                "\"\n[equations]\nf = \"u\"\n",
+            "my.toml"));
+        const std::string code = system_code(derived, CodeLanguage::python);
+        BOOST_TEST(code.find("\n" + name + "_ = 2.0\n") != std::string::npos, code);
+        BOOST_TEST(code.find("\n" + name + " = ") == std::string::npos, code);
+        if (short_tests || !has_program("python3"))
+            continue;
+        const Folder folder;
+        folder.write("code.py", code);
+        folder.write("driver.py", "import sys\nsys.modules['numpy'] = None\nfrom code import *\n"
+                                  "assert u_exact(10.0) == u_exact(20.0)\n");
+        const std::string command =
+            "cd '" + folder.path().string() + "' && PYTHONPATH=. python3 -B driver.py";
+        BOOST_TEST(std::system(command.c_str()) == 0, name);
+    }
+}
+
 BOOST_AUTO_TEST_CASE(a_negative_parameter_is_negative_in_every_language) {
     const auto derived = derive_system(parse_equation_system(
         "[parameters]\nk = -2.5\n[unknowns]\nu = \"sin(x)\"\n[equations]\nf = \"k*diff(u, x)\"\n",
