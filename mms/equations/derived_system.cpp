@@ -19,22 +19,34 @@ namespace {
 
 constexpr int largest_expanded_power = 100; // of a polynomial
 
+GiNaC::exmap values_of(const std::vector<DerivedParameter>& parameters) {
+    GiNaC::exmap values;
+    for (const auto& parameter : parameters)
+        values[parameter.symbol] = parameter.exact;
+    return values;
+}
+
+/// Whether it has a symbol other than those of the values.
+bool varies(const ex& expression, const GiNaC::exmap& values) {
+    for (auto part = expression.preorder_begin(); part != expression.preorder_end(); ++part)
+        if (GiNaC::is_a<GiNaC::symbol>(*part) && !values.contains(*part))
+            return true;
+    return false;
+}
+
 /// The parameters in a whole exponent of what varies; none where it is no such.
 std::set<std::string> in_whole_exponent(const ex& base, const ex& exponent,
                                         const std::vector<DerivedParameter>& parameters) {
-    GiNaC::exmap values;
+    const GiNaC::exmap values = values_of(parameters);
     std::set<std::string> used;
-    for (const auto& parameter : parameters) {
-        values[parameter.symbol] = parameter.exact;
+    for (const auto& parameter : parameters)
         if (exponent.has(parameter.symbol))
             used.insert(parameter.name);
-    }
-    if (used.empty() || GiNaC::is_exactly_a<GiNaC::numeric>(base.subs(values).evalf()))
+    if (used.empty() || !varies(base, values))
         return {};
-    const ex value = exponent.subs(values);
-    const bool is_whole = GiNaC::is_exactly_a<GiNaC::numeric>(value) &&
-                          GiNaC::ex_to<GiNaC::numeric>(value).is_integer() &&
-                          GiNaC::abs(GiNaC::ex_to<GiNaC::numeric>(value)) <= largest_expanded_power;
+    const auto value = number_with(exponent, values);
+    const bool is_whole =
+        value && value->is_integer() && GiNaC::abs(*value) <= largest_expanded_power;
     return is_whole ? used : std::set<std::string>{};
 }
 
@@ -86,7 +98,8 @@ private:
     Tensor tensor_of(const NamedEntries& named) {
         std::vector<Tensor> values;
         for (const SourceText& entry : named.entries) {
-            values.push_back(parse_tensor(entry, names_, derived_.fields, system().dimension));
+            values.push_back(parse_tensor(entry, names_, derived_.fields, system().dimension,
+                                          values_of(derived_.parameters)));
             texts_.insert(texts_.end(), values.back().entries.begin(), values.back().entries.end());
         }
         if (values.size() == 1)
@@ -170,8 +183,8 @@ private:
             if (derived_.fields.occurring_in(value.entries[i]).empty())
                 throw InputError(derived_.functions.back().source,
                                  "equation " + names[i] +
-                                     " has no unknown in it; it must say something of the unknowns "
-                                     "of [unknowns]");
+                                     " has no unknown in it, or what it has of them cancels; it "
+                                     "must say something of the unknowns of [unknowns]");
         }
     }
 
@@ -243,12 +256,10 @@ private:
             return;
         }
         TensorTable known;
-        GiNaC::exmap values;
-        for (const auto& parameter : derived_.parameters) {
+        for (const auto& parameter : derived_.parameters)
             known[parameter.name] = Tensor::scalar(parameter.symbol);
-            values[parameter.symbol] = parameter.exact;
-        }
-        const Tensor position = parse_tensor(entry.position, known, derived_.fields, 1);
+        const GiNaC::exmap values = values_of(derived_.parameters);
+        const Tensor position = parse_tensor(entry.position, known, derived_.fields, 1, values);
         if (!position.is_scalar())
             throw InputError(entry.position.begin(),
                              "on is " + shape_text(position) + "; it must be a number");

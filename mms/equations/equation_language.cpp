@@ -22,14 +22,22 @@ public:
     using Value = Tensor;
     static constexpr bool has_lists = true;
 
-    EquationLanguage(const TensorTable& names, Fields& fields, int dimension)
-        : names_(names), fields_(fields), dimension_(static_cast<std::size_t>(dimension)) {}
+    EquationLanguage(const TensorTable& names, Fields& fields, int dimension,
+                     const GiNaC::exmap& parameters)
+        : names_(names), fields_(fields), dimension_(static_cast<std::size_t>(dimension)),
+          parameters_(parameters) {}
 
     static Tensor sum(const Tensor& a, const Tensor& b) { return tensor_sum(a, b); }
     static Tensor difference(const Tensor& a, const Tensor& b) { return tensor_difference(a, b); }
     static Tensor product(const Tensor& a, const Tensor& b) { return tensor_product(a, b); }
     static Tensor quotient(const Tensor& a, const Tensor& b) { return tensor_quotient(a, b); }
-    static Tensor power(const Tensor& a, const Tensor& b) { return tensor_power(a, b); }
+    [[nodiscard]] Tensor power(const Tensor& a, const Tensor& b) const {
+        if (a.is_scalar() && b.is_scalar() && is_zero_with_parameters(a) &&
+            is_zero_with_parameters(b))
+            throw AlgebraError("0^0 has no value: with the parameters as they are, base and "
+                               "exponent are 0");
+        return tensor_power(a, b);
+    }
     static Tensor negated(const Tensor& a) { return tensor_product(Tensor::scalar(-1), a); }
     static Tensor list(const std::vector<Tensor>& entries) { return tensor_list(entries); }
     static Tensor number(const std::string& /*written*/, const ex& value) {
@@ -98,6 +106,11 @@ public:
     }
 
 private:
+    [[nodiscard]] bool is_zero_with_parameters(const Tensor& scalar) const {
+        const auto number = number_with(scalar.entries.front(), parameters_);
+        return number && number->is_zero();
+    }
+
     /// v2 of a vector v.
     [[nodiscard]] std::optional<Tensor> component(const std::string& word) const {
         const auto vector = names_.find(word.substr(0, word.size() - 1));
@@ -216,13 +229,14 @@ private:
     const TensorTable& names_;
     Fields& fields_;
     std::size_t dimension_;
+    const GiNaC::exmap& parameters_;
 };
 
 } // namespace
 
 Tensor parse_tensor(const SourceText& source, const TensorTable& names, Fields& fields,
-                    int dimension) {
-    EquationLanguage language(names, fields, dimension);
+                    int dimension, const GiNaC::exmap& parameters) {
+    EquationLanguage language(names, fields, dimension, parameters);
     return Grammar<EquationLanguage>(source, language).whole();
 }
 

@@ -1,6 +1,7 @@
 #include "mms/equations/singularities.hpp"
 
 #include "mms/equations/infix.hpp"
+#include "mms/equations/rounded.hpp"
 #include "mms/equations/system_checks.hpp"
 #include "mms/text/number_text.hpp"
 
@@ -76,12 +77,17 @@ std::vector<Critical> criticals_of(const Program& program) {
         else if (step.operation == Operation::function && (name == "asin" || name == "acos"))
             result.push_back({Rule::below_one, step.left, false});
     }
+    // Of one operand the worst counts: where x is 0, log(x) has no value, and sqrt(x) has one.
     std::vector<Critical> different;
-    for (const Critical& one : result)
-        if (std::none_of(different.begin(), different.end(), [&](const Critical& other) {
-                return other.rule == one.rule && other.operand == one.operand;
-            }))
+    for (const Critical& one : result) {
+        const auto known = std::ranges::find_if(different, [&](const Critical& other) {
+            return other.rule == one.rule && other.operand == one.operand;
+        });
+        if (known == different.end())
             different.push_back(one);
+        else if (one.pole && !known->pole)
+            *known = one;
+    }
     return different;
 }
 
@@ -95,6 +101,11 @@ long double margin(const Critical& critical, long double operand) {
     default:
         return operand;
     }
+}
+
+/// Whether there is nothing on one side of 0.
+bool is_one_sided(const Critical& critical) {
+    return critical.rule == Critical::Rule::positive || critical.rule == Critical::Rule::below_one;
 }
 
 bool holds(const Critical& critical, const Span& operand) {
@@ -151,8 +162,8 @@ public:
             return std::ranges::all_of(
                 found, [](const Singularity& one) { return one.kind == Singularity::Kind::kink; });
         };
-        if (is_kinked_at_most() && overflow_)
-            found.push_back(*overflow_);
+        if (is_kinked_at_most() && without_value_)
+            found.push_back(*without_value_);
         if (is_kinked_at_most() && !open.empty())
             if (auto one = not_excluded(open))
                 found.push_back(*std::move(one));
@@ -211,9 +222,9 @@ private:
 
     /// The first step that a double cannot hold, where an output then has no value either: 1/(1 +
     /// exp(1000 x)) is 0 all the same.
-    void look_for_overflow(const std::vector<long double>& values, const DomainPoint& point) {
+    void look_for_missing_values(const std::vector<long double>& values, const DomainPoint& point) {
         const auto beyond = std::find_if_not(values.begin(), values.end(), is_held);
-        if (overflow_ || beyond == values.end())
+        if (without_value_ || beyond == values.end())
             return;
         std::map<std::string, double> names;
         for (const auto& [name, value] : names_at(derived_, point))
@@ -221,16 +232,35 @@ private:
         const auto outputs = program_.evaluate(names);
         if (std::all_of(outputs.begin(), outputs.end(), is_held))
             return;
-        overflow_ = Singularity{
-            Singularity::Kind::overflow,
-            readable_text(program_, static_cast<int>(beyond - values.begin()), longest_quoted) +
-                " is beyond the range of doubles " + text_of(point),
-            text_of(point)};
+        without_value_ =
+            without_value(static_cast<std::size_t>(beyond - values.begin()), values, point);
+    }
+
+    /// Why a step has no value where those before it have one.
+    [[nodiscard]] Singularity without_value(std::size_t of, const std::vector<long double>& values,
+                                            const DomainPoint& point) const {
+        using Kind = Singularity::Kind;
+        const Program::Step& step = program_.steps()[of];
+        const auto critical = std::ranges::find_if(criticals_, [&](const Critical& one) {
+            return is_one_sided(one) && one.operand == step.left;
+        });
+        const bool is_defined = !std::isnan(values[of]);
+        const bool divides_by_zero = step.operation == Operation::power &&
+                                     values[static_cast<std::size_t>(step.left)] == 0.0L;
+        if (critical == criticals_.end() || (is_defined && !divides_by_zero))
+            return {Kind::overflow,
+                    readable_text(program_, static_cast<int>(of), longest_quoted) +
+                        " is beyond the range of doubles " + text_of(point),
+                    text_of(point)};
+        const std::string place = place_of(*critical, point);
+        if (is_defined)
+            return {Kind::pole, said(*critical) + place, place};
+        return {Kind::no_value, said_beyond(*critical, point) + place, place};
     }
 
     void look_at(const DomainPoint& point) {
         const auto values = program_.values(names_at(derived_, point));
-        look_for_overflow(values, point);
+        look_for_missing_values(values, point);
         for (std::size_t k = 0; k < criticals_.size(); ++k) {
             const long double here =
                 margin(criticals_[k], values[static_cast<std::size_t>(criticals_[k].operand)]);
@@ -291,22 +321,51 @@ private:
         return text.empty() ? "everywhere" : "at " + text;
     }
 
-    [[nodiscard]] std::string said(const Critical& critical) const {
+    [[nodiscard]] std::string place_of(const Critical& critical, const DomainPoint& point) const {
+        return is_constant_[static_cast<std::size_t>(critical.operand)] ? "everywhere"
+                                                                        : text_of(point);
+    }
+
+    /// "the argument x of a root"
+    [[nodiscard]] std::string named(const Critical& critical) const {
         const std::string operand = readable_text(program_, critical.operand, longest_quoted);
         switch (critical.rule) {
         case Critical::Rule::not_zero:
-            return "the divisor " + operand + " is 0 ";
+            return "the divisor " + operand;
         case Critical::Rule::positive:
             if (critical.has_varying_exponent)
-                return "the base " + operand + " of a power is 0 ";
-            return "the argument " + operand +
-                   (critical.pole ? " of log is 0 " : " of a root is 0 ");
+                return "the base " + operand + " of a power";
+            return "the argument " + operand + (critical.pole ? " of log" : " of a root");
         case Critical::Rule::cosine:
-            return "the argument " + operand + " of tan is an odd multiple of pi/2 ";
+            return "the argument " + operand + " of tan";
         case Critical::Rule::below_one:
             break;
         }
-        return "the argument " + operand + " of asin or acos is 1 in size ";
+        return "the argument " + operand + " of asin or acos";
+    }
+
+    [[nodiscard]] std::string said(const Critical& critical) const {
+        return named(critical) + (critical.rule == Critical::Rule::cosine
+                                      ? " is an odd multiple of pi/2 "
+                                  : critical.rule == Critical::Rule::below_one ? " is 1 in size "
+                                                                               : " is 0 ");
+    }
+
+    /// Of what is beyond the edge: by itself, or by rounding alone.
+    [[nodiscard]] std::string said_beyond(const Critical& critical,
+                                          const DomainPoint& point) const {
+        std::map<std::string, Rounded> names;
+        for (const auto& [name, value] : names_at(derived_, point))
+            names[name] = value;
+        const Rounded operand = program_.values(names)[static_cast<std::size_t>(critical.operand)];
+        const bool is_positive = critical.rule == Critical::Rule::positive;
+        const Rounded margin = is_positive            ? operand
+                               : operand.value > 0.0L ? Rounded(1.0L) - operand
+                                                      : operand + Rounded(1.0L);
+        if (margin.may_be_zero())
+            return named(critical) + (is_positive ? " is 0 or, by rounding, negative "
+                                                  : " is 1 in size or, by rounding, more ");
+        return named(critical) + (is_positive ? " is negative " : " is above 1 in size ");
     }
 
     [[nodiscard]] std::optional<Singularity> sampled(std::size_t i) const {
@@ -314,12 +373,11 @@ private:
         const Extremes& seen = extremes_[i];
         using Kind = Singularity::Kind;
         constexpr long double zero = 1e-15L; // what sin(pi) is of
-        const bool one_sided =
-            critical.rule == Critical::Rule::positive || critical.rule == Critical::Rule::below_one;
+        const bool one_sided = is_one_sided(critical);
         const bool crosses = seen.least < -zero && seen.greatest > zero;
         const bool same = is_constant_[static_cast<std::size_t>(critical.operand)];
         const auto with = [&](Kind kind, const DomainPoint& point) {
-            const std::string place = same ? "everywhere" : text_of(point);
+            const std::string place = place_of(critical, point);
             return Singularity{kind, said(critical) + place, place};
         };
         if (crosses) {
@@ -410,7 +468,7 @@ private:
 
     /// Whether what must be positive is negative close to a place: between the points of the grid.
     [[nodiscard]] bool is_below_beside(const Critical& critical, const DomainPoint& point) const {
-        if (critical.rule != Critical::Rule::positive && critical.rule != Critical::Rule::below_one)
+        if (!is_one_sided(critical))
             return false;
         constexpr int finest = 45; // halvings of the domain
         constexpr long double rounding = 1e-15L;
@@ -450,22 +508,25 @@ private:
         return point;
     }
 
-    /// Whether there is a double within some side.
-    static bool can_be_halved(const Box& box) {
-        return std::any_of(box.begin(), box.end(), [](const auto& side) {
-            const double middle = 0.5 * (side.second.begin + side.second.end);
-            return side.second.begin < middle && middle < side.second.end;
-        });
+    /// Whether there is a double within.
+    static bool has_middle(const DomainInterval& side) {
+        const double middle = 0.5 * (side.begin + side.end);
+        return side.begin < middle && middle < side.end;
     }
 
-    /// Across the coordinate in which the part is longest, measured by the whole.
+    static bool can_be_halved(const Box& box) {
+        return std::ranges::any_of(box, [](const auto& side) { return has_middle(side.second); });
+    }
+
+    /// Across the coordinate in which the part is longest, measured by the whole: of the
+    /// smallest doubles by 0.
     static void halve(const Box& box, const Box& whole, std::vector<Box>& parts) {
         std::string longest;
         double length = 0.0;
         for (const auto& [name, range] : box) {
             const DomainInterval& all = whole.at(name);
             const double here = (range.end - range.begin) / (all.end - all.begin);
-            if (here > length) {
+            if (has_middle(range) && (longest.empty() || here > length)) {
                 length = here;
                 longest = name;
             }
@@ -482,7 +543,7 @@ private:
     std::vector<Critical> criticals_;
     std::vector<bool> is_constant_; ///< by step: it is the same everywhere
     std::vector<Extremes> extremes_;
-    std::optional<Singularity> overflow_;
+    std::optional<Singularity> without_value_; ///< the first found of a step
 };
 
 } // namespace

@@ -266,6 +266,15 @@ ex substituted(const ex& expression, const GiNaC::exmap& values) {
     return expression;
 }
 
+std::optional<numeric> number_with(const ex& expression, const GiNaC::exmap& values) {
+    try {
+        const ex value = substituted(expression, values);
+        return is_a<numeric>(value) ? std::optional(ex_to<numeric>(value)) : std::nullopt;
+    } catch (const AlgebraError&) {
+        return std::nullopt;
+    }
+}
+
 ex derivative(const ex& expression, const GiNaC::symbol& s) {
     ex result =
         guarded([&] { return differentiated(expression, s); }, "the derivative has no value");

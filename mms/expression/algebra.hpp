@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <map>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -37,6 +38,10 @@ GiNaC::ex checked_function(const std::string& name, const GiNaC::ex& argument);
 
 /// The expression with symbols replaced by values.
 GiNaC::ex substituted(const GiNaC::ex& expression, const GiNaC::exmap& values);
+
+/// The number that an expression is with these values, exactly; nothing where it is none, or has no
+/// value.
+std::optional<GiNaC::numeric> number_with(const GiNaC::ex& expression, const GiNaC::exmap& values);
 
 /// ∂/∂s, refused when it has more than 20 000 nodes.
 GiNaC::ex derivative(const GiNaC::ex& expression, const GiNaC::symbol& s);

@@ -53,6 +53,35 @@ BOOST_AUTO_TEST_CASE(a_small_source_is_not_zero) {
     BOOST_TEST(remark_of("1e-15*sin(x)*exp(-2*t)", "diff(u, t) - diff(u, x, 2)") == "");
 }
 
+// The round-off of 1e22 is above a period, and yet sin and cos are at most 1, and atan pi/2.
+BOOST_AUTO_TEST_CASE(a_bounded_function_of_a_large_argument_does_not_make_a_sum_zero) {
+    for (const std::string large :
+         {"sin(1e22)", "sin(sin(1e8)*1e12)", "cos(1e22)", "tanh(sin(1e22)*1e-1)",
+          "atan(sin(1e22)*1e22)", "asin(sin(1e22))", "acos(sin(1e22)) - pi"}) {
+        const std::string said = remark_of("x", "u + 4 + " + large);
+        BOOST_TEST(said.find("zero") == std::string::npos, said);
+        const std::string close = remark_of("x", "u + 2 + " + large);
+        BOOST_TEST(close.find("zero") == std::string::npos, close);
+    }
+    // Beside terms of 1e12 that cancel, the sum is small and yet above what is uncertain of sin.
+    const std::string beside =
+        remark_of("x", "u + 4 + sin(1e22) + (K + 1)*(K - 1) - K^2 + 1", "[parameters]\nK = 1e6\n");
+    BOOST_TEST(beside.find("zero") == std::string::npos, beside);
+    const std::string unknown = remark_of("x + 2 + sin(1e22*t)", "u");
+    BOOST_TEST(unknown.find("zero") == std::string::npos, unknown);
+}
+
+// What is uncertain is not said to be zero: e^0 = 1, and tan has a pole near 1e22.
+BOOST_AUTO_TEST_CASE(what_cannot_be_computed_is_not_called_zero) {
+    for (const std::string uncertain :
+         {"exp(K*(x + 1)*(x - 1) - K*x^2 + K)", "tan(K*x)", "sin(K*x)", "cosh(sin(K*x))"}) {
+        const std::string said = remark_of("x", "(u + 1)*" + uncertain, "[parameters]\nK = 1e22\n");
+        BOOST_TEST(said.find("zero") == std::string::npos, said);
+    }
+    const std::string small = remark_of("x", "u*sin(k*pi)", "[parameters]\nk = 1\n");
+    BOOST_TEST(small.find("f is zero, to rounding, at all") != std::string::npos, small);
+}
+
 BOOST_AUTO_TEST_CASE(zero_at_one_of_the_points_is_not_zero_everywhere) {
     const auto points = points_inside(
         parse_equation_system("[unknowns]\nu = \"x\"\n[equations]\nf = \"u\"\n", "my.toml"), 1);
@@ -156,6 +185,49 @@ BOOST_AUTO_TEST_CASE(a_source_that_a_double_cannot_hold_is_said_with_what_overfl
     BOOST_TEST(remark_of("x", "exp(800*u)/(1 + exp(800*u))") == "");
 }
 
+BOOST_AUTO_TEST_CASE(an_argument_beyond_what_a_function_is_defined_on_is_said_as_that) {
+    for (const std::string equation : {"sqrt(u - 1e-17)", "sqrt(u^2 - 1e-17)"}) {
+        const std::string root = remark_of("x", equation);
+        BOOST_TEST(root.find("f has no value in places: the argument u") != std::string::npos,
+                   root);
+        BOOST_TEST(root.ends_with(" of a root is negative at x = 0"), root);
+    }
+    const std::string inverse = remark_of("x", "asin(u*(1+3e-16))");
+    BOOST_TEST(inverse.find("of asin or acos is above 1 in size at x = 1") != std::string::npos,
+               inverse);
+    const std::string power = remark_of("x", "(u - 1e-17)^0.3");
+    BOOST_TEST(power.ends_with("the argument u - 1e-17 of a root is negative at x = 0"), power);
+    const std::string constant = remark_of("x", "u*n*n^q", "[parameters]\nn = 0\nq = -0.2\n");
+    BOOST_TEST(constant.ends_with("f has no value: the base n of a power is 0 everywhere"),
+               constant);
+}
+
+BOOST_AUTO_TEST_CASE(the_logarithm_in_the_derivatives_of_a_power_has_no_value_at_zero) {
+    const auto said = remarks_of("x^x*y", "u-diff(u,x,2)", "[domain]\nx = [0, 10]\n");
+    BOOST_REQUIRE(said.size() == 3U);
+    BOOST_TEST(said[0].starts_with("my.toml:2:6: u is not smooth: the base x of a power is 0"));
+    BOOST_TEST(said[1].starts_with("my.toml:4:6: f has no value: the argument x of log is 0 at "
+                                   "x = 0, "),
+               said[1]);
+    BOOST_TEST(said[2].starts_with("my.toml:2:6: u_exact_x has no value: the argument x of log "),
+               said[2]);
+}
+
+// Halves of the domain are halved down to the smallest double, whose tenth is 0.
+BOOST_AUTO_TEST_CASE(a_place_is_looked_into_down_to_the_smallest_double) {
+    for (const std::string unknown : {"1/x^x", "log(x^x)", "sqrt(x^x)", "1/(x^x)^2"}) {
+        const std::string said = remark_of(unknown, "u", "[domain]\nx = [0, 10]\n");
+        BOOST_TEST(said.starts_with("my.toml:2:6: u is not smooth: the base x of a power is 0 at "
+                                    "x = 0"),
+                   said);
+    }
+    const std::string plane = remark_of("sqrt(y)/x^x", "u", "[domain]\nx = [0, 10]\n");
+    BOOST_TEST(plane.starts_with("my.toml:2:6: u is not smooth: "), plane);
+    const std::string source = remark_of("x", "1/u^u", "[domain]\nx = [0, 10]\n");
+    BOOST_TEST(source.starts_with("my.toml:4:6: f is not smooth: the base x of a power is 0 at "),
+               source);
+}
+
 // Doubles give 0, π/2 and 1e-22 there: no overflow, no pole.
 BOOST_AUTO_TEST_CASE(what_comes_out_well_is_not_called_an_overflow_or_a_pole) {
     BOOST_TEST(remark_of("1/(1 + exp(900*x))", "u") == "");
@@ -172,6 +244,7 @@ BOOST_AUTO_TEST_CASE(what_is_singular_by_its_parameters_is_so_everywhere) {
                std::string::npos);
     const std::string pole = remark_of("x", "u/k", "[parameters]\nk = 0\n");
     BOOST_TEST(pole.find("the divisor k is 0 everywhere") != std::string::npos, pole);
+    BOOST_TEST(pole.find("f is zero") == std::string::npos, pole);
 }
 
 BOOST_AUTO_TEST_CASE(every_singularity_of_a_source_is_said) {
