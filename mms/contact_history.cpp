@@ -4,6 +4,7 @@
 #include "mms/expression/algebra.hpp"
 #include "mms/expression/piecewise_tape.hpp"
 #include "mms/expression/symbols.hpp"
+#include "mms/largest_size.hpp"
 #include "mms/local_power.hpp"
 
 #include <algorithm>
@@ -46,11 +47,16 @@ public:
                     return rows;
                 }),
           force_row_(highest + 1) {
-        for (const PhaseExpressions& phase : solution.phases)
+        for (std::size_t i = 0; i < solution.phases.size(); ++i) {
+            const PhaseExpressions& phase = solution.phases[i];
+            const double end = std::min(phase.end_value, final_time);
             if (phase.begin_value < final_time)
-                phases_.push_back({phase.begin_value, std::min(phase.end_value, final_time)});
+                phases_.push_back(
+                    {phase.begin_value, end,
+                     telling_times(tape_.of_phase(i), {0, force_row_}, phase.begin_value, end)});
+        }
         for (const Interval& phase : phases_)
-            for (const double t : samples(phase)) {
+            for (const double t : phase.times) {
                 tip_size_ = std::max(tip_size_, std::abs(tip(phase, t)));
                 force_size_ = std::max(force_size_, std::abs(value(phase, t, force_row_)));
             }
@@ -77,10 +83,8 @@ public:
     [[nodiscard]] ReachedStops reached() const {
         ReachedStops result;
         for (const Interval& phase : phases_) {
-            result.lower = result.lower ||
-                           reaches(phase, [&](double t) { return tip(phase, t) - stops_.lower; });
-            result.upper = result.upper ||
-                           reaches(phase, [&](double t) { return stops_.upper - tip(phase, t); });
+            result.lower = result.lower || reaches(phase, Stop::lower);
+            result.upper = result.upper || reaches(phase, Stop::upper);
         }
         return result;
     }
@@ -88,11 +92,9 @@ public:
 private:
     struct Interval {
         double begin, end;
+        ArrayXd times; ///< telling_times
     };
-
-    static ArrayXd samples(const Interval& phase) {
-        return ArrayXd::LinSpaced(time_points, phase.begin, phase.end);
-    }
+    enum class Stop { lower, upper };
 
     /// A time that begins a phase is read in it.
     [[nodiscard]] double value(const Interval& phase, double t, Index row) const {
@@ -100,24 +102,26 @@ private:
     }
     [[nodiscard]] double tip(const Interval& phase, double t) const { return value(phase, t, 0); }
 
-    /// Distance of the tip from the nearer stop; of an admissible solution ≥ 0.
-    [[nodiscard]] double gap(const Interval& phase, double t) const {
+    /// Distance of the tip from a stop; of an admissible solution ≥ 0.
+    [[nodiscard]] double gap(const Interval& phase, double t, Stop stop) const {
         const double u = tip(phase, t);
-        return std::min(stops_.upper - u, u - stops_.lower);
+        return stop == Stop::upper ? stops_.upper - u : u - stops_.lower;
+    }
+    [[nodiscard]] bool is_on_stop(const Interval& phase, double t, Stop stop) const {
+        return gap(phase, t, stop) <= nothing * tip_size_;
     }
     [[nodiscard]] bool is_on_stop(const Interval& phase, double t) const {
-        return gap(phase, t) <= nothing * tip_size_;
+        return is_on_stop(phase, t, Stop::lower) || is_on_stop(phase, t, Stop::upper);
     }
 
     [[nodiscard]] Contact contact_of(const Interval& phase) const {
-        const ArrayXd times = samples(phase);
         const auto presses = [&](double t) {
             return std::abs(value(phase, t, force_row_)) > nothing * force_size_;
         };
-        if (std::any_of(times.begin(), times.end(), presses))
+        if (std::any_of(phase.times.begin(), phase.times.end(), presses))
             return Contact::force;
-        const bool rests =
-            std::all_of(times.begin(), times.end(), [&](double t) { return is_on_stop(phase, t); });
+        const bool rests = std::all_of(phase.times.begin(), phase.times.end(),
+                                       [&](double t) { return is_on_stop(phase, t); });
         return rests ? Contact::rest : Contact::none;
     }
 
@@ -151,21 +155,9 @@ private:
         return 0.5 * (left + right);
     }
 
-    /// Whether a gap is nothing, or less, at a time of a phase.
-    template <typename Gap>
-    [[nodiscard]] bool reaches(const Interval& phase, const Gap& gap) const {
-        const ArrayXd times = samples(phase);
-        const ArrayXd gaps = times.unaryExpr(gap);
-        const Index last = times.size() - 1;
-        for (Index k = 0; k <= last; ++k) {
-            const Index before = std::max<Index>(k - 1, 0);
-            const Index behind = std::min(k + 1, last);
-            // Of equal gaps side by side the last one: what lies between them is looked at with it.
-            if (gaps(k) <= gaps(before) && (gaps(k) < gaps(behind) || k == last) &&
-                gap(least_between(gap, times(before), times(behind))) <= nothing * tip_size_)
-                return true;
-        }
-        return false;
+    [[nodiscard]] bool reaches(const Interval& phase, Stop stop) const {
+        return is_on_stop(phase, phase.begin, stop) || is_on_stop(phase, phase.end, stop) ||
+               touch_between(phase, stop, phase.begin, phase.end);
     }
 
     /// Where a tip that is on a stop leaves it on the way to another time, to rounding; around a
@@ -186,7 +178,7 @@ private:
     [[nodiscard]] std::optional<double> change_within(const Interval& phase) const {
         constexpr double rounding = 1e-14;
         constexpr int fewest_of_a_rest = 8;
-        const ArrayXd times = samples(phase);
+        const ArrayXd& times = phase.times;
         int resting = 0;
         for (Index k = 0; k + 1 < times.size(); ++k) {
             const bool rests =
@@ -203,26 +195,38 @@ private:
                                            : std::nullopt;
     }
 
-    /// Where the gap has a minimum that is nothing; next to an end on a stop it belongs to that
-    /// end.
-    [[nodiscard]] std::optional<double> touch_inside(const Interval& phase) const {
-        const ArrayXd times = samples(phase);
-        const ArrayXd gaps = times.unaryExpr([&](double t) { return gap(phase, t); });
+    /// Where the gap to a stop has a minimum that is nothing, first after `begin` and before `end`.
+    [[nodiscard]] std::optional<double> touch_between(const Interval& phase, Stop stop,
+                                                      double begin, double end) const {
+        if (!std::isfinite(stop == Stop::upper ? stops_.upper : stops_.lower))
+            return std::nullopt;
+        const ArrayXd& times = phase.times;
+        const auto to_stop = [&](double t) { return gap(phase, t, stop); };
+        const ArrayXd gaps = times.unaryExpr(to_stop);
         const Index last = times.size() - 1;
-        const double begin = is_on_stop(phase, phase.begin) ? times(1) : phase.begin;
-        const double end = is_on_stop(phase, phase.end) ? times(last - 1) : phase.end;
         for (Index k = 0; k <= last; ++k) {
             const Index before = std::max<Index>(k - 1, 0);
             const Index behind = std::min(k + 1, last);
-            if (gaps(k) > gaps(before) || gaps(k) > gaps(behind))
+            const bool is_flat = gaps(k) == gaps(before) && gaps(k) == gaps(behind);
+            if (gaps(k) > gaps(before) || gaps(k) > gaps(behind) ||
+                (is_flat && !is_on_stop(phase, times(k), stop)))
                 continue;
-            const double nearest = least_between([&](double t) { return gap(phase, t); },
-                                                 times(before), times(behind));
-            if (is_on_stop(phase, nearest) && nearest > begin && nearest < end)
+            const double nearest = least_between(to_stop, times(before), times(behind));
+            if (is_on_stop(phase, nearest, stop) && nearest > begin && nearest < end)
                 return 0.5 * (last_on_stop(phase, nearest, times(before)) +
                               last_on_stop(phase, nearest, times(behind)));
         }
         return std::nullopt;
+    }
+
+    /// The first touch of either stop; next to an end on a stop it belongs to that end.
+    [[nodiscard]] std::optional<double> touch_inside(const Interval& phase) const {
+        const double apart = (phase.end - phase.begin) / static_cast<double>(time_points - 1);
+        const double begin = phase.begin + (is_on_stop(phase, phase.begin) ? apart : 0.0);
+        const double end = phase.end - (is_on_stop(phase, phase.end) ? apart : 0.0);
+        const auto lower = touch_between(phase, Stop::lower, begin, end);
+        const auto upper = touch_between(phase, Stop::upper, begin, end);
+        return lower && upper ? std::min(lower, upper) : lower ? lower : upper;
     }
 
     /// The first power, from `least` on, with which a function leaves its value, or zero, at t: its
@@ -263,6 +267,27 @@ private:
 };
 
 } // namespace
+
+ArrayXd telling_times(const Tape& tape, const std::vector<Index>& rows, double begin, double end) {
+    const ArrayXd even = ArrayXd::LinSpaced(time_points, begin, end);
+    const ArrayXXd values = tape.evaluate(ArrayXd::Ones(even.size()), even);
+    std::vector<double> times(even.begin(), even.end());
+    for (const Index row : rows) {
+        const ArrayXd seen = values.row(row).isFinite().select(values.row(row), 0.0);
+        for (const double sign : {1.0, -1.0}) {
+            const double most = (sign * seen).maxCoeff();
+            const auto beyond = [&](const ArrayXd& x, const ArrayXd& t) -> ArrayXd {
+                return (sign * tape.evaluate(x, t).row(row).transpose() - most).max(0.0);
+            };
+            const LargestPoint found = largest_point(beyond, {1.0, 1.0}, {begin, end});
+            if (found.size > nothing * (found.size + seen.abs().maxCoeff()))
+                times.push_back(found.t);
+        }
+    }
+    std::ranges::sort(times);
+    times.erase(std::unique(times.begin(), times.end()), times.end());
+    return Eigen::Map<const ArrayXd>(times.data(), static_cast<Index>(times.size()));
+}
 
 ContactHistory contact_history(const DerivedSolution& solution, const Stops& stops,
                                double final_time) {

@@ -2,11 +2,19 @@
 
 #include "core/problem.hpp"
 #include "mms/derivation.hpp"
+#include "mms/expression/tape.hpp"
+
+#include <Eigen/Core>
 
 #include <optional>
 #include <vector>
 
 namespace tvbeam {
+
+/// Where functions of t, some rows of the tape of a phase at x = 1, are looked at: at 257 times of
+/// equal distance, and where one of them goes beyond what it is at these, as a narrow peak does.
+Eigen::ArrayXd telling_times(const Tape& tape, const std::vector<Eigen::Index>& rows, double begin,
+                             double end);
 
 /// No higher power is looked for at an onset.
 inline constexpr int highest_power = 6;
@@ -31,8 +39,8 @@ struct ContactHistory {
     std::optional<double> within;
 };
 
-/// Sampled at 257 times a phase, and between them where the tip is nearest to a stop; what is 1e-9
-/// of the greatest size of u(1,t), or of σ̃(1,t), counts as nothing. Throws AlgebraError where a
+/// Looked at at telling_times, and between them where the tip is nearest to a stop; what is 1e-9 of
+/// the greatest size of u(1,t), or of σ̃(1,t), counts as nothing. Throws AlgebraError where a
 /// derivative in time cannot be made.
 ContactHistory contact_history(const DerivedSolution& solution, const Stops& stops,
                                double final_time);
@@ -43,7 +51,8 @@ struct ReachedStops {
     bool upper = false;
 };
 
-/// Looked for as contact_history does; the stops may be penalised.
+/// Looked for as contact_history does, so that both find the same touches; the stops may be
+/// penalised.
 ReachedStops reached_stops(const DerivedSolution& solution, const Stops& stops, double final_time);
 
 } // namespace tvbeam

@@ -66,7 +66,7 @@ public:
     LargestSize(const PointFunction& g, const CloseLook& x, const CloseLook& t)
         : g_(g), x_(x), t_(t) {}
 
-    [[nodiscard]] double value() const {
+    [[nodiscard]] LargestPoint point() const {
         constexpr std::size_t looked_at = 8;
         constexpr int fewest_looks = 4; // the last of them between the times of any two points
         constexpr int most_looks = 20;
@@ -74,15 +74,16 @@ public:
         std::vector<Sample> samples = largest_of_parts();
         std::ranges::sort(samples, std::greater{}, &Sample::size);
         samples.resize(std::min(samples.size(), looked_at));
-        double largest = 0.0;
+        LargestPoint largest;
         bool grows = true;
         for (int look = 0; look < fewest_looks || (grows && look < most_looks); ++look) {
-            const double before = largest;
+            const double before = largest.size;
             for (Sample& sample : samples) {
                 look_closer(sample);
-                largest = std::max(largest, sample.size);
+                if (sample.size > largest.size)
+                    largest = {sample.x, sample.t, sample.size};
             }
-            grows = largest > (1.0 + least_growth) * before;
+            grows = largest.size > (1.0 + least_growth) * before;
         }
         return largest;
     }
@@ -159,8 +160,12 @@ private:
 
 } // namespace
 
+LargestPoint largest_point(const PointFunction& g, const CloseLook& x, const CloseLook& t) {
+    return LargestSize(g, x, t).point();
+}
+
 double largest_size(const PointFunction& g, const CloseLook& x, const CloseLook& t) {
-    return LargestSize(g, x, t).value();
+    return largest_point(g, x, t).size;
 }
 
 } // namespace tvbeam

@@ -7,6 +7,8 @@
 #include "mms/expression/algebra.hpp"
 #include "mms/expression/piecewise_tape.hpp"
 #include "mms/expression/symbols.hpp"
+#include "mms/expression/tape_compiler.hpp"
+#include "mms/largest_size.hpp"
 #include "mms/sample_points.hpp"
 #include "mms/text/error_text.hpp"
 
@@ -51,13 +53,17 @@ struct Sizes {
     double beam = 0.0;
 };
 
-void finish(std::vector<Residual>& residuals, const std::vector<Sizes>& sizes) {
+/// heat_vanishes, beam_vanishes: by the formulas.
+void finish(std::vector<Residual>& residuals, const std::vector<Sizes>& sizes, bool heat_vanishes,
+            bool beam_vanishes) {
     for (std::size_t i = 0; i < residuals.size(); ++i) {
         Residual& fine = residuals[i];
         if (fine.heat <= rounding * sizes[i].heat)
             fine.heat = 0.0;
         if (fine.beam <= rounding * sizes[i].beam)
             fine.beam = 0.0;
+        fine.heat_is_known = heat_vanishes || fine.heat != 0.0;
+        fine.beam_is_known = beam_vanishes || fine.beam != 0.0;
         if (i == 0)
             continue;
         const Residual& coarse = residuals[i - 1];
@@ -113,7 +119,54 @@ Residual space_residual(const PiecewiseTape& tape, const Beam& beam, const MeshF
             .heat = std::sqrt((residual.array().square() / forms.weights.array()).sum()),
             .beam = std::sqrt(inner_product(mesh, balance, balance)),
             .heat_order = std::nullopt,
-            .beam_order = std::nullopt};
+            .beam_order = std::nullopt,
+            .heat_is_known = true,
+            .beam_is_known = true};
+}
+
+bool vanishes_in_all(const DerivedSolution& derived, double final_time, const auto& formula) {
+    for (std::size_t i = 0; i < derived.phases.size(); ++i)
+        if (derived.phases[i].begin_value < final_time &&
+            !is_identically_zero(formula(derived.derived[i])))
+            return false;
+    return true;
+}
+
+/// How many derivatives in t of a formula vanish at the least; one more than matters where it is
+/// more, or where they are too large to be made.
+int derivatives_until_zero(const DerivedSolution& derived, double final_time, const auto& formula) {
+    constexpr int most = 4;
+    try {
+        for (int times = 0; times < most; ++times)
+            if (vanishes_in_all(derived, final_time, [&](const DerivedPhase& phase) {
+                    ex result = formula(phase);
+                    for (int k = 0; k < times; ++k)
+                        result = derivative(result, model_symbols().t);
+                    return result;
+                }))
+                return times;
+    } catch (const AlgebraError&) {
+        // Nothing is known of it.
+    }
+    return most;
+}
+
+/// Times of a phase of equal distance, and behind them those at which θ̃_xx and θ̃_xxt are largest: a
+/// narrow pulse may stand between the others.
+ArrayXd times_to_look_at(const DerivedPhase& phase, const CloseLook& span) {
+    const ArrayXd even = ArrayXd::LinSpaced(time_samples, span.begin, span.end);
+    std::vector<double> times(even.begin(), even.end());
+    for (const ex& formula : {phase.theta_xx, derivative(phase.theta_xx, model_symbols().t)}) {
+        if (is_identically_zero(formula))
+            continue;
+        const Tape tape = compile_tape({formula});
+        const auto values = [&tape](const ArrayXd& x, const ArrayXd& t) -> ArrayXd {
+            return tape.evaluate(x, t).row(0);
+        };
+        if (const LargestPoint found = largest_point(values, {0.0, 1.0}, span); found.size > 0.0)
+            times.push_back(found.t);
+    }
+    return Eigen::Map<const ArrayXd>(times.data(), static_cast<Index>(times.size()));
 }
 
 /// The largest residuals in space over one phase, looked at ever more closely next to the largest
@@ -212,11 +265,14 @@ std::vector<Residual> space_residuals(const AdmissibleSolution& solution, Therma
     const ArrayXd grid = sample_points(0.0, 1.0);
     std::vector<Residual> result(elements.size());
     std::vector<Sizes> terms(elements.size());
-    for (const PhaseExpressions& phase : solution.derived().phases) {
+    const DerivedSolution& derived = solution.derived();
+    for (std::size_t k = 0; k < derived.phases.size(); ++k) {
+        const PhaseExpressions& phase = derived.phases[k];
         if (!(phase.begin_value < final_time))
             break;
         const CloseLook span{phase.begin_value, std::min(phase.end_value, final_time)};
-        const ArrayXd times = ArrayXd::LinSpaced(time_samples, span.begin, span.end);
+        const ArrayXd times = located(solution.place(), "the solution",
+                                      [&] { return times_to_look_at(derived.derived[k], span); });
         ArrayXd sizes = ArrayXd::Zero(stress + 1);
         for (const double t : times)
             sizes = sizes.max(tape.at(grid, t, t == span.begin).abs().rowwise().maxCoeff());
@@ -235,13 +291,30 @@ std::vector<Residual> space_residuals(const AdmissibleSolution& solution, Therma
             result[i].beam = std::max(result[i].beam, here.beam);
         }
     }
-    finish(result, terms);
+    const bool heat_vanishes = derivatives_until_zero(derived, final_time, [](const auto& phase) {
+                                   return phase.theta_xx;
+                               }) <= 1;
+    const bool beam_vanishes =
+        beam.alpha == 0.0 || vanishes_in_all(derived, final_time, [](const DerivedPhase& phase) {
+            return phase.theta_xx;
+        });
+    finish(result, terms, heat_vanishes, beam_vanishes);
     return result;
 }
 
 TimeResiduals::TimeResiduals(const AdmissibleSolution& solution, std::vector<std::int64_t> steps)
     : beam_(solution.beam()), final_time_(solution.final_time()), steps_(std::move(steps)),
-      exact_(std::make_unique<PiecewiseTape>(rows(solution, false))), x_(sample_points(0.0, 1.0)) {
+      exact_(std::make_unique<PiecewiseTape>(rows(solution, false))),
+      heat_degree_(derivatives_until_zero(solution.derived(), final_time_,
+                                          [&](const DerivedPhase& phase) -> ex {
+                                              return phase.theta -
+                                                     exact_rational(beam_.alpha) * phase.u_xx;
+                                          })),
+      beam_degree_(beam_.zeta == 0.0
+                       ? 0
+                       : derivatives_until_zero(solution.derived(), final_time_,
+                                                [](const auto& phase) { return phase.u_xx; })),
+      x_(sample_points(0.0, 1.0)) {
     for (const std::int64_t count : steps_) {
         const bool among_finer = std::ranges::any_of(steps_, [&](std::int64_t finer) {
             return finer > count && has_levels_of(finer, count);
@@ -281,7 +354,7 @@ std::vector<Residual> TimeResiduals::of(const std::string& scheme) const {
         result.push_back(residual);
         terms.push_back(size);
     }
-    finish(result, terms);
+    finish(result, terms, heat_degree_ <= method.order + 1, beam_degree_ <= method.order + 1);
     return result;
 }
 

@@ -24,6 +24,10 @@ struct Residual {
     double beam = 0.0;                ///< of the beam equation, likewise
     std::optional<double> heat_order; ///< against the refinement before; none: first, or zero
     std::optional<double> beam_order;
+    /// False of a residual that is zero where it was looked at, and of which the formulas do not
+    /// say that it vanishes: something narrow in space or time may have been missed.
+    bool heat_is_known = true;
+    bool beam_is_known = true;
 };
 
 /// The refinements at which the residuals are shown, and their last orders expected.
@@ -36,7 +40,9 @@ inline constexpr std::array<std::int64_t, 4> shown_steps{64, 128, 256, 512};
 ///     M Iθ̃_t + K Iθ̃ − α (Πu_xxt, χ) − (f, χ)     in the norm (rᵀ M_l⁻¹ r)^½ of its L²
 ///     representative, Πu_xx + ζ Πu_xxt + α Iθ̃ + Πμ − σ̃(1,t) (1 − x),
 ///
-/// the largest over 17 times of each phase up to final_time and, ever closer, next to the largest.
+/// the largest over 17 times of each phase up to final_time, over those at which θ̃_xx and θ̃_xxt,
+/// which leave them, are largest, and, ever closer, next to the largest. They vanish where θ̃_xxt =
+/// 0 and where α θ̃_xx = 0.
 std::vector<Residual> space_residuals(const AdmissibleSolution& solution, ThermalMass mass,
                                       const std::vector<std::int64_t>& elements);
 
@@ -46,8 +52,10 @@ std::vector<Residual> space_residuals(const AdmissibleSolution& solution, Therma
 ///     e_i = Δt y_t(t_i)/leading_i + Σ_j weights_ij e_j,     τ = leading/Δt (e_last − (y_n −
 ///     y_{n−1})),
 ///
-/// the largest over all steps but those that the scheme leaves to its starter. The exact values are
-/// found once for all schemes, and those of a refinement among those of a finer one, halved.
+/// the largest over all steps but those that the scheme leaves to its starter. They vanish where
+/// θ̃ − α u_xx and ζ u_xx are polynomials in t, of no higher degree than the scheme's order. The
+/// exact values are found once for all schemes, and those of a refinement among those of a finer
+/// one, halved.
 class TimeResiduals {
 public:
     TimeResiduals(const AdmissibleSolution& solution, std::vector<std::int64_t> steps);
@@ -61,6 +69,8 @@ private:
     double final_time_;
     std::vector<std::int64_t> steps_;
     std::unique_ptr<const PiecewiseTape> exact_; ///< θ̃, u_xx and their rates
+    /// The least number of derivatives in t by which θ̃ − α u_xx, and ζ u_xx, vanish in every phase.
+    int heat_degree_, beam_degree_;
     Eigen::ArrayXd x_;
     /// exact_ at the levels of a number of steps; shape of each: points × 4.
     std::map<std::int64_t, std::vector<Eigen::ArrayXXd>> levels_;

@@ -1,7 +1,7 @@
 #include "mms/forecast/expected_orders.hpp"
 
 #include "mms/admissible/admissibility.hpp"
-#include "mms/admissible/sampled_rules.hpp"
+#include "mms/contact_history.hpp"
 #include "mms/expression/algebra.hpp"
 #include "mms/expression/piecewise_tape.hpp"
 #include "mms/expression/symbols.hpp"
@@ -96,11 +96,12 @@ void seek_farthest_tip(const DerivedSolution& derived, const Stops& stops, doubl
             farthest_at = t;
         }
     };
-    for (const PhaseExpressions& phase : derived.phases)
-        if (phase.begin_value < final_time)
-            for (const double t : ArrayXd::LinSpaced(time_points, phase.begin_value,
-                                                     std::min(phase.end_value, final_time)))
-                see(t);
+    for (std::size_t i = 0; i < phases_until(derived, final_time); ++i) {
+        const PhaseExpressions& phase = derived.phases[i];
+        for (const double t : telling_times(tape.of_phase(i), {0}, phase.begin_value,
+                                            std::min(phase.end_value, final_time)))
+            see(t);
+    }
     result.is_in_stops = farthest > nearest_to_stop * size;
     if (std::abs(farthest) <= nearest_to_stop * size)
         result.contact.touch = farthest_at;

@@ -57,21 +57,47 @@ std::string coverage_text(const std::vector<TermUse>& terms) {
            (untested.empty() ? "\nUntested: nothing.\n" : "\nUntested:\n" + untested);
 }
 
+/// Columns of the residuals of both equations and their orders; "?" of one that may be missed.
+class ResidualColumns {
+public:
+    void add(const Residual& row) {
+        add_size(heat_, row.heat, row.heat_is_known);
+        heat_order_.cells.push_back(fixed(row.heat_order, 2));
+        add_size(beam_, row.beam, row.beam_is_known);
+        beam_order_.cells.push_back(fixed(row.beam_order, 2));
+    }
+    [[nodiscard]] std::vector<Table::Column> columns() const {
+        return {heat_, heat_order_, beam_, beam_order_};
+    }
+    [[nodiscard]] bool misses_some() const { return misses_some_; }
+
+private:
+    void add_size(Table::Column& column, double size, bool is_known) {
+        misses_some_ = misses_some_ || !is_known;
+        column.cells.push_back(is_known ? scientific(size, 1) : "?");
+    }
+
+    Table::Column heat_{"heat", {}}, heat_order_{"ord.", {}};
+    Table::Column beam_{"beam", {}}, beam_order_{"ord.", {}};
+    bool misses_some_ = false;
+};
+
+std::string missed_text(bool misses_some) {
+    return misses_some ? wrapped("?: none where it was looked at, but by its formula it is not "
+                                 "zero: something narrow in x or t may be missed.")
+                       : "";
+}
+
 std::string space_table(const AdmissibleSolution& solution) {
     Table::Column s{"s", {}};
-    Table::Column heat{"heat", {}};
-    Table::Column heat_order{"ord.", {}};
-    Table::Column beam{"beam", {}};
-    Table::Column beam_order{"ord.", {}};
+    ResidualColumns residuals;
     for (const Residual& row : space_residuals(solution, ThermalMass::consistent,
                                                {shown_elements.begin(), shown_elements.end()})) {
         s.cells.push_back(std::to_string(row.count));
-        heat.cells.push_back(scientific(row.heat, 1));
-        heat_order.cells.push_back(fixed(row.heat_order, 2));
-        beam.cells.push_back(scientific(row.beam, 1));
-        beam_order.cells.push_back(fixed(row.beam_order, 2));
+        residuals.add(row);
     }
-    return text_table({"", {"", {s}}, {{"", {heat, heat_order, beam, beam_order}}}});
+    return text_table({"", {"", {s}}, {{"", residuals.columns()}}}) +
+           missed_text(residuals.misses_some());
 }
 
 /// What the ends of phases do to the residuals in time; empty without any before the final time.
@@ -93,20 +119,16 @@ std::string time_table(const AdmissibleSolution& solution) {
         dt.cells.push_back(shortest(solution.final_time() / static_cast<double>(count)));
     const TimeResiduals residuals(solution, steps);
     std::vector<Table::Group> groups;
+    bool misses_some = false;
     for (const auto& name : TimeScheme::names()) {
-        Table::Column heat{"heat", {}};
-        Table::Column heat_order{"ord.", {}};
-        Table::Column beam{"beam", {}};
-        Table::Column beam_order{"ord.", {}};
-        for (const Residual& row : residuals.of(name)) {
-            heat.cells.push_back(scientific(row.heat, 1));
-            heat_order.cells.push_back(fixed(row.heat_order, 2));
-            beam.cells.push_back(scientific(row.beam, 1));
-            beam_order.cells.push_back(fixed(row.beam_order, 2));
-        }
-        groups.push_back({name, {heat, heat_order, beam, beam_order}});
+        ResidualColumns columns;
+        for (const Residual& row : residuals.of(name))
+            columns.add(row);
+        misses_some = misses_some || columns.misses_some();
+        groups.push_back({name, columns.columns()});
     }
-    return text_table({"", {"", {dt}}, groups}) + phase_ends_text(solution);
+    return text_table({"", {"", {dt}}, groups}) + missed_text(misses_some) +
+           phase_ends_text(solution);
 }
 
 std::string orders_table(const ExpectedOrders& expected) {

@@ -33,10 +33,27 @@ const Solution& solution_of(const TableReader& table, const Scene& scene) {
     return *solution;
 }
 
-/// An equation, "heat" or "beam", and where its residual is looked at: "heat in space".
-std::vector<std::pair<std::string, std::optional<double>>> last_orders(const Residual& residual,
-                                                                       const std::string& where) {
-    return {{"heat in " + where, residual.heat_order}, {"beam in " + where, residual.beam_order}};
+/// What is left of an equation in space or in time.
+struct LeftOver {
+    std::string name; ///< "heat in space"
+    double size = 0.0;
+    std::optional<double> order; ///< the last one
+    bool is_known = true;        ///< Residual::heat_is_known
+
+    [[nodiscard]] bool is_none() const { return is_known && size == 0.0; }
+
+    /// "one of order 2.01"
+    [[nodiscard]] std::string words() const {
+        return !is_known     ? "none where it was looked at, which the formulas do not say of all"
+               : size == 0.0 ? "no residual"
+               : order       ? "one of order " + metric_text(*order)
+                             : "one of " + metric_text(size);
+    }
+};
+
+std::vector<LeftOver> left_over(const Residual& residual, const std::string& where) {
+    return {{"heat in " + where, residual.heat, residual.heat_order, residual.heat_is_known},
+            {"beam in " + where, residual.beam, residual.beam_order, residual.beam_is_known}};
 }
 
 /// What is derived of the solution of a scene, each part when it is first asked for.
@@ -109,9 +126,9 @@ public:
                 text += fmt::format("{} with {}: {}, {}\n", row.norm, time, size(row.in_h),
                                     size(row.in_dt));
         for (const auto& time : in_time_ ? TimeScheme::names() : std::vector<std::string>())
-            for (const auto& [equation, order] : last_orders(last_in_time(time), "time"))
-                text += fmt::format("{} with {}: {}\n", equation, time,
-                                    order ? metric_text(*order) : "none");
+            for (const LeftOver& left : left_over(last_in_time(time), "time"))
+                text += fmt::format("{} with {}: {}\n", left.name, time,
+                                    left.order ? metric_text(*left.order) : "none");
         return text;
     }
 
@@ -131,6 +148,14 @@ private:
     std::optional<TimeResiduals> in_time_;
     std::map<std::string, ErrorConstants> sizes_; ///< by time scheme
 };
+
+/// Those in space, and in time with that scheme.
+std::vector<LeftOver> all_left_over(DerivedParts& parts, const std::string& time) {
+    auto all = left_over(parts.last_in_space(), "space");
+    const auto in_time = left_over(parts.last_in_time(time), "time");
+    all.insert(all.end(), in_time.begin(), in_time.end());
+    return all;
+}
 
 /// One table of [expect.derive], what it says and where that goes.
 struct DerivedTable {
@@ -211,13 +236,12 @@ void expect_largest(const DerivedTable& of, const std::vector<TermUse>& terms) {
     });
 }
 
-CheckedExpectation no_residual(const std::string& what, const std::optional<double>& order,
-                               const Place& place) {
+CheckedExpectation no_residual(const std::string& what, const LeftOver& left, const Place& place) {
     return {.what = what,
             .expected = "no residual",
-            .found = order ? "one of order " + metric_text(*order) : "no residual",
+            .found = left.words(),
             .place = place,
-            .holds = !order};
+            .holds = left.is_none()};
 }
 
 /// exact: those that have none with any scheme; the band is of the others.
@@ -227,14 +251,14 @@ void expect_residual(const DerivedTable& of, const std::string& key, const std::
     const auto band = of.table.band(key);
     if (!band)
         return;
-    for (const auto& [equation, order] : last_orders(last(), where)) {
+    for (const LeftOver& left : left_over(last(), where)) {
         const std::string what = what_of(of.table, key);
-        if (std::ranges::find(exact, equation) == exact.end())
-            of.add(held({fmt::format("{}: last order of {}", what, equation), order,
-                         "none: the residual is zero"},
+        if (std::ranges::find(exact, left.name) == exact.end())
+            of.add(held({fmt::format("{}: last order of {}", what, left.name), left.order,
+                         left.is_none() ? "none: the residual is zero" : "none: " + left.words()},
                         band->lowest, band->highest, of.table.place(key)));
         else
-            of.add(no_residual(fmt::format("{}: {}", what, equation), order, of.table.place(key)));
+            of.add(no_residual(fmt::format("{}: {}", what, left.name), left, of.table.place(key)));
     }
 }
 
@@ -242,14 +266,12 @@ void expect_residual(const DerivedTable& of, const std::string& key, const std::
 /// in time with the scene's own scheme.
 void expect_residual_sizes(const DerivedTable& of, const std::string& time) {
     of.within("residual", [&](const DerivedTable& inner) {
-        const Residual in_space = of.parts.last_in_space();
-        const Residual in_time = of.parts.last_in_time(time);
-        for (const auto& [name, size] :
-             {std::pair("heat in space", in_space.heat), std::pair("beam in space", in_space.beam),
-              std::pair("heat in time", in_time.heat), std::pair("beam in time", in_time.beam)})
-            if (const auto band = inner.table.band(name))
-                inner.add(held({what_of(inner.table, name), size, ""}, band->lowest, band->highest,
-                               inner.table.place(name)));
+        for (const LeftOver& left : all_left_over(of.parts, time))
+            if (const auto band = inner.table.band(left.name))
+                inner.add(
+                    held({what_of(inner.table, left.name),
+                          left.is_known ? std::optional(left.size) : std::nullopt, left.words()},
+                         band->lowest, band->highest, inner.table.place(left.name)));
     });
 }
 
@@ -259,19 +281,16 @@ std::vector<std::string> expect_exact(const DerivedTable& of, const std::string&
     const auto wanted = of.table.texts(key);
     if (!wanted)
         return {};
-    auto orders = last_orders(of.parts.last_in_space(), "space");
-    const auto in_time = last_orders(of.parts.last_in_time(time), "time");
-    orders.insert(orders.end(), in_time.begin(), in_time.end());
+    const auto all = all_left_over(of.parts, time);
     for (std::size_t i = 0; i < wanted->size(); ++i) {
-        const auto found = std::ranges::find(orders, (*wanted)[i],
-                                             &std::pair<std::string, std::optional<double>>::first);
-        if (found == orders.end())
+        const auto found = std::ranges::find(all, (*wanted)[i], &LeftOver::name);
+        if (found == all.end())
             throw of.table.error(key,
                                  " holds '" + (*wanted)[i] +
                                      "'; it must be heat or beam, in space or in time: \"beam in "
                                      "time\"",
                                  i);
-        of.add(no_residual(what_of(of.table, key) + ": " + found->first, found->second,
+        of.add(no_residual(what_of(of.table, key) + ": " + found->name, *found,
                            of.table.place(key, i)));
     }
     return *wanted;

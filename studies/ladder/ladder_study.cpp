@@ -77,34 +77,43 @@ std::string why_not_predicted(const StudyResult& result, const Measure& norm) {
     return "its order in dt is not determined: " + fit.q.status;
 }
 
-/// Error over prediction of the two-term model, both of the norm itself, of every rung finer than
-/// the grid; or over where in the predicted interval it lies: 0 at its low end, 1 at its high one.
+/// Error over prediction, both of the norm itself; or where in the predicted interval the error
+/// lies: 0 at its low end, 1 at its high one.
+std::optional<double> against_prediction(std::optional<double> error,
+                                         const OrderInterval& predicted, bool squared,
+                                         bool in_interval) {
+    if (!error)
+        return std::nullopt;
+    if (in_interval)
+        return (*error - predicted.low) / (predicted.high - predicted.low);
+    return squared ? std::sqrt(*error / predicted.value) : *error / predicted.value;
+}
+
+/// Of every rung finer than the grid. The names are the same where the model does not hold: a
+/// defect that spoils it must not take the expectation away.
 std::vector<Metric> predicted_metrics(const Series& series, std::size_t k, bool in_interval,
                                       const StudyResult& result) {
     const LadderResult& ladder = *result.get<LadderResult>();
     const LadderNorm& norm = ladder.norms[k];
+    const auto* orders = result.get<OrdersResult>();
+    const bool predicts = !norm.predictions.empty();
+    const std::string why_not =
+        predicts ? "" : "no two-term model: " + why_not_predicted(result, norm.norm);
+    const std::string name = in_interval ? "place in the predicted interval"
+                                         : "ratio to the two-term model's prediction";
     std::vector<Metric> metrics;
-    for (std::size_t row = 0; row < norm.predictions.size(); ++row) {
+    for (std::size_t row = 0; orders != nullptr && row < ladder.rungs.size(); ++row) {
         const RungResult& run = ladder.rungs[row];
-        if (!beyond(run.rung, result.get<OrdersResult>()->runs))
+        if (!beyond(run.rung, orders->runs))
             continue;
-        const OrderInterval& predicted = norm.predictions[row];
-        auto ratio = error_of(run, k);
-        if (ratio && in_interval)
-            ratio = (*ratio - predicted.low) / (predicted.high - predicted.low);
-        else if (ratio)
-            ratio =
-                norm.norm.squared ? std::sqrt(*ratio / predicted.value) : *ratio / predicted.value;
-        metrics.push_back(row_metric(series, run, k,
-                                     in_interval ? "place in the predicted interval"
-                                                 : "ratio to the two-term model's prediction",
-                                     ratio));
+        const auto part = predicts ? against_prediction(error_of(run, k), norm.predictions[row],
+                                                        norm.norm.squared, in_interval)
+                                   : std::nullopt;
+        metrics.push_back(row_metric(series, run, k, name, part, why_not));
     }
     if (metrics.empty())
-        metrics.push_back({"ladder." + norm.norm.name + ": prediction", std::nullopt,
-                           norm.predictions.empty()
-                               ? "no two-term model: " + why_not_predicted(result, norm.norm)
-                               : "no level is finer than the grid of [orders]"});
+        metrics.push_back({"ladder." + norm.norm.name + ": " + name, std::nullopt,
+                           predicts ? "no level is finer than the grid of [orders]" : why_not});
     return metrics;
 }
 

@@ -62,7 +62,7 @@ public:
     std::optional<double> least(const std::string& expectation, const SensitivityBlock& block) {
         double before = 0.0;
         for (double factor = block.smallest;; factor = std::min(10.0 * factor, block.largest)) {
-            if (violated_at(factor).contains(expectation))
+            if (!held_at(factor).contains(expectation))
                 return before == 0.0 ? factor : between(before, factor, expectation);
             if (factor >= block.largest || interrupted_)
                 return std::nullopt;
@@ -74,21 +74,25 @@ private:
     double between(double below, double above, const std::string& expectation) {
         while (above > close_enough * below && !interrupted_) {
             const double middle = std::sqrt(below * above);
-            (violated_at(middle).contains(expectation) ? above : below) = middle;
+            (held_at(middle).contains(expectation) ? below : above) = middle;
         }
         return above;
     }
 
-    const std::set<std::string>& violated_at(double factor) {
-        const auto [at, is_new] = violated_.try_emplace(factor);
+    /// The expectations that are there and hold: one that a defect takes away does not.
+    const std::set<std::string>& held_at(double factor) {
+        const auto [at, is_new] = held_.try_emplace(factor);
         if (!is_new || interrupted_)
             return at->second;
         const StudyResult result =
             run_study(scene_, context_.data, context_.defects.with(defects_, factor), execution_);
         interrupted_ = result.interrupted();
-        for (const auto& one : check(result))
+        const auto checked = check(result);
+        for (const auto& one : checked)
+            at->second.insert(group_of(one));
+        for (const auto& one : checked)
             if (!one.holds)
-                at->second.insert(group_of(one));
+                at->second.erase(group_of(one));
         return at->second;
     }
 
@@ -97,7 +101,7 @@ private:
     const StudyContext& context_;
     Execution execution_;
     bool interrupted_ = false;
-    std::map<double, std::set<std::string>> violated_; ///< by factor
+    std::map<double, std::set<std::string>> held_; ///< by factor
 };
 
 } // namespace

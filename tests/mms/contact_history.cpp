@@ -113,4 +113,24 @@ BOOST_AUTO_TEST_CASE(a_term_that_is_nothing_over_its_phase_is_no_power) {
     BOOST_TEST((something.onsets[0].approach == 6));
 }
 
+// The pulse is far narrower than the times between which the tip is looked at, and comes from where
+// the tip is nearer to the other stop.
+BOOST_DATA_TEST_CASE(a_touch_by_a_narrow_pulse_is_said_to_be_one,
+                     data::make({"2e5", "1e6", "1e7", "1e9"}), narrow) {
+    const Beam beam{.alpha = 0.3, .zeta = 0.1, .theta_A = 0.0, .stops = {-0.1, 0.2}};
+    const AdmissibleSolution solution(
+        parse_solution(std::string("theta = 'sin(pi*x)*t'\nu = 'x^2*(3-x)*0.1*exp(-") + narrow +
+                           "*(t-0.123456)^2)'\n",
+                       "my.toml"),
+        beam, 1.0);
+    const ExpectedOrders expected = expected_orders(solution);
+    BOOST_REQUIRE(expected.contact.touch);
+    BOOST_TEST(std::abs(*expected.contact.touch - 0.123456) < 1e-6);
+    for (const std::string& reason : expected.reasons)
+        BOOST_TEST(!reason.starts_with("The tip never reaches a stop"), reason);
+    const ReachedStops reached = reached_stops(solution.derived(), beam.stops, 1.0);
+    BOOST_TEST(reached.upper);
+    BOOST_TEST(!reached.lower);
+}
+
 BOOST_AUTO_TEST_SUITE_END()

@@ -15,6 +15,7 @@
 #include <filesystem>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace data = boost::unit_test::data;
@@ -241,6 +242,36 @@ BOOST_DATA_TEST_CASE(space_residuals_have_order_two_or_vanish,
         return;
     BOOST_TEST(std::abs(finest.heat_order.value() - 2.0) < 0.03, *finest.heat_order);
     BOOST_TEST(std::abs(finest.beam_order.value() - 2.0) < 0.03, *finest.beam_order);
+}
+
+// The pulse stands between all times of equal distance; of 1e-7 it is narrower than anything that
+// is looked at, and the formulas alone say that it is there.
+BOOST_AUTO_TEST_CASE(the_residual_of_a_narrow_pulse_is_not_said_to_be_zero) {
+    const auto of = [](const std::string& shape, double alpha) {
+        const AdmissibleSolution solution(
+            parse_solution("theta = '" + shape + "'\nu = 'x^2*(3-x)*0.01'\n", "my.toml"),
+            {alpha, 0.1, 0.0, {}}, 1.0);
+        return std::pair(space_residuals(solution, ThermalMass::consistent, {32, 64}).back(),
+                         TimeResiduals(solution, {32, 64}).of("euler").back());
+    };
+    for (const std::string narrow : {"1e6", "3e6", "1e7"}) {
+        const auto [space, time] = of("sin(pi*x)*exp(-" + narrow + "*(t-0.3)^2)", 0.3);
+        BOOST_TEST(space.heat > 0.0, narrow);
+        BOOST_TEST(std::abs(space.heat_order.value_or(0.0) - 2.0) < 0.03, narrow);
+        BOOST_TEST(std::abs(space.beam_order.value_or(0.0) - 2.0) < 0.03, narrow);
+        BOOST_TEST((time.heat > 0.0 || !time.heat_is_known), narrow);
+        BOOST_TEST(time.beam == 0.0, narrow);
+        BOOST_TEST(time.beam_is_known, narrow);
+    }
+    const auto [space, time] = of("sin(pi*x)*exp(-(1e9*(t-0.4567))^2)", 0.3);
+    BOOST_TEST(!space.heat_is_known);
+    BOOST_TEST(!space.beam_is_known);
+    BOOST_TEST(!time.heat_is_known);
+    // Without coupling the beam does not see it; where it is linear in x neither does the mesh.
+    BOOST_TEST(of("sin(pi*x)*exp(-(1e9*(t-0.4567))^2)", 0.0).first.beam_is_known);
+    const Residual steady = of("sin(pi*x)", 0.3).first;
+    BOOST_TEST(steady.heat == 0.0);
+    BOOST_TEST(steady.heat_is_known);
 }
 
 BOOST_DATA_TEST_CASE(time_residuals_have_the_order_of_the_scheme,

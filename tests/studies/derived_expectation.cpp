@@ -218,6 +218,24 @@ BOOST_AUTO_TEST_CASE(what_cannot_be_claimed_is_refused_at_its_place) {
     said("time_residual = { rk4 = [3.9, 4.1] }", "unknown key");
 }
 
+// A pulse that stands between the times that are looked at is none the less there.
+BOOST_AUTO_TEST_CASE(no_pulse_is_claimed_to_be_exact) {
+    const auto of = [](const std::string& narrow, const std::string& exact) {
+        const TemporaryDirectory directory;
+        directory.write("pulse.toml", "theta = 'sin(pi*x)*exp(-" + narrow +
+                                          "*(t-0.3)^2)'\nu = 'x^2*(3-x)*0.01'\n");
+        const auto file = directory.write(
+            "s.toml", "solution = './pulse.toml'\n[beam]\nalpha = 0.3\nzeta = 0.1\n" + ladder +
+                          "[expect.derive]\nexact = ['" + exact + "']\n");
+        return check(run_study(read_scene(file, {}, {.expectations = true}))).front();
+    };
+    for (const std::string narrow : {"1e6", "3e6", "1e7"})
+        BOOST_TEST(of(narrow, "heat in space").found.starts_with("one of order "), narrow);
+    for (const std::string equation : {"heat in space", "heat in time"})
+        BOOST_TEST(of("1e20", equation).found.starts_with("none where it was looked at"), equation);
+    BOOST_TEST(of("1e20", "beam in time").holds);
+}
+
 BOOST_AUTO_TEST_CASE(nothing_is_derived_where_a_scene_runs_no_solution) {
     const std::string text = "expect.derive expects something of what is derived from a solution, "
                              "and the scene runs none";

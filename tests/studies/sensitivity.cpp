@@ -139,6 +139,38 @@ BOOST_AUTO_TEST_CASE(what_is_violated_without_a_defect_is_named_and_left_out) {
     BOOST_TEST(gate->holds, gate->found);
 }
 
+// The defect leaves the grid without a model, and with it the ratio to what the model predicts.
+BOOST_AUTO_TEST_CASE(a_defect_that_leaves_no_model_is_caught_by_what_the_model_predicts) {
+    const TemporaryDirectory directory;
+    directory.write("f8-solution.toml", "theta = \"sin(pi*x)*exp(t)*cos(3*t) + x*(1-x)*sin(5*t)\"\n"
+                                        "u = \"x^2*(sin(4*x)+ x^3)*cos(2*t)*0.001\"\n");
+    const std::string norms = "norms = [\"theta_L2L2\"]\n";
+    const Scene scene =
+        read_scene(directory.write("f8.toml", "solution = \"./f8-solution.toml\"\n"
+                                              "[beam]\nalpha = 0.7\nzeta = 0.3\n"
+                                              "[orders]\nfinal_time = 1.0\n"
+                                              "elements = [8, 16, 32, 64]\n"
+                                              "dt = [0.1, 0.05, 0.025, 0.0125]\n" +
+                                                  norms +
+                                                  "[ladder]\nfinal_time = 1.0\n"
+                                                  "elements = [8, 16, 32]\ndt = \"0.02/s\"\n" +
+                                                  norms +
+                                                  "[expect.ladder.theta_L2L2]\n"
+                                                  "predicted = [0.8, 1.25]\n"
+                                                  "predicted_place = [-9, 10]\n"
+                                                  "[sensitivity]\nrange = [1e-3, 1]\n"
+                                                  "[sensitivity.defect.a]\n"
+                                                  "heat_source = \"theta_t\"\n"),
+                   {}, {.expectations = true});
+    const StudyResult result = run_study(scene);
+    const auto& record = *result.get<SensitivityResult>();
+    BOOST_TEST(record.violated.empty());
+    BOOST_REQUIRE(record.expectations.size() == 2u);
+    BOOST_REQUIRE(record.defects.size() == 1u);
+    for (const auto& least : record.defects.front().least)
+        BOOST_TEST((least && *least <= 1.0));
+}
+
 BOOST_AUTO_TEST_CASE(a_block_that_cannot_be_is_refused_at_its_place) {
     const auto refusal = [](const std::string& text) {
         try {
