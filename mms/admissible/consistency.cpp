@@ -69,11 +69,19 @@ void finish(std::vector<Residual>& residuals, const std::vector<Sizes>& sizes, b
         const Residual& coarse = residuals[i - 1];
         const double ratio =
             std::log(static_cast<double>(fine.count) / static_cast<double>(coarse.count));
-        if (fine.heat > 0.0 && coarse.heat > 0.0)
-            fine.heat_order = std::log(coarse.heat / fine.heat) / ratio;
-        if (fine.beam > 0.0 && coarse.beam > 0.0)
-            fine.beam_order = std::log(coarse.beam / fine.beam) / ratio;
+        const auto order = [ratio](double before, double now) -> std::optional<double> {
+            const bool has_order = now > 0.0 && before > 0.0 && std::isfinite(before + now);
+            return has_order ? std::optional(std::log(before / now) / ratio) : std::nullopt;
+        };
+        fine.heat_order = order(coarse.heat, fine.heat);
+        fine.beam_order = order(coarse.beam, fine.beam);
     }
+}
+
+/// A norm of values whose squares may leave the range of doubles.
+double scaled_norm(const auto& values, const auto& norm) {
+    const double largest = values.abs().maxCoeff();
+    return largest > 0.0 && std::isfinite(largest) ? largest * norm(values / largest) : largest;
 }
 
 /// What the residuals of one mesh are made with.
@@ -116,8 +124,14 @@ Residual space_residual(const PiecewiseTape& tape, const Beam& beam, const MeshF
     balance.row(0) += at_nodes.head(s).transpose();
     balance.row(1) += at_nodes.tail(s).transpose();
     return {.count = s,
-            .heat = std::sqrt((residual.array().square() / forms.weights.array()).sum()),
-            .beam = std::sqrt(inner_product(mesh, balance, balance)),
+            .heat = scaled_norm(residual.array(),
+                                [&](const ArrayXd& one) {
+                                    return std::sqrt((one.square() / forms.weights.array()).sum());
+                                }),
+            .beam = scaled_norm(balance,
+                                [&](const DiscontinuousLinear& one) {
+                                    return std::sqrt(inner_product(mesh, one, one));
+                                }),
             .heat_order = std::nullopt,
             .beam_order = std::nullopt,
             .heat_is_known = true,
@@ -252,7 +266,7 @@ private:
 };
 
 double root_mean_square(const ArrayXd& values) {
-    return std::sqrt(values.square().mean());
+    return scaled_norm(values, [](const ArrayXd& one) { return std::sqrt(one.square().mean()); });
 }
 
 } // namespace

@@ -19,10 +19,11 @@ class PiecewiseTape;
 /// without a run, from which h and dt on a scheme sees the solution as smooth, and that f, G and m
 /// belong to it: the derivatives come from the solution, the loads from the derived problem.
 struct Residual {
-    std::int64_t count = 0;           ///< elements, or steps up to final_time
-    double heat = 0.0;                ///< of the heat equation, the largest L² norm over time
-    double beam = 0.0;                ///< of the beam equation, likewise
-    std::optional<double> heat_order; ///< against the refinement before; none: first, or zero
+    std::int64_t count = 0; ///< elements, or steps up to final_time
+    double heat = 0.0;      ///< of the heat equation, the largest L² norm over time
+    double beam = 0.0;      ///< of the beam equation, likewise
+    /// Against the refinement before; none: the first, zero, or beyond the range of doubles.
+    std::optional<double> heat_order;
     std::optional<double> beam_order;
     /// False of a residual that is zero where it was looked at, and of which the formulas do not
     /// say that it vanishes: something narrow in space or time may have been missed.

@@ -61,6 +61,7 @@ struct Squares {
     std::array<ArrayXd, quantity_count> values;
     std::array<double, quantity_count> orders{};
     ArrayXd curvature = {}; ///< ∫ w_xx²
+    double unit = 1.0;      ///< of the errors that these are the squares of
 
     ArrayXd& of(Quantity quantity) { return values[static_cast<std::size_t>(quantity)]; }
     double& order(Quantity quantity) { return orders[static_cast<std::size_t>(quantity)]; }
@@ -106,6 +107,9 @@ public:
         const ArrayXd multiples = places * golden_ratio;
         peaks_ = sizes(tape_.evaluate(multiples - multiples.floor(), places * (final_time / count)),
                        0.0);
+        if (const double most = peaks_.maxCoeff(); most > 0.0)
+            unit_ = std::ldexp(1.0, std::ilogb(most));
+        peaks_ /= unit_;
     }
 
     /// Of each method.
@@ -129,6 +133,7 @@ public:
         for (std::size_t k = 0; k < methods.size(); ++k) {
             all.push_back({in_space(errors[2 * k], t), in_time(errors[2 * k + 1], t)});
             all.back().time.orders.fill(TimeScheme::named(methods[k].time_scheme).order);
+            all.back().space.unit = all.back().time.unit = unit_;
         }
         add_interpolation(all, errors, t, modes);
         return all;
@@ -145,7 +150,8 @@ public:
         for (const double time : ArrayXd::LinSpaced(across, 0.0, final_time_))
             seen = seen.max(sizes(at(x, time), infinity));
         for (const double place : ArrayXd::LinSpaced(across, 0.0, 1.0))
-            seen = seen.max(sizes(tape_.evaluate(ArrayXd::Constant(1, place), t), infinity));
+            seen =
+                seen.max(sizes(tape_.evaluate(ArrayXd::Constant(1, place), t) / unit_, infinity));
         return peaks_ > far * seen;
     }
 
@@ -162,6 +168,12 @@ public:
     /// Whether bending has an error of the order of that of heat.
     [[nodiscard]] bool is_coupled() const { return coupled_; }
 
+    /// Whether the beam's numbers take errors of the size one beyond the squares of doubles.
+    [[nodiscard]] bool is_beyond_doubles() const {
+        constexpr double largest = 1e70; // of what is squared twice, by the coupling and the norm
+        return std::max(std::abs(beam_.alpha), beam_.zeta) > largest;
+    }
+
     [[nodiscard]] bool is_hardly_viscous() const {
         return beam_.zeta > 0.0 && beam_.zeta < least_viscosity * final_time_;
     }
@@ -173,7 +185,7 @@ private:
     }
 
     [[nodiscard]] ArrayXXd at(const ArrayXd& x, double t) const {
-        return tape_.evaluate(x, ArrayXd::Constant(1, t));
+        return tape_.evaluate(x, ArrayXd::Constant(1, t)) / unit_;
     }
 
     [[nodiscard]] Eigen::Array2Xd truncated_in_time(const std::string& scheme,
@@ -280,6 +292,9 @@ private:
     bool held_;
     bool coupled_;
     double final_time_;
+    /// A power of 2 near the greatest size of the derivatives, in which all is computed: the errors
+    /// are linear in them, and their squares could leave the range of doubles.
+    double unit_ = 1.0;
     ArrayXd peaks_; ///< of each derivative the greatest size on scattered points
 };
 
@@ -303,7 +318,7 @@ LeadingTerm leading_term(const Norm& norm, double order, const Squares& squares)
             if (part.quantities[q] && squares.orders[q] == order)
                 values += squares.values[q];
         if (part.kind == TimeNorm::Kind::Linf && norm.parts.size() == 1) {
-            const ArrayXd roots = values.sqrt();
+            const ArrayXd roots = squares.unit * values.sqrt();
             return {order, roots.maxCoeff(), {roots.begin(), roots.end()}, squares.t(1)};
         }
         if (part.kind == TimeNorm::Kind::Linf)
@@ -311,7 +326,7 @@ LeadingTerm leading_term(const Norm& norm, double order, const Squares& squares)
         else
             sum += squares.t(1) * (values.sum() - (values(0) + values.tail(1)(0)) / 2.0);
     }
-    return {order, std::sqrt(sum)};
+    return {order, squares.unit * std::sqrt(sum)};
 }
 
 std::string why_not(const ExpectedOrders& expected, const DerivedSolution& derived,
@@ -382,6 +397,7 @@ double shown_below(const Norm& norm, const Squares& squares, double a) {
     const auto quantity = slope ? Quantity::u_x : Quantity::u;
     for (auto& values : own.values)
         values = ArrayXd::Zero(squares.t.size());
+    own.unit = squares.unit;
     own.of(quantity) = squares.curvature / (slope ? 30240.0 : 362880.0);
     own.order(quantity) = slope ? 3.0 : 4.0;
     const double constant = leading_term(norm, own.order(quantity), own).constant;
@@ -432,9 +448,16 @@ std::vector<NormConstants> constants_of(const Squared& squared, const Forecaster
         const auto add = [&](std::optional<LeadingTerm>& term, double of, const Squares& squares) {
             if (const auto t = first_without_number(norm, of, squares))
                 constants.unknown =
-                    "at t = " + number_text(*t) + " a derivative of the solution has no value";
+                    "at t = " + number_text(*t) +
+                    (forecaster.is_beyond_doubles() ? " it, or its square, is beyond the range of "
+                                                      "doubles"
+                                                    : " a derivative of the solution has no value");
             else
                 term = leading_term(norm, of, squares);
+            if (term && !std::isfinite(term->constant)) {
+                constants.unknown = "it is beyond the range of doubles";
+                term.reset();
+            }
             if (term && !(term->constant * term->constant >= least_square)) {
                 constants.unknown = "its square is below what a double holds, or no sample meets "
                                     "what it comes from";

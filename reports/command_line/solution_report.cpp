@@ -70,22 +70,27 @@ public:
         return {heat_, heat_order_, beam_, beam_order_};
     }
     [[nodiscard]] bool misses_some() const { return misses_some_; }
+    [[nodiscard]] bool overflows() const { return overflows_; }
 
 private:
     void add_size(Table::Column& column, double size, bool is_known) {
         misses_some_ = misses_some_ || !is_known;
+        overflows_ = overflows_ || std::isinf(size);
         column.cells.push_back(is_known ? scientific(size, 1) : "?");
     }
 
     Table::Column heat_{"heat", {}}, heat_order_{"ord.", {}};
     Table::Column beam_{"beam", {}}, beam_order_{"ord.", {}};
     bool misses_some_ = false;
+    bool overflows_ = false;
 };
 
-std::string missed_text(bool misses_some) {
-    return misses_some ? wrapped("?: none where it was looked at, but by its formula it is not "
-                                 "zero: something narrow in x or t may be missed.")
-                       : "";
+/// What the signs among them mean.
+std::string signs_text(bool misses_some, bool overflows) {
+    return (misses_some ? wrapped("?: none where it was looked at, but by its formula it is not "
+                                  "zero: something narrow in x or t may be missed.")
+                        : "") +
+           (overflows ? wrapped("inf: beyond the range of doubles.") : "");
 }
 
 std::string space_table(const AdmissibleSolution& solution) {
@@ -97,7 +102,7 @@ std::string space_table(const AdmissibleSolution& solution) {
         residuals.add(row);
     }
     return text_table({"", {"", {s}}, {{"", residuals.columns()}}}) +
-           missed_text(residuals.misses_some());
+           signs_text(residuals.misses_some(), residuals.overflows());
 }
 
 /// What the ends of phases do to the residuals in time; empty without any before the final time.
@@ -120,14 +125,16 @@ std::string time_table(const AdmissibleSolution& solution) {
     const TimeResiduals residuals(solution, steps);
     std::vector<Table::Group> groups;
     bool misses_some = false;
+    bool overflows = false;
     for (const auto& name : TimeScheme::names()) {
         ResidualColumns columns;
         for (const Residual& row : residuals.of(name))
             columns.add(row);
         misses_some = misses_some || columns.misses_some();
+        overflows = overflows || columns.overflows();
         groups.push_back({name, columns.columns()});
     }
-    return text_table({"", {"", {dt}}, groups}) + missed_text(misses_some) +
+    return text_table({"", {"", {dt}}, groups}) + signs_text(misses_some, overflows) +
            phase_ends_text(solution);
 }
 

@@ -19,7 +19,7 @@ std::string order_text(const OrderInterval& order) {
 }
 
 /// "0.17(3)" for 0.168 ± 0.025, "1.7(3)e-5": the last digit is known to ± what stands in brackets,
-/// rounded up. Nothing where the interval reaches to twice the size or to none.
+/// rounded up. Nothing where the interval, rounded so, reaches to twice the size or to none.
 std::string size_text(double size, double uncertainty) {
     if (!(uncertainty < 1))
         return "";
@@ -31,8 +31,8 @@ std::string size_text(double size, double uncertainty) {
         ++digit;
     }
     const double leading = std::floor(std::log10(size));
-    if (digit > leading)
-        return ""; // rounded up it is as much
+    if (times >= std::round(size / std::pow(10.0, digit)))
+        return "";
     if (leading >= -4 && leading <= 4 && digit <= 0)
         return fmt::format("{:.{}f}({:.0f})", size, static_cast<int>(-digit), times);
     return fmt::format("{:.{}f}({:.0f})e{:.0f}", size / std::pow(10.0, leading),

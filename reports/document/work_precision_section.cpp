@@ -160,8 +160,19 @@ Table costs_table(const NormCosts& costs, const WorkPrecisionBlock& block) {
     return {"Seconds to reach an error of " + costs.norm.name + ", by scheme.", key, groups};
 }
 
+/// Of a scheme whose time to reach an error is of a row above it: that it counts, and why.
+std::string nearly_reached(const WorkPrecisionResult& result, const WorkPrecisionBlock& block,
+                           std::size_t scheme, std::size_t norm, double error) {
+    for (const RungResult& run : result.schemes[scheme].runs)
+        if (!run.errors.empty() && run.errors.at(norm) <= error)
+            return "";
+    return fmt::format("; {} comes within {:g} % of it, no nearer", block.schemes[scheme].name,
+                       100.0 * same_error);
+}
+
+/// nearly: nearly_reached of both.
 Finding comparison(const SchemeComparison& pair, const ReachedError& error,
-                   const WorkPrecisionBlock& block) {
+                   const WorkPrecisionBlock& block, const std::string& nearly) {
     const std::string& faster = block.schemes[pair.faster].name;
     const std::string& slower = block.schemes[pair.slower].name;
     const bool once = error.times[pair.faster]->runs == 1 || error.times[pair.slower]->runs == 1;
@@ -178,12 +189,13 @@ Finding comparison(const SchemeComparison& pair, const ReachedError& error,
             ? "(of one run)"
             : fmt::format("({} {}{})", once ? "of one run:" : "quartiles", range, clock);
     const std::string ratio = ratio_text(pair.times.ratio);
-    return {pair.times.distinguishable
-                ? fmt::format("{} is {} times faster than {} {}", faster, ratio, slower, spread)
-                : fmt::format("{} and {} are equally fast, {}: ratio {} {}", faster, slower,
-                              !once && pair.times.lowest > 1.0 ? "but for less than a fifth"
-                                                               : "as far as can be told",
-                              ratio, spread),
+    return {(pair.times.distinguishable
+                 ? fmt::format("{} is {} times faster than {} {}", faster, ratio, slower, spread)
+                 : fmt::format("{} and {} are equally fast, {}: ratio {} {}", faster, slower,
+                               !once && pair.times.lowest > 1.0 ? "but for less than a fifth"
+                                                                : "as far as can be told",
+                               ratio, spread)) +
+                nearly,
             4};
 }
 
@@ -261,18 +273,22 @@ std::vector<Block> comparisons(const ReachedError& error, const WorkPrecisionRes
                                std::size_t norm, const WorkPrecisionBlock& block) {
     std::vector<Block> findings{Finding{
         fmt::format("To reach {} = {}:", result.norms[norm].norm.name, shortest(error.error))}};
+    const auto nearly = [&](std::size_t scheme) {
+        return nearly_reached(result, block, scheme, norm, error.error);
+    };
     constexpr std::size_t most_pairs = 15;
     const bool all = error.comparisons.size() <= most_pairs;
     const std::size_t fastest = fastest_of(error);
     for (const auto& pair : error.comparisons)
         if (all || pair.faster == fastest || pair.slower == fastest)
-            findings.emplace_back(comparison(pair, error, block));
+            findings.emplace_back(
+                comparison(pair, error, block, nearly(pair.faster) + nearly(pair.slower)));
     if (!all)
         findings.emplace_back(Finding{"the table has the others' times", 4});
     for (std::size_t k = 0; k < block.schemes.size(); ++k)
         if (error.times[k] && error.comparisons.empty())
             findings.emplace_back(
-                Finding{block.schemes[k].name + " alone has a time to reach it", 4});
+                Finding{block.schemes[k].name + " alone has a time to reach it" + nearly(k), 4});
     std::vector<std::string> without;
     for (std::size_t k = 0; k < block.schemes.size(); ++k)
         if (!error.times[k])

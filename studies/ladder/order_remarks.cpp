@@ -48,8 +48,12 @@ struct Observed {
     double order; ///< of the norm itself
 };
 
+std::string of_square(const Measure& norm, const std::string& order) {
+    return norm.squared ? " (the square of order " + order + ")" : "";
+}
+
 std::string of_square(const Measure& norm, double order) {
-    return norm.squared ? " (the square of order " + order_text(order) + ")" : "";
+    return of_square(norm, order_text(order));
 }
 
 /// Orders within this of each other are one.
@@ -184,10 +188,12 @@ std::string from_pairs(const Measure& norm, std::span<const Refinement> roots,
         return std::abs(at.order - first) > steady;
     });
     const auto [lowest, highest] = std::minmax_element(known.begin(), leaves, less);
-    std::string text = norm.name + ": order " + order_text(power * lowest->order);
-    if (highest->order - lowest->order >= 0.005)
-        text += " to " + order_text(power * highest->order);
-    text += of_square(norm, first) + " up to " + rung_name(roots, roots[(leaves - 1)->rung]);
+    const auto range = [&, low = lowest->order, high = highest->order](double times) {
+        return order_text(times * low) +
+               (high - low >= 0.005 ? " to " + order_text(times * high) : "");
+    };
+    std::string text = norm.name + ": order " + range(power) + of_square(norm, range(1.0)) +
+                       " up to " + rung_name(roots, roots[(leaves - 1)->rung]);
     if (leaves == known.end())
         return text + ".";
     return text + departure(norm, roots, {known.begin(), leaves, known.end()}, explained);

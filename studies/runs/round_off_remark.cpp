@@ -27,6 +27,15 @@ constexpr double within = 10.0;
 /// Of the norm of the solution: no discretisation error is told from rounding below it.
 constexpr double round_off = 16.0 * std::numeric_limits<double>::epsilon();
 
+/// Of values at the nodes, in L²; of what is so large, or so small, that doubles have no square of
+/// it, too.
+double norm_of(const Mesh& mesh, const Eigen::ArrayXd& values) {
+    const double largest = values.abs().maxCoeff();
+    return largest > 0.0 && std::isfinite(largest)
+               ? largest * std::sqrt(squared_norm(mesh, (values / largest).matrix()))
+               : largest;
+}
+
 /// The norm of the exact solution, that of its contact stress apart, from its greatest values over
 /// some times.
 double size_of_exact(const ProblemData& data, const Norm& norm, double final_time) {
@@ -37,17 +46,17 @@ double size_of_exact(const ProblemData& data, const Norm& norm, double final_tim
     for (const TimeNorm& part : norm.parts) {
         double greatest = 0.0;
         for (int n = 0; n <= times; ++n) {
-            double squares = 0.0;
+            double size = 0.0;
             for (std::size_t k = 0; k < fields.size(); ++k)
                 if (part.quantities[k])
-                    squares += squared_norm(
-                        mesh,
-                        values(data, *fields[k], mesh.nodes, final_time * n / times).matrix());
-            greatest = std::max(greatest, squares);
+                    size = std::hypot(size, norm_of(mesh, values(data, *fields[k], mesh.nodes,
+                                                                 final_time * n / times)));
+            greatest = std::max(greatest, size);
         }
-        sum += part.kind == TimeNorm::Kind::L2 ? final_time * greatest : greatest;
+        sum = std::hypot(sum, part.kind == TimeNorm::Kind::L2 ? std::sqrt(final_time) * greatest
+                                                              : greatest);
     }
-    return std::sqrt(sum);
+    return sum;
 }
 
 /// The greatest of a field over some times, in the norm of L².
@@ -56,10 +65,9 @@ double greatest_of(const ProblemData& data, const Field& field, double final_tim
     constexpr int times = 16;
     double greatest = 0.0;
     for (int n = 0; n <= times; ++n)
-        greatest = std::max(
-            greatest,
-            squared_norm(mesh, values(data, field, mesh.nodes, final_time * n / times).matrix()));
-    return std::sqrt(greatest);
+        greatest = std::max(greatest,
+                            norm_of(mesh, values(data, field, mesh.nodes, final_time * n / times)));
+    return greatest;
 }
 
 /// The greatest contact stress over some times.
@@ -84,7 +92,8 @@ Scale scale_of(const Beam& beam, const ProblemData& data, const Norm& norm, doub
     const bool sums_up = std::ranges::any_of(
         norm.parts, [](const TimeNorm& part) { return part.kind == TimeNorm::Kind::L2; });
     const double duration = sums_up ? std::max(1.0, std::sqrt(final_time)) : 1.0;
-    double size = size_of_exact(data, norm, final_time);
+    const double own = size_of_exact(data, norm, final_time);
+    double size = own;
     if (has(tvbeam::Quantity::stress))
         size = std::max({size, duration * greatest_stress(data, final_time),
                          duration * greatest_of(data, data.moment_load, final_time),
@@ -95,6 +104,8 @@ Scale scale_of(const Beam& beam, const ProblemData& data, const Norm& norm, doub
     else
         size = std::max(size, std::abs(beam.alpha) * duration *
                                   greatest_of(data, data.exact->theta, final_time));
+    if (size > own)
+        return {size, fmt::format("of {:.2g}, which comes from terms of {:.2g}", own, size)};
     if (size > 0.0)
         return {size, fmt::format("of {:.2g}", size)};
     const double sources = std::max(greatest_of(data, data.heat_source, final_time),
@@ -178,7 +189,8 @@ std::optional<RoundingErrors> rounding_errors(const Scene& scene, const ProblemD
             greatest = worse(greatest, error);
             most = std::max(most, below);
         }
-    if (!(greatest > 0.0 && is_below))
+    // Beside a scale beyond the range of doubles everything would be small.
+    if (!(greatest > 0.0 && is_below && std::isfinite(scale.size)))
         return std::nullopt;
     const auto said = [&](const std::string& what, const std::string& follows, bool is_certain) {
         return RoundingErrors{

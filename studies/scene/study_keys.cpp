@@ -152,7 +152,8 @@ std::int64_t steps_of(const TableReader& table, std::size_t index, double final_
     const double steps = std::max(1.0, std::round(ratio));
     if (!(steps <= most_steps))
         throw InputError(place, table.full("dt") + " is " + message_text(dt) + ", which makes " +
-                                    message_text(ratio) + " steps; at most 1e12 are possible");
+                                    (std::isfinite(ratio) ? message_text(ratio) : "over 1e308") +
+                                    " steps; at most 1e12 are possible");
     if (std::abs(ratio - steps) > 1e-9 * steps)
         throw InputError(place, table.full("dt") + " is " + message_text(dt) + "; it must divide " +
                                     "final_time = " + message_text(final_time) +

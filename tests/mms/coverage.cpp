@@ -274,6 +274,21 @@ BOOST_AUTO_TEST_CASE(the_residual_of_a_narrow_pulse_is_not_said_to_be_zero) {
     BOOST_TEST(steady.heat_is_known);
 }
 
+// Of 1e191 the square is beyond the range of doubles; of 1e305 terms of the residual are, too.
+BOOST_AUTO_TEST_CASE(residuals_whose_squares_overflow_have_a_size_and_none_has_the_order_nan) {
+    const auto of = [](double alpha) {
+        return space_residuals({parse_solution("theta = 'x*(1-x)*exp(3*x)'\nu = '0'\n", "my.toml"),
+                                {alpha, 0.3, 0.0, {}},
+                                100.0},
+                               ThermalMass::consistent, {32, 64})
+            .back();
+    };
+    const Residual large = of(1e191);
+    BOOST_TEST(large.beam == 1e191 * of(1.0).beam, boost::test_tools::tolerance(1e-6));
+    BOOST_TEST(std::abs(large.beam_order.value_or(0.0) - 2.0) < 0.03);
+    BOOST_TEST(!std::isnan(of(1e305).beam_order.value_or(0.0)));
+}
+
 BOOST_DATA_TEST_CASE(time_residuals_have_the_order_of_the_scheme,
                      data::make(smooth()) * data::make(TimeScheme::names()), name, scheme) {
     const Solution solution = shipped_solution(name);

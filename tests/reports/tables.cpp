@@ -4,6 +4,7 @@
 #include "reports/command_line/check_report.hpp"
 #include "reports/document/html_text.hpp"
 #include "reports/document/json_text.hpp"
+#include "reports/document/orders_section.hpp"
 #include "reports/document/problem_formulas.hpp"
 #include "reports/document/raised_text.hpp"
 #include "reports/document/result_document.hpp"
@@ -387,6 +388,22 @@ BOOST_AUTO_TEST_CASE(the_formulas_of_a_problem_are_its_texts_and_what_is_derived
                            "body_force = 'x'\n",
                            "") == data,
                boost::test_tools::per_element());
+}
+
+// 0.343 ± 0.324 rounded would be 0.3 ± 0.4: a size that may be zero.
+BOOST_AUTO_TEST_CASE(no_size_is_printed_whose_brackets_reach_past_zero) {
+    const auto size = [](double value, double half) {
+        TwoTermFit fit;
+        fit.model.a = value;
+        fit.a_uncertainty = half / value;
+        fit.p.determined = true;
+        return fit_table({{"theta_L2L2", &fit}}, 1).groups.at(0).columns.at(2).cells.at(0);
+    };
+    BOOST_TEST(size(0.343, 0.324).empty(), size(0.343, 0.324));
+    BOOST_TEST(size(0.343, 0.3).empty(), size(0.343, 0.3));
+    BOOST_TEST(size(0.343, 0.19) == "0.3(2)");
+    BOOST_TEST(size(0.168, 0.025) == "0.17(3)");
+    BOOST_TEST(size(1.68e-5, 0.25e-5) == "1.7(3)e-5");
 }
 
 BOOST_AUTO_TEST_CASE(every_norm_has_words_and_no_two_the_same) {

@@ -179,6 +179,18 @@ BOOST_AUTO_TEST_CASE(of_a_scheme_without_a_time_the_reason_is_the_one_there_is) 
 }
 
 // Seven have 21 pairs, of which six are of the fastest; the first of all reaches nothing.
+// 1.0077e-3 is no nearer to 1e-3 than 1 %: its time counts, and the sentence says so.
+BOOST_AUTO_TEST_CASE(a_scheme_that_stays_above_an_error_is_not_said_to_reach_it) {
+    Study close = study({"theta_L2L2"});
+    close.add("euler", {{4e-3, 1e-3}, {1.0077e-3, 5e-3}});
+    close.add("sd", {{4e-3, 5e-4}, {5e-4, 2e-3}});
+    close.block.targets["theta_L2L2"] = {1e-3};
+    const std::string text = close.text();
+    BOOST_TEST(has(text, "sd is 4.0 times faster than euler"), text);
+    BOOST_TEST(has(text, "; euler comes within 1 %\n    of it, no nearer"), text);
+    BOOST_TEST(!has(text, "sd comes within"), text);
+}
+
 BOOST_AUTO_TEST_CASE(of_many_the_fastest_is_compared_with_each) {
     Study many = study({"theta_L2L2"});
     many.add("coarse", {{1.0, 1.0}, {1e-1, 2.0}});

@@ -4,6 +4,7 @@
 
 #include "core/run.hpp"
 #include "mms/manufactured_problem.hpp"
+#include "mms/solution.hpp"
 #include "mms/text/input_error.hpp"
 #include "studies/gates/check.hpp"
 #include "studies/orders/known_orders.hpp"
@@ -389,6 +390,38 @@ BOOST_AUTO_TEST_CASE(the_order_that_the_coupling_brings_shows_below_the_beam_s_o
 }
 
 // The gate of [orders] sees a defect of the scheme's own order, and says where nothing is forecast.
+// The sizes are linear in the solution, whose squares are beyond the range of doubles here.
+BOOST_AUTO_TEST_CASE(sizes_of_a_solution_whose_square_overflows_are_those_of_a_smaller_one) {
+    const auto of = [](const std::string& factor) {
+        const AdmissibleSolution solution(
+            parse_solution("theta = '" + factor + "*sin(pi*x)'\nu = '0'\n", "my.toml"),
+            {0.1, 0.3, 0.0, {}}, 1.0);
+        return error_constants(expected_orders(solution), solution, {{"euler"}}).front();
+    };
+    const ErrorConstants small = of("1");
+    for (const std::string factor : {"1e154", "1e155"}) {
+        const ErrorConstants large = of(factor);
+        BOOST_REQUIRE(large.norms.size() == small.norms.size());
+        for (std::size_t k = 0; k < small.norms.size(); ++k) {
+            BOOST_TEST_INFO(small.norms[k].norm);
+            BOOST_TEST(large.norms[k].unknown == small.norms[k].unknown);
+            BOOST_REQUIRE(large.norms[k].in_h.has_value() == small.norms[k].in_h.has_value());
+            if (small.norms[k].in_h)
+                BOOST_TEST(large.norms[k].in_h->constant ==
+                               small.norms[k].in_h->constant * std::stod(factor),
+                           boost::test_tools::tolerance(1e-9));
+        }
+    }
+    // With this alpha the error of u_xx is as large itself.
+    const AdmissibleSolution strong(
+        parse_solution("theta = 'x*(1-x)*exp(3*x)'\nu = '0'\n", "my.toml"), {1e191, 0.3, 0.0, {}},
+        1.0);
+    const ErrorConstants beyond =
+        error_constants(expected_orders(strong), strong, {{"euler"}}).front();
+    BOOST_TEST(beyond.of("u_L2H2")->unknown.ends_with("is beyond the range of doubles"),
+               beyond.of("u_L2H2")->unknown);
+}
+
 BOOST_AUTO_TEST_CASE(gates_catch_a_defect_of_the_scheme_s_own_order) {
     const TemporaryDirectory directory;
     const auto found = [&](const std::string& scene, const std::vector<std::string>& overrides) {

@@ -5,6 +5,7 @@
 #include "studies/runs/beam_runs.hpp"
 #include "studies/runs/round_off_remark.hpp"
 #include "studies/scene/scene.hpp"
+#include "studies/study.hpp"
 #include "tests/temporary_directory.hpp"
 
 #include <boost/test/data/monomorphic.hpp>
@@ -347,6 +348,50 @@ BOOST_AUTO_TEST_CASE(a_scheme_that_may_be_exact_is_not_said_to_be_not) {
             BOOST_TEST(denied == (scheme == "bdf2" || !in_pieces),
                        scheme << ", " << behind << ": " << said);
         }
+}
+
+// The square of 1e155 is beyond the range of doubles, and no error is small beside infinity.
+BOOST_AUTO_TEST_CASE(what_is_as_large_as_the_square_root_of_doubles_is_no_rounding) {
+    const TemporaryDirectory directory;
+    directory.write("large.toml", "theta = '1e155*sin(pi*x)'\nu = '0'\n");
+    const StudyResult result = run_study(read_scene(
+        directory.write("s.toml",
+                        "solution = './large.toml'\n[beam]\nalpha = 0.1\nzeta = 0.3\n"
+                        "[ladder]\nfinal_time = 1.0\nelements = [2, 4, 8, 16]\n"
+                        "dt = '1/s'\nnorms = ['theta_L2L2', 'theta_LinfL2', 'theta_L2H1']\n"),
+        {}));
+    for (const auto& norm : result.get<LadderResult>()->norms)
+        for (const auto& remark : norm.remarks)
+            BOOST_TEST(remark.find("rounding") == std::string::npos, remark);
+}
+
+// alpha u_xx is 60000 times as large as the temperature; what is measured is the latter.
+BOOST_AUTO_TEST_CASE(rounding_is_said_to_be_of_the_norm_that_is_measured) {
+    const TemporaryDirectory directory;
+    directory.write("linear.toml", "theta = 'theta_A*(1-x)'\nu = '0.01*x^3*t'\n");
+    const StudyResult result = run_study(
+        read_scene(directory.write("s.toml", "solution = './linear.toml'\n[beam]\nalpha = 1e6\n"
+                                             "zeta = 0.1\ntheta_A = 1\n[mesh]\ngrading = 3\n"
+                                             "[ladder]\nfinal_time = 1.0\n"
+                                             "elements = [8, 16, 32, 64]\ndt = '0.1'\n"
+                                             "norms = ['theta_L2L2']\n"),
+                   {}));
+    const auto& remarks = result.get<LadderResult>()->norms[0].remarks;
+    BOOST_REQUIRE(!remarks.empty());
+    BOOST_TEST(remarks[0].find(" at most of 0.58, which comes from terms of 3.5e+04: ") !=
+                   std::string::npos,
+               remarks[0]);
+}
+
+BOOST_AUTO_TEST_CASE(a_range_of_orders_of_a_square_has_the_range_of_the_root) {
+    std::vector<Refinement> roots{{.h = 0.125, .error = 1.0}};
+    for (const double order : {0.86, 0.83, 0.93, 1.0})
+        roots.push_back({.h = roots.back().h / 2, .error = roots.back().error * std::exp2(-order)});
+    const auto remarks = order_remarks(measure_of(*Norm::named("u_LinfH2_sq")), roots, nullptr);
+    BOOST_REQUIRE(!remarks.empty());
+    BOOST_TEST(remarks[0].find("order 1.66 to 2.00 (the square of order 0.83 to 1.00)") !=
+                   std::string::npos,
+               remarks[0]);
 }
 
 BOOST_AUTO_TEST_SUITE_END()
