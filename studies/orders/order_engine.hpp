@@ -25,15 +25,15 @@
 /// that is wide the order is not determined, nor where it still moves (order_motion.hpp), is steep
 /// and seen at two levels alone, or stands beside a constant that its few levels do not tell from
 /// it, or where, of exact errors at the finest of all other widths, it turns or moves ever more
-/// from level to level (OrderMotion::leaves); the status says why. Where scatter, or a width of three levels, leaves open whether there is
-/// a logarithm or a next term half an order on, the interval reaches its order; and that which the
-/// orders of a sequence's levels go to, where they slow down less than by half an order. In a width
-/// of three levels models with next terms do not count whose term in another width stands still.
-/// There is none where no model of all rows follows them. A width that changes no error by more
-/// than OrderTuning::idle of it is left out where the rest determines all orders. Constants:
-/// OrderTuning. Ideas of others: model averaging by stability and the spread over models as
-/// uncertainty (Rider et al. 2016; Eça and Hoekstra 2014), many models times many windows (StREEQ,
-/// Sandia).
+/// from level to level (OrderMotion::leaves); the status says why. Where scatter, or a width of
+/// three levels, leaves open whether there is a logarithm or a next term half an order on, the
+/// interval reaches its order; and that which the orders of a sequence's levels go to, where they
+/// slow down less than by half an order. In a width of three levels models with next terms do not
+/// count whose term in another width stands still. There is none where no model of all rows follows
+/// them. A width that changes no error by more than OrderTuning::idle of it is left out where the
+/// rest determines all orders. Constants: OrderTuning. Ideas of others: model averaging by
+/// stability and the spread over models as uncertainty (Rider et al. 2016; Eça and Hoekstra 2014),
+/// many models times many windows (StREEQ, Sandia).
 #pragma once
 
 #include "studies/orders/error_rows.hpp"
