@@ -149,7 +149,7 @@ bool vanishes_in_all(const DerivedSolution& derived, double final_time, const au
 /// How many derivatives in t of a formula vanish at the least; one more than matters where it is
 /// more, or where they are too large to be made.
 int derivatives_until_zero(const DerivedSolution& derived, double final_time, const auto& formula) {
-    constexpr int most = 4;
+    constexpr int most = 4; // of which each scheme leaves something
     try {
         for (int times = 0; times < most; ++times)
             if (vanishes_in_all(derived, final_time, [&](const DerivedPhase& phase) {

@@ -22,12 +22,15 @@ struct Rounded {
         : value(value_), bound(bound_), size(size_) {}
 
     /// Whether it is 0, as far as rounding can tell: it is within the bound, and its terms cancel
-    /// in half of their digits at least. By a bound alone 2 + sin(1e22) would be, of which nothing
-    /// is known. Nor is it where the bound is not finite, as of 1/0.
+    /// in half of their digits at least, or are known far better than that. By a bound alone 2 +
+    /// sin(1e22) would be, of which nothing is known. Nor is it where the bound is not finite, as
+    /// of 1/0.
     [[nodiscard]] bool may_be_zero() const {
         constexpr long double half_of_the_digits = 0x1p-32L;
+        constexpr long double well_known = 1e-4L; // as of sin(1e10 pi), of which fewer are left
         return value == 0.0L || (std::isfinite(bound) && std::abs(value) <= round_off * bound &&
-                                 std::abs(value) <= half_of_the_digits * size);
+                                 (std::abs(value) <= half_of_the_digits * size ||
+                                  round_off * bound <= well_known * size));
     }
 
     /// What is between two numbers is off by no more than the farther one.

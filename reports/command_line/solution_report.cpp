@@ -87,8 +87,8 @@ private:
 
 /// What the signs among them mean.
 std::string signs_text(bool misses_some, bool overflows) {
-    return (misses_some ? wrapped("?: none where it was looked at, but by its formula it is not "
-                                  "zero: something narrow in x or t may be missed.")
+    return (misses_some ? wrapped("?: none where it was looked at, but its formula is not seen to "
+                                  "vanish: something narrow in x or t may be missed.")
                         : "") +
            (overflows ? wrapped("inf: beyond the range of doubles.") : "");
 }

@@ -91,7 +91,7 @@ double OrderEnsemble::distance_to_close_terms(Index width, double order) const {
     constexpr double half_an_order = 0.5;
     constexpr double least_gap = 0.05;
     const double gap = std::max(std::log(before / last) / step, least_gap);
-    if (!(gap < half_an_order))
+    if (!(gap < half_an_order) || !(before * last > 0))
         return 0;
     const double rest =
         last / gap * std::exp(-gap * (orders[n - 2].first - orders[n - 1].first) / 2);
@@ -189,14 +189,14 @@ bool OrderEnsemble::is_seen_as_a_power(Index width, const OrderInterval& order) 
 }
 
 /// By how much the order between two levels changes from one pair to the next, where in the last
-/// pairs of one width whose errors are exact it changes by more than in those before: of a power
-/// with a next term it changes less and less. Of |h − 30.45 h²|, next to where it cancels, pairs
-/// have 2.1, 2.2, 2.6 and then 5.2, and models 1.70 ± 0.32.
+/// pairs of exact errors (of a grid where the others are finest) it changes by more than in those
+/// before: of a power with a next term it changes less and less. Of |h − 30.45 h²|, next to where
+/// it cancels, pairs have 2.1, 2.2, 2.6 and then 5.2, and models 1.70 ± 0.32.
 std::optional<double> OrderEnsemble::drifts_away(Index width) const {
     constexpr std::size_t last_ones = 2;
     constexpr double little = 0.3; // on halved widths
-    const auto levels = motion_of(width).levels_alone();
-    if (!levels || !std::isfinite(tuning_.contradicted))
+    const auto levels = levels_alone(width);
+    if (!levels)
         return std::nullopt;
     auto changes = levels->changes();
     std::ranges::reverse(changes);
@@ -207,16 +207,32 @@ std::optional<double> OrderEnsemble::drifts_away(Index width) const {
     return std::nullopt;
 }
 
-/// OrderMotion::leaves() of errors.
-std::optional<double> OrderEnsemble::leaves(Index width, const OrderInterval& order) const {
-    return std::isfinite(tuning_.contradicted) ? motion_of(width).leaves(order.low, order.high)
-                                               : std::nullopt;
+/// OrderMotion::levels_alone(), where nothing shows that they scatter.
+std::optional<LevelErrors> OrderEnsemble::levels_alone(Index width) const {
+    return scatters_ || !std::isfinite(tuning_.contradicted) ? std::nullopt
+                                                             : motion_of(width).levels_alone();
+}
+
+/// How the order moves from level to level, where that says that it is not known; or empty. That a
+/// sequence moves on its windows show (OrderMotion::goes_on).
+std::string OrderEnsemble::motion_between_levels(Index width, const OrderInterval& order) const {
+    const auto levels = levels_alone(width);
+    if (!levels)
+        return {};
+    const std::string where = rows_.widths() == 1 ? "" : " where the others are finest";
+    const double last = levels->orders().back().second;
+    if (levels->turn())
+        return fmt::format("from level to level{} it turns, and is {:.2f} at the finest", where,
+                           last);
+    return rows_.widths() > 1 && levels->leave(order.low, order.high)
+               ? fmt::format("from level to level{} it moves more and more, to {:.2f}", where, last)
+               : std::string();
 }
 
 bool OrderEnsemble::is_settled(Index width, const OrderInterval& order) const {
     const OrderMotion motion = motion_of(width);
     return !drifts_away(width) && !motion.goes_on(order.value) && !motion.rises_past(order.high) &&
-           !leaves(width, order) && is_followed() && !is_ambiguous(width) &&
+           motion_between_levels(width, order).empty() && is_followed() && !is_ambiguous(width) &&
            is_seen_as_a_power(width, order);
 }
 
@@ -239,14 +255,11 @@ std::string OrderEnsemble::status_of(Index width, const OrderInterval& order) co
     if (const auto last = motion_of(width).rises_past(order.high))
         moves = fmt::format("it rises from level to level where the others are finest, to {:.2f}",
                             *last);
-    if (const auto last = moves.empty() ? leaves(width, order) : std::nullopt)
-        return fmt::format(
-            "from level to level where the others are finest it moves more and more, "
-            "to {:.2f}",
-            *last);
     if (const auto change = moves.empty() ? drifts_away(width) : std::nullopt)
         return fmt::format("between levels it changes by {:.2f} at the finest, more than before",
                            *change);
+    if (moves.empty())
+        moves = motion_between_levels(width, order);
     if (moves.empty() && !is_seen_as_a_power(width, order))
         return fmt::format("no window shows an order of {:.1f} at three levels", order.value);
     if (!moves.empty())

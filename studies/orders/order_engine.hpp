@@ -24,16 +24,16 @@
 /// levels with equal ones. Where all of
 /// that is wide the order is not determined, nor where it still moves (order_motion.hpp), is steep
 /// and seen at two levels alone, or stands beside a constant that its few levels do not tell from
-/// it, or where, of exact errors at the finest of all other widths, it turns or moves ever more
-/// from level to level (OrderMotion::leaves); the status says why. Where scatter, or a width of
-/// three levels, leaves open whether there is a logarithm or a next term half an order on, the
-/// interval reaches its order; and that which the orders of a sequence's levels go to, where they
-/// slow down less than by half an order. In a width of three levels models with next terms do not
-/// count whose term in another width stands still. There is none where no model of all rows follows
-/// them. A width that changes no error by more than OrderTuning::idle of it is left out where the
-/// rest determines all orders. Constants: OrderTuning. Ideas of others: model averaging by
-/// stability and the spread over models as uncertainty (Rider et al. 2016; Eça and Hoekstra 2014),
-/// many models times many windows (StREEQ, Sandia).
+/// it, or where exact errors, of a grid those at the finest of all other widths, have one that
+/// turns or moves ever more from level to level (LevelErrors); the status says why. Where scatter,
+/// or a width of three levels, leaves open whether there is a logarithm or a next term half an
+/// order on, the interval reaches its order; and that which the orders of a sequence's levels go
+/// to, where they slow down less than by half an order. In a width of three levels models with next
+/// terms do not count whose term in another width stands still. There is none where no model of all
+/// rows follows them. A width that changes no error by more than OrderTuning::idle of it is left
+/// out where the rest determines all orders. Constants: OrderTuning. Ideas of others: model
+/// averaging by stability and the spread over models as uncertainty (Rider et al. 2016; Eça and
+/// Hoekstra 2014), many models times many windows (StREEQ, Sandia).
 #pragma once
 
 #include "studies/orders/error_rows.hpp"
@@ -143,7 +143,8 @@ private:
     double distance_to_slow_terms(Eigen::Index width, double order) const;
     double distance_to_close_terms(Eigen::Index width, double order) const;
     std::optional<double> drifts_away(Eigen::Index width) const;
-    std::optional<double> leaves(Eigen::Index width, const OrderInterval& order) const;
+    std::optional<LevelErrors> levels_alone(Eigen::Index width) const;
+    std::string motion_between_levels(Eigen::Index width, const OrderInterval& order) const;
 
     OrderTuning tuning_;
     TermRows rows_;

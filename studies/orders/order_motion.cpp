@@ -185,19 +185,16 @@ bool OrderMotion::others_change_nothing(const std::vector<Eigen::Index>& rows) c
     return true;
 }
 
-/// Of a grid: whether leading terms follow all rows to rounding, of orders that methods have: where
-/// they cancel orders move as those of no power; or, from five levels on, whatever orders they
-/// have: so many show a constant, too, as of a reference that is not named.
-bool OrderMotion::terms_follow_to_rounding(std::size_t levels) const {
-    constexpr std::size_t five = 5;
-    constexpr double exactly = 1e-5;
+/// Of a grid: whether leading terms follow all rows within this scatter of ln e: where they cancel
+/// orders move as those of no power. Of orders that methods have, or of any.
+bool OrderMotion::terms_follow(double within, bool of_usual_orders) const {
     return rows_.widths() > 1 && std::ranges::any_of(members_, [&](const EnsembleMember& member) {
-               if (member.family != 0 || !member.is_of_all_rows() || !(member.fit.scale <= exactly))
+               if (member.family != 0 || !member.is_of_all_rows() || !(member.fit.scale <= within))
                    return false;
                bool are_usual = true;
                for (Eigen::Index i = 0; i < rows_.widths(); ++i)
                    are_usual = are_usual && member.fit.order(i).value >= tuning_.least_order;
-               return are_usual || levels >= five;
+               return are_usual || !of_usual_orders;
            });
 }
 
@@ -208,7 +205,10 @@ std::optional<double> OrderMotion::rises_past(double high) const {
     const auto orders = local_orders(rows, [&](Eigen::Index r) { return rows_.log_errors[r]; });
     if (orders.size() < 2 || !others_change_nothing(rows))
         return std::nullopt;
-    if (terms_follow_to_rounding(orders.size() + 1))
+    // Five levels show a constant, too, as of a reference that is not named.
+    constexpr std::size_t of_five_levels = 4;
+    constexpr double to_rounding = 1e-5;
+    if (terms_follow(to_rounding, orders.size() < of_five_levels))
         return std::nullopt;
     for (std::size_t i = 1; i < orders.size(); ++i)
         if (!(orders[i] - orders[i - 1] > tuning_.narrowest))
@@ -254,6 +254,28 @@ double LevelErrors::noise() const {
     return part_unknown * 2 * difference * std::log(2.0) / (step * step);
 }
 
+bool LevelErrors::turn() const {
+    constexpr double far = 0.15; // set, as what follows, on half of 250 solutions of the beam
+    const auto all = changes();
+    const double last = all.back();
+    const double before = all[all.size() - 2];
+    return last * before < 0 && std::min(std::abs(last), std::abs(before)) > far + noise();
+}
+
+bool LevelErrors::leave(double low, double high) const {
+    const auto all = changes();
+    const double last = all.back();
+    const double before = all[all.size() - 2];
+    constexpr double least = 0.005;
+    if (!(last * before > 0 && std::abs(last) > std::abs(before) &&
+          std::abs(last) > std::max(least, noise())))
+        return false;
+    constexpr double fastest = 2.5; // of exp(−1/h) and before a zero it grows without bound
+    const double growth = std::min(last / before, fastest);
+    const double ahead = orders().back().second + last * (1 + growth + growth * growth);
+    return ahead < low || ahead > high;
+}
+
 /// What other terms are of a row's error, as the next coarser step of each shows it: b x^q changes
 /// by b x^q (r^q − 1). None where there is no such row.
 std::optional<double> OrderMotion::part_of_others(Eigen::Index row) const {
@@ -292,32 +314,12 @@ std::optional<LevelErrors> OrderMotion::levels_alone() const {
         found.log_errors.push_back(rows_.log_errors[row]);
         found.parts_of_others.push_back(*part);
     }
-    if (found.log_widths.size() < fewest || terms_follow_to_rounding(levels.size()))
+    constexpr double to_rounding = 1e-5;
+    constexpr double part_of_change = 0.01;
+    if (found.log_widths.size() < fewest || terms_follow(to_rounding, false) ||
+        terms_follow(part_of_change * std::abs(found.changes().back()), true))
         return std::nullopt;
     return found;
-}
-
-std::optional<double> OrderMotion::leaves(double low, double high) const {
-    const auto errors = levels_alone();
-    if (!errors)
-        return std::nullopt;
-    const auto changes = errors->changes();
-    const double last = changes.back();
-    const double before = changes[changes.size() - 2];
-    const double order = errors->orders().back().second;
-    const double noise = errors->noise();
-    constexpr double turned = 0.15; // set, as what follows, on half of 250 solutions of the beam
-    if (last * before < 0)
-        return std::min(std::abs(last), std::abs(before)) > turned + noise ? std::optional(order)
-                                                                           : std::nullopt;
-    constexpr double least = 0.002;
-    if (rows_.widths() == 1 || !(std::abs(last) > std::abs(before)) ||
-        !(std::abs(last) > std::max(least, noise)))
-        return std::nullopt;
-    constexpr double fastest = 4; // of exp(−1/h) and before a zero it grows without bound
-    const double growth = std::min(last / before, fastest);
-    const double ahead = order + last * (1 + growth + growth * growth);
-    return ahead < low || ahead > high ? std::optional(order) : std::nullopt;
 }
 
 /// Whether the fit is one of terms that a method may have: without any bound on their orders next

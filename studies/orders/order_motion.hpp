@@ -29,6 +29,12 @@ struct LevelErrors {
     [[nodiscard]] std::vector<double> changes() const;
     /// What the changes may owe to these parts.
     [[nodiscard]] double noise() const;
+    /// Whether the order turned at the last level but one: nothing is seen of where it goes.
+    [[nodiscard]] bool turn() const;
+    /// Whether it moves one way, and by more and more, and leaves the interval in three more
+    /// levels: a term of another order shows behind the one that is fitted. Of a leading term with
+    /// a next one it moves less and less.
+    [[nodiscard]] bool leave(double low, double high) const;
 };
 
 /// Of one width.
@@ -53,13 +59,9 @@ public:
     [[nodiscard]] bool is_explained() const;
     /// Of exact errors without a reference: those of a sequence; those of a grid where the other
     /// widths are finest; none where much of an error is of their terms, as the next coarser step
-    /// of each shows it, there are fewer than four, or leading terms follow all rows to rounding.
+    /// of each shows it, there are fewer than four, or leading terms follow all rows far more
+    /// closely than the order changes.
     [[nodiscard]] std::optional<LevelErrors> levels_alone() const;
-    /// Of these: the last order from level to level, where it turned and goes on as before, or, on
-    /// a grid, where it moves one way, and by more and more, and leaves the interval in three more
-    /// levels: a term of another order shows behind the one that is fitted. Of a leading term with
-    /// a next one it moves less and less.
-    [[nodiscard]] std::optional<double> leaves(double low, double high) const;
     /// As "it rises over finer windows, to 1.68"; empty where it moves to and fro, or not at all.
     [[nodiscard]] std::string words() const;
     /// The orders of the coarsest window and of the finest, where it falls from each to the next.
@@ -78,7 +80,7 @@ private:
                                                                  Eigen::Index other) const;
     [[nodiscard]] std::optional<double> part_of_others(Eigen::Index row) const;
     [[nodiscard]] bool others_change_nothing(const std::vector<Eigen::Index>& rows) const;
-    [[nodiscard]] bool terms_follow_to_rounding(std::size_t levels) const;
+    [[nodiscard]] bool terms_follow(double within, bool of_usual_orders) const;
     [[nodiscard]] bool has_usual_terms(const EnsembleMember& member) const;
     [[nodiscard]] std::optional<double> greatest_of_a_rise() const;
 
