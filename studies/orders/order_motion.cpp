@@ -242,16 +242,16 @@ std::vector<double> LevelErrors::changes() const {
 }
 
 double LevelErrors::noise() const {
-    // What is taken off is wrong by half, as the order of the other term is not known, nor how it
-    // adds up; of a part that is the same in all errors no order changes.
-    constexpr double part_unknown = 0.5;
+    // What is taken off may be wrong by as much: the order of the other term is not known, and in a
+    // norm terms of opposite sign do not take each other off. Of a part that is the same in all
+    // errors no order changes.
     double step = std::numeric_limits<double>::infinity();
     double difference = 0;
     for (std::size_t k = 1; k < log_widths.size(); ++k) {
         step = std::min(step, log_widths[k - 1] - log_widths[k]);
         difference = std::max(difference, std::abs(parts_of_others[k] - parts_of_others[k - 1]));
     }
-    return part_unknown * 2 * difference * std::log(2.0) / (step * step);
+    return 2 * difference * std::log(2.0) / (step * step);
 }
 
 bool LevelErrors::turn() const {
@@ -315,7 +315,7 @@ std::optional<LevelErrors> OrderMotion::levels_alone() const {
         found.parts_of_others.push_back(*part);
     }
     constexpr double to_rounding = 1e-5;
-    constexpr double part_of_change = 0.01;
+    constexpr double part_of_change = 0.05;
     if (found.log_widths.size() < fewest || terms_follow(to_rounding, false) ||
         terms_follow(part_of_change * std::abs(found.changes().back()), true))
         return std::nullopt;
