@@ -316,6 +316,14 @@ std::optional<LevelErrors> OrderMotion::levels_alone() const {
     }
     constexpr double to_rounding = 1e-5;
     constexpr double part_of_change = 0.05;
+    constexpr std::size_t show_a_constant = 5;
+    const auto is_above_a_constant = [&](const EnsembleMember& member) {
+        return member.is_of_all_rows() && member.fit.scale <= to_rounding &&
+               member.fit.shape.next[static_cast<std::size_t>(width_)] == TermShape::constant;
+    };
+    if (rows_.widths() > 1 && levels.size() >= show_a_constant &&
+        std::ranges::any_of(members_, is_above_a_constant))
+        return std::nullopt;
     if (found.log_widths.size() < fewest || terms_follow(to_rounding, false) ||
         terms_follow(part_of_change * std::abs(found.changes().back()), true))
         return std::nullopt;
