@@ -220,7 +220,7 @@ std::string OrderEnsemble::motion_between_levels(Index width, const OrderInterva
     if (!levels)
         return {};
     const std::string where = rows_.widths() == 1 ? "" : " where the others are finest";
-    const double last = levels->orders().back().second;
+    const double last = levels->last_seen();
     if (levels->turn())
         return fmt::format("from level to level{} it turns, and is {:.2f} at the finest", where,
                            last);

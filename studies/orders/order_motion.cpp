@@ -227,6 +227,10 @@ std::vector<std::pair<double, double>> LevelErrors::orders() const {
     return orders_between(log_widths, without);
 }
 
+double LevelErrors::last_seen() const {
+    return orders_between(log_widths, log_errors).back().second;
+}
+
 std::vector<double> LevelErrors::changes() const {
     const auto with = orders_between(log_widths, log_errors);
     const auto without = orders();
@@ -276,11 +280,10 @@ bool LevelErrors::leave(double low, double high) const {
     return ahead < low || ahead > high;
 }
 
-/// What other terms are of a row's error, as the next coarser step of each shows it: b x^q changes
-/// by b x^q (r^q − 1). None where there is no such row.
-std::optional<double> OrderMotion::part_of_others(Eigen::Index row) const {
-    constexpr double least_order = 1;
-    constexpr double greatest_order = 4;
+/// What other terms, of these orders, are of a row's error, as the next coarser step of each shows
+/// it: b x^q changes by b x^q (r^q − 1). None where there is no such row.
+std::optional<double> OrderMotion::part_of_others(Eigen::Index row,
+                                                  const std::vector<double>& orders) const {
     double part = 0;
     for (Eigen::Index other = 0; other < rows_.widths(); ++other) {
         if (other == width_)
@@ -288,15 +291,24 @@ std::optional<double> OrderMotion::part_of_others(Eigen::Index row) const {
         const auto coarser = coarser_by_a_level(row, other);
         if (!coarser)
             return std::nullopt;
-        const auto windows = order_by_window(members_, other);
-        const double order = windows.empty()
-                                 ? least_order
-                                 : std::clamp(windows.back().value, least_order, greatest_order);
-        part +=
-            std::expm1(rows_.log_errors[*coarser] - rows_.log_errors[row]) /
-            std::expm1(order * (rows_.log_widths(*coarser, other) - rows_.log_widths(row, other)));
+        const double step = rows_.log_widths(*coarser, other) - rows_.log_widths(row, other);
+        part += std::expm1(rows_.log_errors[*coarser] - rows_.log_errors[row]) /
+                std::expm1(orders[static_cast<std::size_t>(other)] * step);
     }
     return part;
+}
+
+/// Of all widths, as far as methods have them: by the leading terms in the finest window.
+std::vector<double> OrderMotion::orders_of_all() const {
+    constexpr double least = 1;
+    constexpr double greatest = 4;
+    std::vector<double> orders;
+    for (Eigen::Index i = 0; i < rows_.widths(); ++i) {
+        const auto windows = order_by_window(members_, i);
+        orders.push_back(windows.empty() ? least
+                                         : std::clamp(windows.back().value, least, greatest));
+    }
+    return orders;
 }
 
 std::optional<LevelErrors> OrderMotion::levels_alone() const {
@@ -306,8 +318,9 @@ std::optional<LevelErrors> OrderMotion::levels_alone() const {
         (rows_.widths() == 1 && rows_.size() != static_cast<Eigen::Index>(levels.size())))
         return std::nullopt;
     LevelErrors found;
+    const auto orders = orders_of_all();
     for (const Eigen::Index row : finest_rows()) {
-        const auto part = part_of_others(row);
+        const auto part = part_of_others(row, orders);
         if (!part || !(std::abs(*part) < tuning_.others_left))
             return std::nullopt;
         found.log_widths.push_back(rows_.log_widths(row, width_));

@@ -24,6 +24,8 @@ struct LevelErrors {
 
     /// (ln h, p) in the middle of each two levels, without these parts.
     [[nodiscard]] std::vector<std::pair<double, double>> orders() const;
+    /// The order between the two finest as it is seen, with these parts.
+    [[nodiscard]] double last_seen() const;
     /// By how much the order changes over ln 2 of the width, from each such middle to the next:
     /// what is seen with these parts as well as without them, the less of both.
     [[nodiscard]] std::vector<double> changes() const;
@@ -78,7 +80,9 @@ private:
                  const std::function<double(Eigen::Index)>& log_error) const;
     [[nodiscard]] std::optional<Eigen::Index> coarser_by_a_level(Eigen::Index row,
                                                                  Eigen::Index other) const;
-    [[nodiscard]] std::optional<double> part_of_others(Eigen::Index row) const;
+    [[nodiscard]] std::optional<double> part_of_others(Eigen::Index row,
+                                                       const std::vector<double>& orders) const;
+    [[nodiscard]] std::vector<double> orders_of_all() const;
     [[nodiscard]] bool others_change_nothing(const std::vector<Eigen::Index>& rows) const;
     [[nodiscard]] bool terms_follow(double within, bool of_usual_orders) const;
     [[nodiscard]] bool has_usual_terms(const EnsembleMember& member) const;
