@@ -2,6 +2,7 @@
 
 #include "studies/data/printed_digits.hpp"
 #include "studies/grid/grid_refining.hpp"
+#include "studies/orders/error_rows.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -84,6 +85,19 @@ const TwoTermFit* OrdersResult::fit_of(const Measure& norm) const {
 
 Series series_of(const OrdersBlock& block, const Method& method) {
     return {"orders", block.final_time, method, block.norms, block.grid};
+}
+
+bool vanishes_at_the_finest(const std::vector<RungResult>& runs, std::size_t k) {
+    std::vector<ErrorRow> rows;
+    for (const auto& run : runs) {
+        const bool is_rounded = k < run.printed.size() && !run.printed[k].is_zero;
+        const bool is_none = k >= run.errors.size() || (run.errors[k] == 0 && is_rounded);
+        ErrorRow& row = rows.emplace_back();
+        row.widths = {1.0 / static_cast<double>(run.rung.elements), run.rung.dt};
+        if (!is_none)
+            row.error = run.errors[k];
+    }
+    return vanishes_at_the_finest(rows);
 }
 
 OrdersResult analyse_grid(const std::vector<RungResult>& runs, const std::vector<Measure>& measures,

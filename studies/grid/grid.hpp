@@ -44,6 +44,9 @@ struct OrdersResult {
 /// The runs that the block asks for.
 Series series_of(const OrdersBlock& block, const Method& method);
 
+/// vanishes_at_the_finest() of the errors of a grid; what is zero to its digits does not.
+bool vanishes_at_the_finest(const std::vector<RungResult>& runs, std::size_t k);
+
 /// What the runs of a grid show of the measures; without them. reference: of StudiedSolver.
 OrdersResult analyse_grid(const std::vector<RungResult>& runs, const std::vector<Measure>& measures,
                           const std::optional<ReferenceBlock>& reference = std::nullopt);

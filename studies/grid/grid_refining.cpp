@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <functional>
+#include <iterator>
 #include <map>
+#include <set>
 #include <utility>
 
 namespace tvbeam {
@@ -19,30 +21,39 @@ std::vector<Rung> rungs_of(const std::vector<RungResult>& runs) {
     return rungs;
 }
 
-/// What a grid shows, and what it shows without its finest mesh and without its finest step.
-struct ThreeGrids {
-    OrdersResult all;
-    OrdersResult coarser_mesh;
-    OrdersResult coarser_step;
+/// What a grid shows, and what it shows without one of its lines; each is found once.
+class ShownByGrid {
+public:
+    ShownByGrid(const std::vector<RungResult>& runs, const std::vector<Measure>& measures)
+        : runs_(runs), measures_(measures) {}
+
+    const OrdersResult& all() { return without(0, 0.0); }
+    const OrdersResult& without_mesh(std::int64_t elements) { return without(elements, 0.0); }
+    const OrdersResult& without_step(double dt) { return without(0, dt); }
+
+private:
+    const OrdersResult& without(std::int64_t elements, double dt) {
+        const auto [at, is_new] = found_.try_emplace({elements, dt});
+        if (is_new) {
+            std::vector<RungResult> others;
+            std::ranges::copy_if(runs_, std::back_inserter(others), [&](const RungResult& run) {
+                return run.rung.elements != elements && run.rung.dt != dt;
+            });
+            at->second = analyse_grid(others, measures_);
+        }
+        return at->second;
+    }
+
+    const std::vector<RungResult>& runs_;
+    const std::vector<Measure>& measures_;
+    std::map<std::pair<std::int64_t, double>, OrdersResult> found_; ///< 0: no such line
 };
 
-ThreeGrids three_grids(const std::vector<RungResult>& runs, const std::vector<Measure>& measures) {
-    const GridLines lines = lines_of(rungs_of(runs));
-    std::vector<RungResult> coarser_mesh;
-    std::vector<RungResult> coarser_step;
-    for (const auto& run : runs) {
-        if (run.rung.elements != lines.meshes.back().elements)
-            coarser_mesh.push_back(run);
-        if (run.rung.dt != lines.steps.back().dt)
-            coarser_step.push_back(run);
-    }
-    return {analyse_grid(runs, measures), analyse_grid(coarser_mesh, measures),
-            analyse_grid(coarser_step, measures)};
-}
-
-/// Something that is to be known; where it stands among the norms or values.
+/// Something that is to be known; where it stands among the measures, and among the norms or
+/// values.
 struct Wanted {
     enum class What { p, q, limit } what;
+    std::size_t measure;
     std::size_t place;
     std::string name;
 };
@@ -51,37 +62,53 @@ std::vector<Wanted> wanted_of(const OrdersBlock& block) {
     std::vector<Wanted> all;
     std::size_t norms = 0;
     std::size_t values = 0;
-    for (const auto& measure : block.norms) {
+    for (std::size_t k = 0; k < block.norms.size(); ++k) {
+        const Measure& measure = block.norms[k];
         const std::size_t place = measure.is_value ? values++ : norms++;
         if (measure.is_value && block.until->limit)
-            all.push_back({Wanted::What::limit, place, "limit of " + measure.root()});
+            all.push_back({Wanted::What::limit, k, place, "limit of " + measure.root()});
         if (!measure.is_value && block.until->order) {
-            all.push_back({Wanted::What::p, place, "p of " + measure.root()});
-            all.push_back({Wanted::What::q, place, "q of " + measure.root()});
+            all.push_back({Wanted::What::p, k, place, "p of " + measure.root()});
+            all.push_back({Wanted::What::q, k, place, "q of " + measure.root()});
         }
     }
     return all;
 }
 
-bool is_known(const Until& until, const Wanted& wanted, const ThreeGrids& grids) {
+template <typename Lines>
+bool has_few(const Lines& lines) {
+    return lines.size() < least_known_levels;
+}
+
+bool is_known(const OrdersBlock& block, const Wanted& wanted, const std::vector<RungResult>& runs,
+              ShownByGrid& grid) {
+    const Measure& measure = block.norms[wanted.measure];
+    std::set<std::int64_t> meshes; // with a run that shows something of it
+    std::set<double> steps;
+    for (const auto& run : runs)
+        if (shows(run, measure, wanted.measure)) {
+            meshes.insert(run.rung.elements);
+            steps.insert(run.rung.dt);
+        }
+    if (has_few(meshes) || has_few(steps) ||
+        (!measure.is_value && vanishes_at_the_finest(runs, wanted.measure)))
+        return false;
     const auto known = [&](const auto& interval, double half, const OrdersResult& before) {
-        return is_known(half, interval(grids.all), interval(before));
+        return is_known(half, interval(grid.all()), interval(before));
     };
+    const OrdersResult& coarser_mesh = grid.without_mesh(*meshes.rbegin());
+    const OrdersResult& coarser_step = grid.without_step(*steps.begin());
     if (wanted.what == Wanted::What::limit) {
         const auto limit = [&](const OrdersResult& of) { return of.values[wanted.place].limit; };
-        return known(limit, *until.limit, grids.coarser_mesh) &&
-               known(limit, *until.limit, grids.coarser_step);
+        return known(limit, *block.until->limit, coarser_mesh) &&
+               known(limit, *block.until->limit, coarser_step);
     }
     const bool in_h = wanted.what == Wanted::What::p;
     const auto order = [&](const OrdersResult& of) {
         const TwoTermFit& fit = of.norms[wanted.place].fit;
         return in_h ? fit.p : fit.q;
     };
-    return known(order, *until.order, in_h ? grids.coarser_mesh : grids.coarser_step);
-}
-
-bool has_few(const std::vector<Rung>& lines) {
-    return lines.size() < least_known_levels;
+    return known(order, *block.until->order, in_h ? coarser_mesh : coarser_step);
 }
 
 /// What is not known, and what the grid shows of it; nothing where no grid of its size is enough.
@@ -95,10 +122,9 @@ Open open_of(const OrdersBlock& block, const std::vector<RungResult>& runs) {
     const GridLines lines = lines_of(rungs_of(runs));
     if (has_few(lines.meshes) || has_few(lines.steps))
         return open;
-    ThreeGrids grids = three_grids(runs, block.norms);
-    std::erase_if(open.wanted,
-                  [&](const Wanted& one) { return is_known(*block.until, one, grids); });
-    open.shown = std::move(grids.all);
+    ShownByGrid grid(runs, block.norms);
+    std::erase_if(open.wanted, [&](const Wanted& one) { return is_known(block, one, runs, grid); });
+    open.shown = grid.all();
     return open;
 }
 

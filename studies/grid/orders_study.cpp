@@ -41,16 +41,7 @@ constexpr FitMetric fit_metrics[] = {
 std::string refusal(const OrdersResult& result, std::size_t k) {
     if (finest_failed(result.runs))
         return finest_run_failed;
-    std::vector<ErrorRow> rows;
-    for (const auto& run : result.runs) {
-        const bool is_rounded = k < run.printed.size() && !run.printed[k].is_zero;
-        const bool is_none = k >= run.errors.size() || (run.errors[k] == 0 && is_rounded);
-        ErrorRow& row = rows.emplace_back();
-        row.widths = {1.0 / static_cast<double>(run.rung.elements), run.rung.dt};
-        if (!is_none)
-            row.error = run.errors[k];
-    }
-    return vanishes_at_the_finest(rows) ? finest_is_zero : "";
+    return vanishes_at_the_finest(result.runs, k) ? finest_is_zero : "";
 }
 
 /// A parameter of an order that the grid does not determine meets no band.

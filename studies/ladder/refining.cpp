@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <set>
+#include <utility>
 
 namespace tvbeam {
 
@@ -83,22 +86,51 @@ std::vector<std::string> wanted_of(const Until& until, const Series& series) {
     return wanted;
 }
 
+/// What tells a level from the others, greater where it is finer.
+using Level = std::pair<std::int64_t, double>;
+
+Level level_of(const RungResult& run) {
+    return {run.rung.elements, -run.rung.dt};
+}
+
+/// The levels that show something of measure k, each once.
+std::set<Level> levels_of(const Measure& measure, std::size_t k,
+                          const std::vector<RungResult>& rungs) {
+    std::set<Level> levels;
+    for (const auto& run : rungs)
+        if (shows(run, measure, k))
+            levels.insert(level_of(run));
+    return levels;
+}
+
 } // namespace
 
 std::vector<std::string> not_known(const Until& until, const Series& series,
                                    const std::vector<RungResult>& rungs) {
     std::optional<DataAnalysis> now;
-    std::optional<DataAnalysis> before;
-    if (rungs.size() >= least_known_levels) {
-        now = analysis_of(series, rungs);
-        before = analysis_of(series, {rungs.begin(), rungs.end() - 1});
-    }
+    std::map<Level, DataAnalysis> without; // mostly one, of the finest level
+    const auto knows = [&](double wanted, std::size_t k) {
+        const auto levels = levels_of(series.measures[k], k, rungs);
+        if (levels.size() < least_known_levels)
+            return false;
+        if (!now)
+            now = analysis_of(series, rungs);
+        const Level finest = *levels.rbegin();
+        auto before = without.find(finest);
+        if (before == without.end()) {
+            auto others = rungs;
+            std::erase_if(others, [&](const RungResult& run) { return level_of(run) == finest; });
+            before = without.emplace(finest, analysis_of(series, others)).first;
+        }
+        return !vanishes_at_the_finest(*now, now->columns[k]) &&
+               is_known(wanted, interval_of(now->columns[k]),
+                        interval_of(before->second.columns[k]));
+    };
     std::vector<std::string> open;
     for (std::size_t k = 0; k < series.measures.size(); ++k) {
         const Measure& measure = series.measures[k];
         const auto& wanted = measure.is_value ? until.limit : until.order;
-        if (wanted && !(now && is_known(*wanted, interval_of(now->columns[k]),
-                                        interval_of(before->columns[k]))))
+        if (wanted && !knows(*wanted, k))
             open.push_back(measure.root());
     }
     return open;

@@ -18,8 +18,9 @@ std::vector<Rung> added_levels(const LadderBlock& ladder);
 
 /// The norms and values of a ladder's levels, from coarse to fine, of which the block does not yet
 /// know what it wants. Known is what has an interval as narrow as that, of at least
-/// least_known_levels levels, with its middle in the interval that the levels without the finest
-/// give, however wide that may be: two intervals that agree.
+/// least_known_levels levels that show something of it, with its middle in the interval that the
+/// levels without the finest of these give, however wide that may be: two intervals that agree.
+/// Nothing is known of an error that vanishes_at_the_finest().
 std::vector<std::string> not_known(const Until& until, const Series& series,
                                    const std::vector<RungResult>& rungs);
 

@@ -74,6 +74,11 @@ double longest_time(const std::vector<Series>& all) {
     return longest;
 }
 
+bool shows(const RungResult& run, const Measure& measure, std::size_t k) {
+    return !run.errors.empty() &&
+           (measure.is_value ? std::isfinite(run.errors[k]) : is_positive(run.errors[k]));
+}
+
 std::vector<double> units_of(const std::vector<RungResult>& rungs, std::size_t k, bool is_value) {
     std::vector<double> figures;
     std::vector<PrintedDigits> digits;

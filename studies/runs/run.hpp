@@ -136,6 +136,9 @@ struct Series {
 /// To which the longest of the series runs; 0 without any.
 double longest_time(const std::vector<Series>& all);
 
+/// Whether a run shows something of measure k: an error that has a logarithm, or a value.
+bool shows(const RungResult& run, const Measure& measure, std::size_t k);
+
 /// The unit of the last digit printed of measure k in each run (printed_digits.hpp).
 std::vector<double> units_of(const std::vector<RungResult>& rungs, std::size_t k, bool is_value);
 

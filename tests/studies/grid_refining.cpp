@@ -313,6 +313,30 @@ BOOST_AUTO_TEST_CASE(nothing_is_known_of_fewer_than_four_meshes_and_four_steps) 
     }
 }
 
+// Zero on a mesh or with a step, which shows nothing; and at the finest, of which nothing is known.
+BOOST_AUTO_TEST_CASE(a_line_counts_where_a_run_shows_something) {
+    const auto open = [](std::int64_t mesh, double step, bool all_five) {
+        const OrdersBlock block =
+            block_of(std::string("norms = [\"L2\"]\nelements = [4, 8, 16, 32") +
+                     (all_five ? ", 64" : "") + "]\ndt = [0.1, 0.05, 0.025, 0.0125" +
+                     (all_five ? ", 0.00625" : "") + "]\nuntil = { order = 0.1, runs = 40 }\n");
+        std::vector<RungResult> runs;
+        for (const Rung& rung : block.grid) {
+            const double error = 3.0 * rung.h() * rung.h() + rung.dt;
+            const bool is_none = rung.elements == mesh || rung.dt == step;
+            runs.push_back({.rung = rung, .errors = {is_none ? 0.0 : error}});
+        }
+        return not_known(block, runs).size();
+    };
+    BOOST_TEST(open(0, 0.0, false) == 0U);
+    BOOST_TEST(open(8, 0.0, false) == 2U);
+    BOOST_TEST(open(0, 0.05, false) == 2U);
+    BOOST_TEST(open(4, 0.0, true) == 0U);
+    BOOST_TEST(open(0, 0.1, true) == 0U);
+    BOOST_TEST(open(64, 0.0, true) == 2U);
+    BOOST_TEST(open(0, 0.00625, true) == 2U);
+}
+
 // 1.00 ± 0.05 beside 1.04 ± 0.05, and beside intervals above it, below it and without an end.
 BOOST_AUTO_TEST_CASE(a_narrow_interval_is_known_if_the_one_before_holds_its_middle) {
     const auto interval = [](double low, double high) {

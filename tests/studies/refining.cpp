@@ -18,6 +18,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <ostream>
 #include <string>
@@ -312,6 +313,36 @@ BOOST_AUTO_TEST_CASE(nothing_is_known_of_fewer_than_four_levels) {
     BOOST_TEST(ladder.refined->open.empty());
 }
 
+// Zero, or no number, shows nothing; where the finest error is zero nothing is known of it.
+BOOST_AUTO_TEST_CASE(a_level_counts_once_and_where_it_shows_something) {
+    const double none = std::numeric_limits<double>::quiet_NaN();
+    Until until;
+    until.order = 0.05;
+    until.limit = 0.05;
+    const Series both{"ladder", 0.0, {}, {{"L2"}, {.name = "v", .is_value = true}}, {}};
+    const auto open = [&](const Elements& levels, const std::vector<double>& times) {
+        std::vector<RungResult> runs;
+        for (std::size_t i = 0; i < levels.size(); ++i) {
+            const double h = 1.0 / static_cast<double>(levels[i]);
+            runs.push_back({.rung = {levels[i], 0, 0.0},
+                            .errors = {times[i] * h * h,
+                                       std::isfinite(times[i]) ? 1.0 + times[i] * h : none}});
+        }
+        std::string names;
+        for (const auto& name : not_known(until, both, runs))
+            names += name + " ";
+        return names;
+    };
+    BOOST_TEST(open({4, 8, 16, 32}, {1, 1, 1, 1}).empty());
+    BOOST_TEST(open({4, 8, 16, 16}, {1, 1, 1, 1}) == "L2 v ");
+    BOOST_TEST(open({4, 8, 16, 32, 32}, {1, 1, 1, 1, 1}).empty());
+    BOOST_TEST(open({4, 8, 16, 32}, {1, none, 1, 1}) == "L2 v ");
+    BOOST_TEST(open({2, 4, 8, 16, 32}, {1, none, 1, 1, 1}).empty());
+    BOOST_TEST(open({4, 8, 16, 32, 64}, {1, 0, 1, 1, 1}).empty());
+    BOOST_TEST(open({4, 8, 16, 32}, {1, 0, 1, 1}).starts_with("L2 "));
+    BOOST_TEST(open({4, 8, 16, 32, 64}, {1, 1, 1, 1, 0}).starts_with("L2 "));
+}
+
 // Of errors such an order is not determined anyway; of values there is a limit.
 BOOST_AUTO_TEST_CASE(an_interval_that_the_one_before_does_not_hold_is_not_known) {
     const Series of_values{"ladder", 0.0, {}, {{.name = "drag", .is_value = true}}, {}};
@@ -334,6 +365,9 @@ BOOST_AUTO_TEST_CASE(an_interval_that_the_one_before_does_not_hold_is_not_known)
         BOOST_TEST(not_known(until, of_values, runs).empty() == agrees, off);
         until.limit = 0.99 * limit.half_width(); // narrower than it is
         BOOST_TEST(!not_known(until, of_values, runs).empty());
+        runs.push_back(runs.back()); // a level that is there twice agrees with itself
+        until.limit = 1.01 * limit_of(runs).half_width();
+        BOOST_TEST(not_known(until, of_values, runs).empty() == agrees, off);
     }
 }
 
