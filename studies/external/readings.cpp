@@ -418,21 +418,25 @@ std::string power_of_ten_behind(const std::string& pattern, const std::string& n
     return match.str();
 }
 
-/// What follows the group's number as thousands do, ",234.5" behind 1, outside of a list or
-/// brackets, and is not named by the pattern; or empty.
+/// What follows the group's number as thousands do, ",234.5" behind 1, or as decimals behind a
+/// comma, ",5e-3", outside of a list or brackets, and is not named by the pattern; or empty.
 std::string thousands_behind(const std::string& pattern, const std::string& number,
                              const std::string& before, const std::string& behind) {
     static const std::regex begins(R"(^[-+]?[1-9]\d{0,2}$)");
     static const std::regex thousands("^((,|'|_|\u2019|\u00a0|\u2009|\u202f)\\d{3})+(\\.\\d+)?(?!["
                                       "\\d,\\])}A-Za-z_]|\\.[A-Za-z])");
+    static const std::regex whole(R"(^[-+]?\d+$)");
+    static const std::regex decimals(R"(^,\d+([eEdD][-+]?\d+)?(?![\d,\])}]|\.\d|[eEdD][-+]?\d))");
     std::smatch match;
     const bool is_in_list =
         !before.empty() && std::string_view(",;([{").find(before.back()) != std::string_view::npos;
     const bool is_in_name =
         !before.empty() &&
         (before.back() == '_' || std::isalpha(static_cast<unsigned char>(before.back())) != 0);
-    if (is_in_list || is_in_name || !std::regex_match(number, begins) ||
-        !std::regex_search(behind, match, thousands) ||
+    const bool follows =
+        (std::regex_match(number, begins) && std::regex_search(behind, match, thousands)) ||
+        (std::regex_match(number, whole) && std::regex_search(behind, match, decimals));
+    if (is_in_list || is_in_name || !follows ||
         takes_some(named_beside_the_group(pattern).behind, behind, false))
         return {};
     return match.str();
@@ -548,8 +552,10 @@ ReadFigure OutputReading::figure() const {
     if (!thousands_.empty())
         return {{},
                 "'" + thousands_ + "' follows " + pattern_->name + " = " + *found_ +
-                    ": print it without separators, or, where another number begins there, put " +
-                    "what parts them behind the group"};
+                    ": print it without separators" +
+                    (thousands_.starts_with(',') ? " and with a decimal point" : "") +
+                    ", or, where another number begins there, put what parts them behind the "
+                    "group"};
     if (!begins_before_.empty())
         return {{},
                 "of " + begins_before_ + ", " + pattern_->name + " would be " + *found_ + ": '" +

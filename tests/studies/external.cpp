@@ -200,6 +200,26 @@ BOOST_AUTO_TEST_CASE(a_pattern_that_ends_within_a_number_is_a_failure) {
         BOOST_TEST(read({line}, pattern).failure.find("print it without separators") !=
                        std::string::npos,
                    pattern);
+    // A comma that is a decimal point; beside a point, in a list or brackets it is none.
+    for (const auto& [line, pattern] :
+         std::vector<std::pair<std::string, std::string>>{{"v = 7,500000", R"(v = ([0-9.]+))"},
+                                                          {"v = 1,5e-3", R"(v = ([0-9.]+))"},
+                                                          {"v = -3,5000 m", R"(v = (-?\d+))"},
+                                                          {"v = 0,25", R"(v = (\d+))"},
+                                                          {"v = 12345,5.", R"(v = (\d+))"}})
+        BOOST_TEST(read({line}, pattern).failure.find("with a decimal point") != std::string::npos,
+                   line);
+    for (const auto& [line, pattern] :
+         std::vector<std::pair<std::string, std::string>>{{"v = 7,5,3", R"(v = (\d+))"},
+                                                          {"v = 7,5e-1,3", R"(v = (\d+))"},
+                                                          {"v = 7,2.5", R"(v = (\d+))"},
+                                                          {"v = 7, 5", R"(v = (\d+))"},
+                                                          {"v = 7.0,5", R"(v = (\S+),)"},
+                                                          {"v = 7.0,5", R"(v = ([\d.]+))"},
+                                                          {"v = (7,5)", R"(v = \((\d+))"},
+                                                          {"v = [6,7,5]", R"(6,(\d+))"},
+                                                          {"v = 7,5", R"(v = (\d+),5)"}})
+        BOOST_TEST(read({line}, pattern).value.value_or(0.0) == 7.0, line);
     for (const std::string line :
          {"v = 1.5 x 10^-3", "v = 1.5*10^-3", "v = 1.5 \u00d7 10\u207b\u00b3", "v = 1.5\u00b710^3",
           "v = 1.5 * 10**-3"})
