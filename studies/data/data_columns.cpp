@@ -6,6 +6,7 @@
 
 #include <boost/algorithm/string/join.hpp>
 #include <boost/algorithm/string/predicate.hpp>
+#include <boost/algorithm/string/split.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -97,7 +98,7 @@ void require_no_logarithm(const ColumnNames& names, const std::string& name, Mea
 /// The widths that a choice names, or those that need no name.
 void choose_widths(const ColumnNames& names, const DataChoice& choice, DataFile& data,
                    std::vector<ColumnUse>& uses) {
-    std::vector<std::string> sizes = choice.sizes;
+    std::vector<std::string> sizes = names.apart(choice.sizes);
     if (sizes.empty())
         for (const char* name : {"h", "elements"})
             if (sizes.empty() && names.find(name))
@@ -167,8 +168,8 @@ void choose_widths(const ColumnNames& names, const DataChoice& choice, DataFile&
 
 void choose_figures(const ColumnNames& names, const DataChoice& choice, DataFile& data,
                     std::vector<ColumnUse>& uses) {
-    std::vector<std::string> errors = choice.errors;
-    std::vector<std::string> values = choice.values;
+    std::vector<std::string> errors = names.apart(choice.errors);
+    std::vector<std::string> values = names.apart(choice.values);
     if (errors.empty() && values.empty()) {
         if (names.find("error"))
             errors.emplace_back("error");
@@ -268,6 +269,20 @@ std::size_t ColumnNames::need(const std::string& name, const std::string& option
     throw InputError(place, "no column '" + name + "'" + did_you_mean(name, all) + " among " +
                                 boost::algorithm::join(all, ", ") + "; choose one with " + option +
                                 " NAME, in a scene " + option.substr(2) + " = [\"NAME\"]");
+}
+
+std::vector<std::string> ColumnNames::apart(const std::vector<std::string>& texts) const {
+    std::vector<std::string> names;
+    for (const auto& text : texts) {
+        std::vector<std::string> parts{text};
+        if (!find(text))
+            boost::algorithm::split(parts, text, [](char c) { return c == ','; });
+        std::erase(parts, "");
+        if (parts.empty())
+            parts = {text};
+        names.insert(names.end(), parts.begin(), parts.end());
+    }
+    return names;
 }
 
 std::vector<ColumnUse> choose_columns(const ColumnNames& names, const DataChoice& choice,

@@ -22,6 +22,8 @@ struct ColumnNames {
     [[nodiscard]] std::optional<std::size_t> find(const std::string& name) const;
     /// Throws InputError where there is none; option: by which another would be chosen.
     [[nodiscard]] std::size_t need(const std::string& name, const std::string& option) const;
+    /// Those of a choice, one by one: a text that is no name is several with commas between them.
+    [[nodiscard]] std::vector<std::string> apart(const std::vector<std::string>& texts) const;
 };
 
 /// How a column is read.

@@ -57,6 +57,8 @@ public:
         line_ = rest_.substr(0, end);
         rest_.remove_prefix(std::min(end + 1, rest_.size()));
         ++number_;
+        if (line_.find('\0') != std::string_view::npos)
+            throw InputError(place(1), "is no text");
         return true;
     }
     std::string_view line() const { return line_; }
@@ -80,10 +82,27 @@ bool is_rule(std::string_view line) {
            line.find('-') != std::string_view::npos;
 }
 
+/// A line without what stands in quotes, those that begin a field.
+std::string without_quoted(std::string_view line) {
+    std::string bare;
+    bool is_quoted = false;
+    char before = ' ';
+    for (const char c : line) {
+        const bool may_begin = std::string_view(" \t;,|\"").find(before) != std::string_view::npos;
+        if (c == '"' && (is_quoted || may_begin))
+            is_quoted = !is_quoted;
+        else if (!is_quoted)
+            bare += c;
+        before = c;
+    }
+    return bare;
+}
+
 /// The separator that a line of names has; a blank stands for any run of blanks.
 char separator_of(std::string_view names) {
+    const std::string bare = without_quoted(names);
     for (const char separator : {'\t', ';', ','})
-        if (names.find(separator) != std::string_view::npos)
+        if (bare.find(separator) != std::string::npos)
             return separator;
     return is_between_bars(names) ? '|' : ' ';
 }
@@ -204,8 +223,6 @@ Head head_of(Lines& lines) {
             comment = {trimmed(line.substr(1)), lines.place(1)};
             continue;
         }
-        if (line.find('\0') != std::string_view::npos)
-            throw InputError(lines.place(1), "is no text");
         Head head{{}, lines.place(1), separator_of(line)};
         // Fields at the ends may be empty, and tabs separate them.
         split(lines, head.separator == ' ' ? line : lines.line(), head.separator, fields);

@@ -14,8 +14,9 @@
 
 namespace tvbeam {
 
-/// What the columns mean. Without a choice: h (or elements) and dt are widths, error or, where
-/// there is none, value is what was found.
+/// What the columns mean; in lists of names one text may be several, with commas between them.
+/// Without a choice: h (or elements) and dt are widths, error or, where there is none, value is
+/// what was found.
 struct DataChoice {
     std::vector<std::string> sizes = {}; ///< widths of meshes, or numbers of cells, unknowns, …
     std::optional<double> dimension =

@@ -190,10 +190,15 @@ std::vector<RowCondition> conditions_of(const ColumnNames& names,
                                         const std::vector<std::string>& where) {
     std::vector<RowCondition> conditions;
     for (const auto& one : where) {
-        const auto equals = one.find('=');
+        auto equals = one.find('=');
         if (equals == std::string::npos || equals == 0)
             throw InputError(names.place, "cannot be asked for rows where '" + one +
                                               "'; write it as COLUMN=TEXT, e.g. scheme=Euler");
+        for (auto at = equals; at != std::string::npos; at = one.find('=', at + 1))
+            if (names.find(boost::algorithm::trim_copy(one.substr(0, at)))) {
+                equals = at; // that of a name belongs to it
+                break;
+            }
         const auto name = boost::algorithm::trim_copy(one.substr(0, equals));
         const auto column = names.find(name);
         if (!column)

@@ -234,7 +234,10 @@ const std::vector<Malformed> malformed{
     {"H,h1,error,Error,ERROR\n0.1,1,1,1,1\n",
      "e.csv:1:1: names the column eRROR twice",
      {.errors = {"eRROR"}}},
-    {std::string("h,error\n0.1,1\0\n", 15), "e.csv:2:5: '1"},
+    {std::string("h,error\n0.1,1\0\n", 15), "e.csv:2:1: is no text"},
+    {std::string("h,error\n0.1,1\n#\0\n", 17), "e.csv:3:1: is no text"},
+    {"h,L2\n0.2,1\n", "e.csv:1:1: no column 'H1'", {.errors = {"L2,H1"}}},
+    {"h,L2\n0.2,1\n", "e.csv:1:1: no column ','", {.errors = {","}}},
     {std::string("\0\0\0\0", 4), "e.csv:1:1: is no text"},
     {"\xFF\xFEh\n", "e.csv: is UTF-16"},
 };
@@ -252,6 +255,40 @@ BOOST_AUTO_TEST_CASE(a_file_that_is_not_there_is_refused) {
     BOOST_TEST(malformed.size() >= 60u);
     BOOST_CHECK_THROW(read_data("/no/such/file.csv"), InputError);
     BOOST_CHECK_THROW(read_data("/"), InputError);
+}
+
+BOOST_AUTO_TEST_CASE(a_separator_within_quotes_is_none) {
+    for (const auto& [names, name] :
+         std::vector<std::pair<std::string, std::string>>{{"\"h\",\"a; b\"", "a; b"},
+                                                          {"h, \"a\tb\"", "a\tb"},
+                                                          {"h,\"a \"\"; b\"", "a \"; b"},
+                                                          {"h,\"a\"\"\"\"; b\"", "a\"\"; b"}})
+        BOOST_TEST(
+            data_of(names + "\n0.2,1\n0.1,0.25\n", {.errors = {name}}).errors.front().numbers ==
+                (std::vector<double>{1, 0.25}),
+            names);
+    BOOST_TEST(data_of("\"h, of the mesh\";\"a\"\n0,2;1\n0,1;0,25\n",
+                       {.sizes = {"h, of the mesh"}, .errors = {"a"}})
+                   .widths.front()
+                   .numbers == (std::vector<double>{0.2, 0.1}));
+    BOOST_TEST(data_of("h \"a, b\"\n0.2 1\n0.1 0.25\n", {.errors = {"a, b"}}).errors.size() == 1U);
+    // A quote within a name begins nothing.
+    BOOST_TEST(data_of("h,5\" pipe\n0.2,1\n0.1,0.25\n", {.errors = {"5\" pipe"}}).errors.size() ==
+               1U);
+}
+
+BOOST_AUTO_TEST_CASE(a_text_that_is_the_name_of_a_column_is_not_taken_apart) {
+    const std::string text = "\"h\",\"err,or\",\"a=b\",L2,c\n0.2,1,x,3,1\n0.1,0.25,x,2,1\n"
+                             "0.1,0.5,y=z,4,2\n";
+    const auto columns = [&](const std::vector<std::string>& errors, const std::string& where) {
+        std::string all;
+        for (const auto& column : data_of(text, {.errors = errors, .where = {where}}).errors)
+            all += column.name + ": " + std::to_string(column.numbers.size()) + "; ";
+        return all;
+    };
+    BOOST_TEST(columns({"err,or"}, "a=b=x") == "err,or: 2; ");
+    BOOST_TEST(columns({"err,or", "L2"}, "a=b = y=z") == "err,or: 1; L2: 1; ");
+    BOOST_TEST(columns({"L2,c,"}, "a=b=x") == "L2: 2; c: 2; ");
 }
 
 BOOST_AUTO_TEST_CASE(columns_are_found_by_name_in_any_order) {

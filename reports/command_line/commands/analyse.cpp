@@ -96,7 +96,7 @@ CLI::Validator positive_number() {
 
 void add_choice(CLI::App& analyse, DataChoice& choice) {
     const auto names = [&](const char* option, std::vector<std::string>& list, const char* what) {
-        analyse.add_option(option, list, what)->delimiter(',')->type_name("NAME,...");
+        analyse.add_option(option, list, what)->type_name("NAME,...");
     };
     names("--size", choice.sizes,
           "columns of mesh widths, or of numbers of cells, unknowns, ...; default: h or elements");
