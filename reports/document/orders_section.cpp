@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <set>
 
 namespace tvbeam {
@@ -114,9 +115,15 @@ std::string basis_of_limits(const std::vector<RungResult>& runs) {
         h.insert(run.rung.h());
         dt.insert(run.rung.dt);
     }
+    const auto from = std::ranges::count_if(runs, [&](const RungResult& run) {
+        const bool is_finest = run.rung.h() == *h.begin() || run.rung.dt == *dt.begin();
+        const bool is_next =
+            run.rung.h() == *std::next(h.begin()) && run.rung.dt == *std::next(dt.begin());
+        return run.status == RungStatus::ok && (is_finest || is_next);
+    });
     return fmt::format("Limits are from {} of the {} runs: those finest in h or in dt, and the one "
                        "next to the finest in both.",
-                       h.size() + dt.size(), runs.size());
+                       from, runs.size());
 }
 
 /// What the model is of: the norm itself, the root of what is a square by its name.
