@@ -1,6 +1,7 @@
 #include "reports/document/orders_section.hpp"
 
 #include "reports/document/ending_text.hpp"
+#include "studies/orders/error_rows.hpp"
 #include "studies/text/number_text.hpp"
 
 #include <fmt/format.h>
@@ -177,6 +178,9 @@ Section orders_section(const OrdersResult& orders, const OrdersBlock& block) {
         if (fit.holds()) {
             fits.emplace_back(norm, &fit);
             findings.emplace_back(finding(norm, fit));
+            if (vanishes_at_the_finest(orders.runs, k))
+                findings.emplace_back(Finding{
+                    norm + ": " + finest_is_zero + "; what is said is of the runs before it.", 2});
             const auto more = rejections(norm, fit, orders.runs);
             notes.insert(notes.end(), more.begin(), more.end());
         } else {

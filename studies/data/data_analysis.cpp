@@ -50,13 +50,17 @@ DataAnalysis analyse(const DataFile& data) {
         analysis.columns.push_back(analyse_errors(analysis, in_order(errors, order), sigma));
     for (const auto& values : data.values)
         analysis.columns.push_back(analyse_values(analysis, in_order(values, order), sigma));
-    for (auto& column : analysis.columns)
+    const std::string before = "; what is said is of the rows before it";
+    for (auto& column : analysis.columns) {
         if (finest_failed(analysis, column) &&
             std::ranges::any_of(column.numbers,
                                 [](double number) { return std::isfinite(number); }))
             column.findings.push_back(column.name + ": the finest row has no " +
-                                      (column.is_value ? "value" : "error") +
-                                      "; what is said is of the rows before it");
+                                      (column.is_value ? "value" : "error") + before);
+        if (vanishes_at_the_finest(analysis, column))
+            column.findings.push_back(column.name + ": the error of the finest row is zero" +
+                                      before);
+    }
     return analysis;
 }
 

@@ -1,6 +1,7 @@
 #include "studies/ladder/ladder.hpp"
 
 #include "studies/ladder/order_remarks.hpp"
+#include "studies/orders/error_rows.hpp"
 #include "studies/orders/ladder_order.hpp"
 
 #include <fmt/format.h>
@@ -174,6 +175,9 @@ LadderResult analyse_ladder(const LadderBlock& block, const Method& method,
             else
                 shown.remarks.push_back(
                     order_sentence(result.analysis->widths.front().name, column));
+            if (vanishes_at_the_finest(*result.analysis, column))
+                shown.remarks.push_back(column.name + ": " + finest_is_zero +
+                                        "; what is said is of the levels before it.");
             if (fit == nullptr && !norm.is_value && !column.verdicts.empty())
                 shown.verdicts = column.verdicts;
         }

@@ -591,6 +591,23 @@ BOOST_AUTO_TEST_CASE(a_zero_that_its_digits_do_not_hide_is_one) {
             sigma);
 }
 
+// As of one that has failed.
+BOOST_AUTO_TEST_CASE(that_the_finest_error_is_zero_is_said_beside_the_order) {
+    const std::string remark =
+        "error: the error of the finest row is zero; what is said is of the rows before it";
+    const auto says = [&](const std::string& finest) {
+        const auto column =
+            analysis_of("h,error\n0.4,1.60000e-1\n0.2,4.00000e-2\n0.1,1.00000e-2\n0.05," + finest +
+                        "\n")
+                .columns.front();
+        BOOST_TEST(column.by_width.front().determined, finest);
+        return std::ranges::find(column.findings, remark) != column.findings.end();
+    };
+    BOOST_TEST(says("0"));
+    BOOST_TEST(!says("0.0025"));
+    BOOST_TEST(!says("nan"));
+}
+
 // Steps that something else limits.
 BOOST_AUTO_TEST_CASE(a_width_that_hardly_changes_beside_another_is_not_refined) {
     const auto values = [](const std::vector<double>& dt) {
