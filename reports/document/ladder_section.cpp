@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cctype>
 #include <functional>
 #include <utility>
@@ -31,30 +32,27 @@ Table::Group norm_group(const LadderResult& ladder, const LadderBlock& block, st
         return errors.empty() ? std::optional<double>() : errors[k];
     };
     const std::string& name = ladder.norms[k].norm.name;
+    const bool is_value = ladder.norms[k].norm.is_value;
     Table::Group group{name, {}};
-    if (ladder.norms[k].norm.is_value) {
-        group.columns.push_back(column(ladder, "value", [&](std::size_t i) {
-            return error(i) ? scientific(error(i), 8) : name_of(ladder.rungs[i].status);
-        }));
-        return group;
-    }
-    group.columns.push_back(column(ladder, "error", [&](std::size_t i) {
-        return error(i) ? scientific(error(i), 4) : name_of(ladder.rungs[i].status);
+    group.columns.push_back(column(ladder, is_value ? "value" : "error", [&](std::size_t i) {
+        return error(i) ? scientific(error(i), is_value ? 8 : 4) : name_of(ladder.rungs[i].status);
     }));
     if (block.printed) {
         if (const auto found = block.printed->figures.find(name);
             found != block.printed->figures.end()) {
             const auto& figures = found->second;
-            group.columns.push_back(
-                column(ladder, "publ.", [&](std::size_t i) { return scientific(figures[i], 3); }));
+            group.columns.push_back(column(ladder, "publ.", [&](std::size_t i) {
+                return scientific(figures[i], is_value ? 8 : 3);
+            }));
             group.columns.push_back(column(ladder, "ratio", [&](std::size_t i) {
                 const auto value = error(i);
                 return value && figures[i] != 0.0 ? ratio_cell(*value / figures[i]) : std::string();
             }));
         }
     }
-    group.columns.push_back(
-        column(ladder, "ord.", [&](std::size_t i) { return fixed(ladder.norms[k].orders[i], 2); }));
+    if (!is_value)
+        group.columns.push_back(column(
+            ladder, "ord.", [&](std::size_t i) { return fixed(ladder.norms[k].orders[i], 2); }));
     return group;
 }
 
@@ -65,6 +63,20 @@ std::string seconds_text(double seconds) {
     if (seconds < 0.995)
         return fixed(seconds, 2);
     return fixed(seconds, seconds < 99.95 ? 1 : 0);
+}
+
+/// What published figures stand beside, and of what there are orders.
+std::string legend(const LadderBlock& block) {
+    bool errors = false;
+    bool values = false;
+    for (const auto& measure : block.norms)
+        if (block.printed->figures.contains(measure.name))
+            (measure.is_value ? values : errors) = true;
+    const bool orders =
+        std::ranges::any_of(block.norms, [](const Measure& measure) { return !measure.is_value; });
+    return "publ.: published, " + block.printed->source + "; ratio: " + (errors ? "error" : "") +
+           (errors && values ? " or " : "") + (values ? "value" : "") + " / published" +
+           (orders ? "; ord.: observed order" : "");
 }
 
 /// "Errors up to T = 2": of errors, values or both, and until when, if that is known.
@@ -129,10 +141,11 @@ std::vector<std::string> empty_words(const LadderResult& ladder) {
     bool measured = false;
     bool all_zero = true;
     for (const auto& run : ladder.rungs)
-        for (const double error : run.errors) {
-            measured = true;
-            all_zero = all_zero && error == 0.0;
-        }
+        for (std::size_t k = 0; k < run.errors.size(); ++k)
+            if (!ladder.norms[k].norm.is_value) {
+                measured = true;
+                all_zero = all_zero && run.errors[k] == 0.0;
+            }
     if (measured && all_zero)
         sentences.emplace_back("Every error is zero: what the norms measure is zero, or the scheme "
                                "is exact for it. That tests nothing of its order.");
@@ -153,8 +166,7 @@ Section ladder_section(const LadderResult& ladder, const LadderBlock& block, con
         blocks.emplace_back(std::move(block));
     };
     if (block.printed && !block.printed->figures.empty())
-        add(Paragraph{"publ.: published, " + block.printed->source +
-                      "; ratio: error / published; ord.: observed order"});
+        add(Paragraph{legend(block)});
     for (const auto& rung : ladder.rungs)
         if (rung.status != RungStatus::ok)
             add(Finding{rung.trouble(shortest)});

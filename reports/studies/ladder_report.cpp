@@ -27,11 +27,11 @@ Json json_of(const LadderResult& ladder, const LadderBlock& block) {
         Json reason = Json::object();
         for (const auto& norm : ladder.norms) {
             const std::string& name = norm.norm.name;
+            if (block.printed && block.printed->figures.contains(name))
+                printed[name] = block.printed->figures.at(name)[i];
             if (norm.norm.is_value)
                 continue;
             orders[name] = number_json(norm.orders[i]);
-            if (block.printed && block.printed->figures.contains(name))
-                printed[name] = block.printed->figures.at(name)[i];
             if (!norm.predictions.empty()) {
                 const auto& prediction = norm.predictions[i];
                 predicted[name] = number_json(prediction.value);
