@@ -76,6 +76,22 @@ Json result_in(const std::string& name) {
     return json;
 }
 
+/// The values of a sweep; its scene has the first alone.
+Json swept_values(const Json& json, const std::string& name) {
+    Json values = Json::array();
+    const Json rows = json.value("rows", Json::array());
+    for (const auto& row : rows) {
+        if (!rows.is_array() || !row.is_object())
+            throw InputError(
+                {name},
+                "is no result of a sweep: its rows are " +
+                    rows.dump(-1, ' ', false, Json::error_handler_t::replace).substr(0, 40) +
+                    "; they are a list of objects, one a value");
+        values.push_back(row.value("value", Json()));
+    }
+    return values;
+}
+
 std::optional<double> relative_difference(const Json& a, const Json& b) {
     if (!a.is_number() || !b.is_number())
         return std::nullopt;
@@ -160,16 +176,13 @@ ComparedResults compare_results(const std::string& first, const std::string& sec
             scenes.at(i) = json_values(json["scene"], is_nothing);
         for (const char* key : {"scene", "schema", "provenance"})
             json.erase(key);
-        if (const Json swept = json.value("key", Json()); swept.is_string()) {
-            Json values = Json::array(); // the scene has the first alone
-            for (const auto& row : json.value("rows", Json::array()))
-                values.push_back(row.value("value", Json()));
-            scenes.at(i)[swept] = values;
-        }
+        if (const Json swept = json.value("key", Json()); swept.is_string())
+            scenes.at(i)[swept] = swept_values(json, *names.at(i));
         leave_out_races(json);
-        if (const auto stress = json.find("stress");
-            stress != json.end() && stress->is_object() && stress->contains("cases_left_out"))
-            compared.not_compared = {"stress: " + stress->value("cases_left_out", std::string())};
+        if (const auto stress = json.find("stress"); stress != json.end() && stress->is_object() &&
+                                                     stress->contains("cases_left_out") &&
+                                                     (*stress)["cases_left_out"].is_string())
+            compared.not_compared = {"stress: " + (*stress)["cases_left_out"].get<std::string>()};
         json.erase("file"); // of a table that was analysed
         if (auto remarks = json.find("remarks"); remarks != json.end() && remarks->is_array())
             remarks->erase(std::remove_if(remarks->begin(), remarks->end(),
@@ -178,7 +191,8 @@ ComparedResults compare_results(const std::string& first, const std::string& sec
                                                      SolverRuns::is_remark(remark);
                                           }),
                            remarks->end());
-        results.at(i) = json_values(json, is_time);
+        // Of a table that was analysed all numbers are its own, also those of a width "seconds".
+        results.at(i) = json_values(json, json.contains("sizes") ? is_nothing : is_time);
     }
     std::size_t in_scene = 0;
     compared.scene = differences(scenes[0], scenes[1], 0.0, in_scene);
