@@ -146,12 +146,18 @@ private:
         const bool free = stops && largest([&](double u, double /*stress*/) {
                                        return is_low(u) || is_high(u) ? 0.0 : 1.0;
                                    }) > 0.0;
-        add("(6)(7)", "a free tip between stops", {free ? tip_size : 0.0},
+        const ReachedStops reached =
+            stops ? reached_stops(derived_, beam_.stops, final_time_) : ReachedStops();
+        // A tip that reaches a stop was free next to it, closer than any sample.
+        const double free_size = std::max({largest([&](double u, double /*stress*/) {
+                                               return is_low(u) || is_high(u) ? 0.0 : u;
+                                           }),
+                                           reached.lower ? std::abs(lower) : 0.0,
+                                           reached.upper ? std::abs(upper) : 0.0});
+        add("(6)(7)", "a free tip between stops", {free ? free_size : 0.0},
             !stops ? "the beam has no stops"
             : free ? "u(1,t) is zero"
                    : "the tip is on a stop all the time");
-        const ReachedStops reached =
-            stops ? reached_stops(derived_, beam_.stops, final_time_) : ReachedStops();
         add_stop("g1", lower, reached.lower, largest([&](double u, double force) {
                      return is_low(u) && force > small ? force : 0.0;
                  }));

@@ -110,6 +110,18 @@ BOOST_AUTO_TEST_CASE(cases_of_contact_are_distinguishable) {
     check_unused(unstopped, "(8)", "a force at the stop g2", "there is no stop g2");
 }
 
+// Stops that yield let the tip pass by 0.119; between them it is free.
+BOOST_AUTO_TEST_CASE(a_free_tip_is_as_large_as_it_is_between_the_stops) {
+    const auto terms =
+        coverage({parse_solution("theta = 'sin(pi*x)*exp(-t)'\nu = '0.06*x^2*(3-x)*sin(pi*t)'\n",
+                                 "yielding.toml"),
+                  {0.3, 0.1, 0.0, {-0.001, 0.001, 0.01}},
+                  2.0});
+    const double size = use(terms, "(6)(7)", "a free tip between stops").largest;
+    BOOST_TEST(size > 0.00099);
+    BOOST_TEST(size <= 0.001);
+}
+
 // Between the times of any grid, and of both stops.
 BOOST_AUTO_TEST_CASE(a_smooth_touch_is_one_without_a_force) {
     const auto on = [](const std::string& u, double epsilon) {
