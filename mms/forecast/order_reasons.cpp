@@ -68,8 +68,8 @@ void add_switch_reasons(const ExpectedOrders& known, std::vector<std::string>& t
         if (change.theta_t_jump > 0.0 || change.u_xxt_jump > 0.0)
             text.push_back("at t = " + number_text(change.t) + " " +
                            (change.theta_t_jump > 0.0
-                                ? "theta_t jumps by up to " + number_text(change.theta_t_jump)
-                                : "u_xxt jumps by up to " + number_text(change.u_xxt_jump)) +
+                                ? "theta_t jumps by up to " + number_text(change.theta_t_jump, 2)
+                                : "u_xxt jumps by up to " + number_text(change.u_xxt_jump, 2)) +
                            ": BDF2 has the order 1 in dt, and more only where the time is the "
                            "middle of a step; " +
                            (is_linear_beside(change)
