@@ -266,6 +266,43 @@ BOOST_AUTO_TEST_CASE(only_an_uneven_tip_in_a_penalised_stop_costs_sdirk2_an_orde
     }
 }
 
+// The first step of BDF2 is one of SDIRK2, whose force is wrong by an error of order 1 over a time
+// Δt: where the tip is on the stop then, or comes to it from there, and not where it comes later.
+BOOST_AUTO_TEST_CASE(a_tip_that_starts_in_a_penalised_stop_costs_bdf2_an_order) {
+    const auto problem = [](const std::string& tip) {
+        return Problem{parse_solution("theta = 'sin(pi*x)*exp(-t)'\nu = 'g2*(" + tip +
+                                          ")*(3*x^2 - x^3)/2 + g2*x^2*(1 - x)^2*exp(-t)'\n",
+                                      "tip.toml"),
+                       {0.4, 0.15, 0.0, {-1.0, 0.1, 1e-4}},
+                       1.0};
+    };
+    struct Case {
+        std::string tip;
+        bool loses;
+    };
+    for (const auto& [tip, loses] : {Case{"(5 + sin(t))/4", true},
+                                     {"1 + exp(t) - cos(t)", true},
+                                     {"(5 + t)/4", false},
+                                     {"0.8 + t^3", false}}) {
+        const Problem one = problem(tip);
+        const ExpectedOrders expected = expected_orders({one.solution, one.beam, one.final_time});
+        for (const ExpectedOrder& order : expected.orders) {
+            const double own = order.norm == "corollary" ? 4.0 : 2.0;
+            const bool is_maximum =
+                order.norm.find("Linf") != std::string::npos || order.norm == "corollary";
+            const double least = !loses ? own : own / 2.0 * (is_maximum ? 1.0 : 1.5);
+            BOOST_TEST(order.bdf2.least == least, tip << ", " << order.norm);
+            BOOST_TEST(order.bdf2.greatest == own, tip << ", " << order.norm);
+        }
+        bool is_said = false;
+        for (const std::string& reason : expected.reasons)
+            is_said = is_said || reason.find("first step of BDF2") != std::string::npos;
+        BOOST_TEST(is_said == loses, tip);
+        if (loses)
+            check_forecast(one, "bdf2", {16, 23, 32, 45, 64}, tip);
+    }
+}
+
 // A tip that comes up like s^m and a force that begins like s^k, of which no power up to 6 is seen:
 // the orders p(2j + 1)/(2j + 2), with j = m − 1 and j = k, are in the range that is forecast.
 BOOST_AUTO_TEST_CASE(a_high_power_of_an_onset_leaves_less_than_a_flat_one) {
