@@ -129,7 +129,9 @@ std::vector<Metric> forecast_metrics(std::size_t k, double within, const StudyRe
     const NormConstants* norm = forecast.of(measure.root());
     if (norm == nullptr || !norm->unknown.empty())
         return {metric("a, b", std::nullopt,
-                       "no forecast: " + (norm == nullptr ? forecast.unknown : norm->unknown))};
+                       "no forecast: " + (norm != nullptr            ? norm->unknown
+                                          : forecast.unknown.empty() ? "the beam has no stops"
+                                                                     : forecast.unknown))};
     const auto order = [](const auto& term) {
         return term ? std::optional(term->order) : std::nullopt;
     };
