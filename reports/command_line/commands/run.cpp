@@ -133,8 +133,6 @@ int run_command(const RunOptions& options) {
     }
     Destination json = destination(options.json);
     Destination csv = destination(options.csv);
-    if (scene.defect && csv.wanted() && !options.quiet)
-        say("the CSV holds results with a deliberate defect, not the problem's");
     // From here on there is something to keep.
     EndRequests end_requests([&] {
         const std::string advice = kept ? kept->advice() : "";
@@ -157,14 +155,19 @@ int run_command(const RunOptions& options) {
         if (!result.interrupted())
             kept->end();
     }
+    const auto write_csv = [&] {
+        csv.write(csv_report(result));
+        if (scene.defect && !options.quiet)
+            say("the CSV holds results with a deliberate defect, not the problem's");
+    };
     if (json.wanted() && !json.standard_output())
         json.write(json_report(result));
     if (csv.wanted() && !csv.standard_output())
-        csv.write(csv_report(result));
+        write_csv();
     if (json.standard_output())
         json.write(json_report(result));
     else if (csv.standard_output())
-        csv.write(csv_report(result));
+        write_csv();
     else if (!options.quiet)
         write_standard_output(text_document(result_document(result)));
     if (const std::string trouble = trouble_of(result, kept); !trouble.empty()) {
