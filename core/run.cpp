@@ -94,7 +94,12 @@ RunResult march(const RunRequest& request, const ProblemData& data, const Mesh& 
         const StepSources sources = levels.at(n);
         const std::string reason = solver->step(sources);
         if (!reason.empty())
-            return failure(located(reason, n, request.steps, levels.time(n)), solver->counters());
+            return failure(
+                located(reason, n, request.steps, levels.time(n)) +
+                    (sources.amplitudes.allFinite()
+                         ? ""
+                         : ": a formula of the problem has no finite value in that step"),
+                solver->counters());
         // The last solve of a step is at its end.
         if (norms)
             norms->add(levels.time(n), dt, *solver,
