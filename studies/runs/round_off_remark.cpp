@@ -21,9 +21,6 @@ namespace tvbeam {
 
 namespace {
 
-/// The factor within which the prediction is taken to hold.
-constexpr double within = 10.0;
-
 /// Of the norm of the solution: no discretisation error is told from rounding below it.
 constexpr double round_off = 16.0 * std::numeric_limits<double>::epsilon();
 
@@ -92,13 +89,17 @@ Scale scale_of(const Beam& beam, const ProblemData& data, const Norm& norm, doub
     const bool sums_up = std::ranges::any_of(
         norm.parts, [](const TimeNorm& part) { return part.kind == TimeNorm::Kind::L2; });
     const double duration = sums_up ? std::max(1.0, std::sqrt(final_time)) : 1.0;
-    const double own = size_of_exact(data, norm, final_time);
+    const bool is_of_heat = has(tvbeam::Quantity::theta) || has(tvbeam::Quantity::theta_x);
+    const double stress = duration * greatest_stress(data, final_time);
+    const double own = has(tvbeam::Quantity::stress)
+                           ? std::hypot(size_of_exact(data, norm, final_time), stress)
+                           : size_of_exact(data, norm, final_time);
     double size = own;
+    if (has(tvbeam::Quantity::stress) || !is_of_heat)
+        size = std::max({size, stress, duration * greatest_of(data, data.moment_load, final_time)});
     if (has(tvbeam::Quantity::stress))
-        size = std::max({size, duration * greatest_stress(data, final_time),
-                         duration * greatest_of(data, data.moment_load, final_time),
-                         duration * greatest_of(data, data.exact->u_xx, final_time)});
-    if (has(tvbeam::Quantity::theta) || has(tvbeam::Quantity::theta_x))
+        size = std::max(size, duration * greatest_of(data, data.exact->u_xx, final_time));
+    if (is_of_heat)
         size = std::max(size, std::abs(beam.alpha) * duration *
                                   greatest_of(data, data.exact->u_xx, final_time));
     else
@@ -111,6 +112,13 @@ Scale scale_of(const Beam& beam, const ProblemData& data, const Norm& norm, doub
     const double sources = std::max(greatest_of(data, data.heat_source, final_time),
                                     greatest_of(data, data.moment_load, final_time));
     return {sources, fmt::format("of a solution of 0 with sources of {:.2g}", sources)};
+}
+
+bool measures_deflection_alone(const Norm& norm) {
+    const QuantitySet measured = quantities_of({norm});
+    const auto has = [&](tvbeam::Quantity quantity) { return measured[index(quantity)]; };
+    return !has(tvbeam::Quantity::theta) && !has(tvbeam::Quantity::theta_x) &&
+           !has(tvbeam::Quantity::stress);
 }
 
 /// Whether theory has no error of that norm, neither in h nor in Δt; nothing: it does not say,
@@ -145,23 +153,25 @@ std::optional<bool> exact_in_theory(const Scene& scene, const Series& series, co
 std::string round_off_remark(const Beam& beam, const ProblemData& data, const Series& series,
                              const std::vector<RungResult>& rungs, std::size_t k) {
     const Measure& measure = series.measures[k];
-    if (scheme_of(series.method).algorithm != Algorithm::fixed_point || !data.exact ||
-        measure.root() != "u_LinfH2semi")
+    const Scheme& scheme = scheme_of(series.method);
+    const auto norm = Norm::named(measure.root());
+    if (scheme.algorithm != Algorithm::fixed_point || !data.exact || !norm ||
+        !measures_deflection_alone(*norm))
         return {};
-    const double size = size_of_exact(data, *Norm::named(measure.root()), series.final_time);
+    const double size = size_of_exact(data, *norm, series.final_time);
     for (const auto& rung : rungs) {
         if (rung.errors.empty())
             continue;
         const double error = measure.root_of(rung.errors[k]);
-        const double floor =
-            size * hermite_floor(rung.rung.elements, beam.zeta, rung.rung.dt, rung.rung.steps);
-        if (within * floor <= error / 2.0)
+        const double most = size * hermite_round_off(scheme.time.name, rung.rung.elements,
+                                                     beam.zeta, rung.rung.dt, rung.rung.steps);
+        if (most <= error / 2.0)
             continue;
         return fmt::format(
             "{}: from s = {} on, the round-off of the Hermite form, which grows like h^-4, may "
-            "exceed the discretisation error: {:.2g}, within a factor of {:.2g}, is predicted of "
-            "an error of {:.2g}; algorithm = \"direct\" does not suffer it",
-            measure.name, rung.rung.elements, floor, within, error);
+            "exceed the discretisation error: up to {:.2g} is predicted of an error of {:.2g}; "
+            "algorithm = \"direct\" does not suffer it",
+            measure.name, rung.rung.elements, most, error);
     }
     return {};
 }
@@ -179,12 +189,19 @@ std::optional<RoundingErrors> rounding_errors(const Scene& scene, const ProblemD
     double greatest = 0.0;
     double most = 0.0;
     bool is_below = true;
-    constexpr double elements_of_it = 16.0; // it grows with those that it is summed up over
+    // It grows with what it is summed up over; a stress answers to rates.
+    constexpr double elements_of_it = 16.0;
+    constexpr double steps_of_it = 8.0;
+    const bool is_of_stress = quantities_of({*norm})[index(tvbeam::Quantity::stress)];
     for (const auto& run : runs)
         if (!run.errors.empty()) {
             const double error = measure.root_of(run.errors[k]);
             const auto elements = static_cast<double>(run.rung.elements);
-            const double below = round_off * scale.size * std::max(1.0, elements / elements_of_it);
+            const double steps =
+                is_of_stress ? remembered_steps(scene.beam.zeta, run.rung.dt, run.rung.steps) : 1.0;
+            const double below =
+                round_off * scale.size *
+                std::max(std::max(1.0, elements / elements_of_it), steps / steps_of_it);
             is_below = is_below && error <= below;
             greatest = worse(greatest, error);
             most = std::max(most, below);

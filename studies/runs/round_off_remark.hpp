@@ -13,19 +13,19 @@ namespace tvbeam {
 
 struct Scene;
 
-/// A sentence where ten times the Hermite form's predicted round-off (core/round_off.hpp), the
-/// factor within which the prediction holds, exceeds half of an error in the curvature; empty where
-/// it does not, where no exact solution says how large the curvature is, and for the direct
-/// algorithm. k: the norm's place among the measures of the series.
+/// A sentence where the most that is predicted of the Hermite form's round-off (core/round_off.hpp)
+/// exceeds half of an error of u; empty where it does not, of other norms, where no exact solution
+/// says how large u is, and for the direct algorithm. k: the norm's place among the measures of the
+/// series.
 std::string round_off_remark(const Beam& beam, const ProblemData& data, const Series& series,
                              const std::vector<RungResult>& rungs, std::size_t k);
 
 /// Where every error is below 16 ε of the norm of the exact solution, or of what that
-/// comes from (α u_xx beside θ, α θ beside u, u_xx beside σ; the sources where all of that is
-/// zero) and not all are 0: that they are rounding, where theory has no error of that norm
-/// (mms/expected_orders.hpp); else that they may be, where they do not fall from one to the next of
-/// `refined`, the runs that refine every width. None otherwise, and where no exact solution is
-/// known.
+/// comes from (α u_xx beside θ; α θ, the moment load and σ beside u; these and u_xx beside σ; the
+/// sources where all of that is zero) and not all are 0: that they are rounding, where theory has
+/// no error of that norm (mms/expected_orders.hpp); else that they may be, where they do not fall
+/// from one to the next of `refined`, the runs that refine every width. None otherwise, and where
+/// no exact solution is known.
 std::optional<RoundingErrors> rounding_errors(const Scene& scene, const ProblemData& data,
                                               const Series& series,
                                               const std::vector<RungResult>& runs,

@@ -2,6 +2,9 @@
 
 #include "studies/ladder/order_remarks.hpp"
 #include "core/norms/norms.hpp"
+#include "core/round_off.hpp"
+#include "core/time/time_scheme.hpp"
+#include "studies/ladder/ladder.hpp"
 #include "studies/runs/beam_runs.hpp"
 #include "studies/runs/round_off_remark.hpp"
 #include "studies/scene/scene.hpp"
@@ -348,6 +351,88 @@ BOOST_AUTO_TEST_CASE(a_scheme_that_may_be_exact_is_not_said_to_be_not) {
             BOOST_TEST(denied == (scheme == "bdf2" || !in_pieces),
                        scheme << ", " << behind << ": " << said);
         }
+}
+
+// u is at rest, and no scheme has an error in it; it comes from a force of 2000.
+BOOST_AUTO_TEST_CASE(what_large_loads_leave_of_a_small_deflection_is_rounding) {
+    const TemporaryDirectory directory;
+    directory.write("pressed.toml", "theta = 'sin(pi*x)*(1+t)'\nu = 'g2*(3*x^2-x^3)/2'\n"
+                                    "sigma = '-1000*(1+t)'\n");
+    const StudyResult result = run_study(read_scene(
+        directory.write("s.toml", "solution = './pressed.toml'\n[beam]\nalpha = 0\nzeta = 0.3\n"
+                                  "stops = [-0.1, 0.1]\n[scheme]\ntime = 'bdf2'\n"
+                                  "[ladder]\nfinal_time = 1\nelements = [8, 16, 32, 64, 128]\n"
+                                  "dt = '0.08/s'\n"
+                                  "norms = ['sigma_L2', 'u_LinfH2', 'u_L2H2', 'u_LinfL2']\n"),
+        {}));
+    for (const auto& norm : result.get<LadderResult>()->norms) {
+        BOOST_REQUIRE(norm.remarks.size() == 1);
+        BOOST_TEST(norm.remarks[0].find("every error is rounding") != std::string::npos,
+                   norm.remarks[0]);
+    }
+}
+
+// sigma = exp(t), up to e at t = 1.
+BOOST_AUTO_TEST_CASE(rounding_of_a_stress_is_said_to_be_of_the_stress) {
+    const TemporaryDirectory directory;
+    directory.write("pressed.toml",
+                    "theta = 'sin(pi*x)'\nu = 'g1*(3*x^2-x^3)/2'\nsigma = 'exp(t)'\n");
+    const std::string scene = directory.write(
+        "s.toml", "solution = './pressed.toml'\n[beam]\nalpha = 0\nzeta = 0.1\n"
+                  "stops = [-0.1, 0.2]\n[ladder]\nfinal_time = 1\nelements = [8, 16]\n"
+                  "dt = [0.025, 0.025]\nnorms = ['sigma_L2']\n");
+    const std::string said = said_of_rounding(scene, {1e-15, 2e-15}, "sigma_L2");
+    BOOST_TEST(said.starts_with("every error is rounding, 2e-15 at most of 2.7"), said);
+}
+
+namespace {
+
+/// A ladder of the fixed point's, of a deflection that every scheme is exact for.
+StudyResult of_hermite_form(const TemporaryDirectory& directory, const std::string& scheme,
+                            const std::string& ladder) {
+    directory.write("moved.toml", "theta = 'sin(pi*x)*t'\nu = '0.01*x^2*t'\n");
+    return run_study(read_scene(
+        directory.write("s.toml", "solution = './moved.toml'\n[beam]\nalpha = 0\nzeta = 0.01\n"
+                                  "[scheme]\nalgorithm = 'fixed-point'\ntime = '" +
+                                      scheme + "'\n[ladder]\nfinal_time = 1\n" + ladder),
+        {}));
+}
+
+} // namespace
+
+// All of these errors are round-off: of u_xx = 0.02 t, and of the others like it.
+BOOST_AUTO_TEST_CASE(round_off_of_the_hermite_form_is_within_what_is_predicted) {
+    const TemporaryDirectory directory;
+    for (const std::string& scheme : TimeScheme::names()) {
+        const StudyResult result =
+            of_hermite_form(directory, scheme,
+                            "elements = [8, 16, 16, 64, 128]\n"
+                            "dt = [0.1, 0.0125, 0.005, 0.005, 0.005]\nnorms = ['u_LinfH2semi']\n");
+        for (const RungResult& run : result.get<LadderResult>()->rungs) {
+            const double most = 0.02 * hermite_round_off(scheme, run.rung.elements, 0.01,
+                                                         run.rung.dt, run.rung.steps);
+            BOOST_TEST(run.errors.at(0) < most, scheme << ", s = " << run.rung.elements);
+            BOOST_TEST(run.errors.at(0) > most / 500.0, scheme << ", s = " << run.rung.elements);
+        }
+    }
+}
+
+BOOST_AUTO_TEST_CASE(round_off_of_the_hermite_form_is_named_of_every_norm_of_the_deflection) {
+    const TemporaryDirectory directory;
+    const StudyResult result = of_hermite_form(
+        directory, "sdirk2",
+        "elements = [16, 32, 64, 128]\ndt = '0.8/s'\n"
+        "norms = ['u_LinfH2semi', 'u_LinfH2', 'u_L2H2', 'u_LinfH1', 'u_LinfL2_sq']\n");
+    for (const auto& norm : result.get<LadderResult>()->norms) {
+        bool is_named = false;
+        for (const auto& remark : norm.remarks) {
+            is_named =
+                is_named || remark.find("round-off of the Hermite form") != std::string::npos;
+            BOOST_TEST(remark.find("not known") == std::string::npos, remark);
+            BOOST_TEST(remark.find("terms of the error cancel") == std::string::npos, remark);
+        }
+        BOOST_TEST(is_named);
+    }
 }
 
 // The square of 1e155 is beyond the range of doubles, and no error is small beside infinity.
