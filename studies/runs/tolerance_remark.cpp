@@ -7,12 +7,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace tvbeam {
 
 namespace {
 
-constexpr double part = 0.1; ///< of an error, from which on the iteration is said to be in it
+constexpr double part = 0.1; ///< of an error, from which on something else is said to be in it
 
 /// What the iteration may leave in the unknowns.
 double bound_of(const Scene& scene, const Scheme& scheme, double final_time, const Rung& rung) {
@@ -22,49 +23,78 @@ double bound_of(const Scene& scene, const Scheme& scheme, double final_time, con
     return adding_up * scheme.tolerance * rho / (1.0 - rho);
 }
 
+/// The measure of which the run's error changes most from one run to another, by a part of it or
+/// more.
+std::optional<std::size_t> most_changed(const Series& series, const RungResult& run,
+                                        const RungResult& from, const RungResult& to) {
+    std::optional<std::size_t> found;
+    double most = part;
+    for (std::size_t k = 0; k < series.measures.size(); ++k) {
+        const auto error = [&](const RungResult& of) {
+            return series.measures[k].root_of(of.errors[k]);
+        };
+        const double share = std::abs(error(from) - error(to)) / error(run);
+        if (error(run) > 0.0 && share >= most) {
+            most = share;
+            found = k;
+        }
+    }
+    return found;
+}
+
 } // namespace
 
 std::string tolerance_remark(const Scene& scene, const Series& series,
                              const std::vector<RungResult>& runs, const RunCall& run,
                              const Execution& execution) {
-    Scheme scheme = scheme_of(series.method);
-    if (scheme.algorithm != Algorithm::fixed_point || runs.empty() || runs.back().errors.empty())
+    const Scheme own = scheme_of(series.method);
+    if (own.algorithm != Algorithm::fixed_point || runs.empty() || runs.back().errors.empty())
         return {};
     const RungResult& last = runs.back();
-    const double bound = bound_of(scene, scheme, series.final_time, last.rung);
-    const auto may_be_in = [&](std::size_t k) {
-        const double error = series.measures[k].root_of(last.errors[k]);
-        return error > 0.0 && bound >= part * error;
+    const double bound = bound_of(scene, own, series.final_time, last.rung);
+    const auto error_of = [&](const RungResult& of, std::size_t k) {
+        return series.measures[k].root_of(of.errors[k]);
     };
-    std::vector<std::size_t> in_doubt;
+    bool may_be_in = false;
     for (std::size_t k = 0; k < series.measures.size(); ++k)
-        if (may_be_in(k))
-            in_doubt.push_back(k);
-    if (in_doubt.empty())
+        may_be_in = may_be_in || (error_of(last, k) > 0.0 && bound >= part * error_of(last, k));
+    if (!may_be_in)
         return {};
-    Method direct = series.method;
+    const auto once_more = [&](const Scheme& scheme) {
+        Method method = series.method;
+        method.scheme = scheme;
+        return run({runs.size() - 1, last.rung, series.final_time, method, series.measures,
+                    [&](std::int64_t) { return execution.advance(0.0); }});
+    };
+    Scheme scheme = own;
     scheme.algorithm = Algorithm::direct;
-    direct.scheme = scheme;
-    const RungResult other =
-        run({runs.size() - 1, last.rung, series.final_time, direct, series.measures,
-             [&](std::int64_t) { return execution.advance(0.0); }});
-    double most = part;
+    const RungResult direct = once_more(scheme);
+    if (direct.errors.empty() || !most_changed(series, last, last, direct))
+        return {};
+    // The Hermite form has round-off, too, which a smaller tolerance leaves as it is.
+    scheme = own;
+    scheme.tolerance /= 100.0;
+    const RungResult closer = once_more(scheme);
+    if (closer.errors.empty())
+        return {};
+    const auto found = [&](std::size_t k, const RungResult& other) {
+        return fmt::format("At s = {}, dt = {:.4g} the error {} is {:.2g}, and {:.2g} ",
+                           last.rung.elements, last.rung.dt, series.measures[k].root(),
+                           error_of(last, k), error_of(other, k));
+    };
     std::string words;
-    for (const std::size_t k : in_doubt) {
-        if (other.errors.empty())
-            continue;
-        const double error = series.measures[k].root_of(last.errors[k]);
-        const double without = series.measures[k].root_of(other.errors[k]);
-        if (const double share = std::abs(error - without) / error; share >= most) {
-            most = share;
-            words = fmt::format(
-                "At s = {}, dt = {:.4g} the error {} is {:.2g}, and {:.2g} by the direct "
-                "algorithm: the difference is what the fixed-point iteration leaves at this "
-                "tolerance. It has no order in h and dt, and what is said of orders may be wrong "
-                "by it; take a smaller tolerance, or algorithm = \"direct\".",
-                last.rung.elements, last.rung.dt, series.measures[k].root(), error, without);
-        }
-    }
+    if (const auto k = most_changed(series, last, last, closer))
+        words = found(*k, closer) +
+                fmt::format("with the tolerance {:.2g}: the difference is what the fixed-point "
+                            "iteration leaves at this tolerance. It has no order in h and dt, and "
+                            "what is said of orders may be wrong by it; take a smaller tolerance, "
+                            "or algorithm = \"direct\".",
+                            scheme.tolerance);
+    if (const auto k = most_changed(series, last, closer, direct))
+        words += (words.empty() ? "" : " ") + found(*k, direct) +
+                 fmt::format("by the direct algorithm: {} round-off of the Hermite form, which no "
+                             "tolerance makes smaller.",
+                             words.empty() ? "the difference is" : "a part of it is");
     return words;
 }
 

@@ -12,8 +12,10 @@ namespace tvbeam {
 /// The fixed point of the paper's algorithm is left where its last change is below the tolerance τ:
 /// with ρ the predicted contraction (core/contraction.hpp) up to τ ρ/(1 − ρ) before it, in every
 /// step, which may add up over the steps of a unit of time. Where that is a tenth of an error of
-/// the series' last run or more, that run is made again by the direct algorithm: a sentence where a
-/// tenth of an error is what the iteration leaves; else empty, as it is of the direct algorithm.
+/// the series' last run or more, that run is made again by the direct algorithm, and where a tenth
+/// of an error differs, with a hundredth of the tolerance: a sentence on what that changes, which
+/// the iteration leaves, and one on the rest, which is round-off of the Hermite form. Empty where
+/// there is nothing to say of either, and of the direct algorithm.
 std::string tolerance_remark(const Scene& scene, const Series& series,
                              const std::vector<RungResult>& runs, const RunCall& run,
                              const Execution& execution);
