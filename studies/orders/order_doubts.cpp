@@ -144,6 +144,18 @@ bool OrderEnsemble::leans_on_a_constant(const EnsembleMember& member, Index widt
            has_constant_beside(member, width, tuning_.seen);
 }
 
+/// Whether what a model of one width alone has for its leading term stands still, and is what the
+/// others' terms leave: where models of all widths follow all rows, those show what is whose. Of 3
+/// h^2 + dt on 8 × 8 levels the order 0 of h alone had made 1.990 ± 0.209 of 2.000 ± 0.014.
+bool OrderEnsemble::is_of_the_others(const EnsembleMember& member) const {
+    return member.along >= 0 && std::abs(member.fit.order(0).value) < tuning_.constant &&
+           std::ranges::any_of(members_, [&](const EnsembleMember& all) {
+               return all.is_of_all_rows() &&
+                      all.fit.scale <= (all.family == 0 ? tuning_.followed_by_leading_terms
+                                                        : tuning_.followed_to_rounding);
+           });
+}
+
 /// Whether another order may follow the levels of a width as well, with another correlation between
 /// it and a constant that is most of the error: four levels have no more to say than these two, a
 /// size and the constant. Of h^p + f on four levels 64 of 116 of the orders 3 and 4 were wrong, as

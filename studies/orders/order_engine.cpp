@@ -163,7 +163,8 @@ std::vector<OrderInterval> OrderEnsemble::orders() const {
         const auto width = static_cast<Index>(i);
         order.share = rows_.widths() == 1 ? 1.0 : greatest_share(width);
         const auto mixture = mix([&](const EnsembleMember& member) -> std::optional<FittedNumber> {
-            if ((member.along >= 0 && member.along != width) || leans_on_a_constant(member, width))
+            if ((member.along >= 0 && member.along != width) ||
+                leans_on_a_constant(member, width) || is_of_the_others(member))
                 return std::nullopt;
             return member.fit.order(member.along < 0 ? width : 0);
         });

@@ -133,6 +133,7 @@ private:
     bool is_followed() const;
     bool is_ambiguous(Eigen::Index width) const;
     bool has_constant_beside(const EnsembleMember& member, Eigen::Index width, double share) const;
+    bool is_of_the_others(const EnsembleMember& member) const;
     bool leans_on_a_constant(const EnsembleMember& member, Eigen::Index width) const;
     bool is_seen_as_a_power(Eigen::Index width, const OrderInterval& order) const;
     bool stands_still() const;

@@ -119,6 +119,26 @@ BOOST_DATA_TEST_CASE(a_pure_power_is_known_to_the_narrowest_interval,
     BOOST_TEST(order.half_width() < 1.1 * OrderTuning{}.narrowest);
 }
 
+// However many levels, and however small either term becomes.
+BOOST_DATA_TEST_CASE(more_exact_levels_of_a_grid_make_no_wider_intervals,
+                     data::make({1, 2, 4}) * data::make({1, 2}) * data::make({0.1, 1.0, 10.0}), p,
+                     q, size) {
+    for (const int levels : {5, 7}) {
+        std::vector<ErrorRow> rows;
+        for (int i = 0; i < levels; ++i)
+            for (int j = 0; j < levels; ++j) {
+                const double h = 0.2 * std::exp2(-i);
+                const double dt = 0.1 * std::exp2(-j);
+                rows.push_back({{h, dt}, std::pow(h, p) + size * std::pow(dt, q)});
+            }
+        const auto orders = estimate_orders(rows);
+        for (const auto& [order, truth] : {std::pair(orders[0], p), std::pair(orders[1], q)}) {
+            BOOST_TEST(holds(order, truth));
+            BOOST_TEST(order.half_width() < 2 * OrderTuning{}.narrowest);
+        }
+    }
+}
+
 // h^p + r h², p from 1.6 to 1.9: both terms are of one size where h is finest, and the pairwise
 // orders hardly move on their way to p.
 BOOST_AUTO_TEST_CASE(an_order_beside_a_close_one_is_held_or_not_determined) {
