@@ -129,7 +129,7 @@ Entries of_ladders_and_grids() {
          "u_LinfH2semi, u_L2H2, sigma_L2, each also squared with _sq behind it, and corollary; or "
          "names of [solver.errors]"},
         {"ladder.values", KeyType::texts, "none", "names of [solver.values]"},
-        {"ladder.printed", KeyType::table, "none", "published errors to compare with"},
+        {"ladder.printed", KeyType::table, "none", "published errors and values to compare with"},
         {"ladder.printed.source", KeyType::text, "published", "where they were published"},
         {"ladder.printed.NORM", KeyType::numbers, "none", "one a level"},
         {"ladder.until", KeyType::table, "the levels that are given",
