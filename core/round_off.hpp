@@ -38,7 +38,7 @@ inline double hermite_floor(std::int64_t elements, double zeta, double dt, std::
 ///     10 c (1 + 100/s) hermite_floor(),     c = 1 by Euler steps, 2 by BDF2, 3 by SDIRK2
 ///
 /// Measured on deflections that every scheme is exact for, on 8 to 256 elements, with up to 2000
-/// steps and ζ from 0 to 10: half of 360 runs had more than a tenth of it, the greatest one half;
+/// steps and ζ from 0 to 10: of 360 runs the greatest had one half of it;
 /// of 355 runs of other deflections, which it was not made for, the greatest had one half, too. A
 /// tip that is pressed has down to a hundredth.
 inline double hermite_round_off(const std::string& time_scheme, std::int64_t elements, double zeta,

@@ -108,8 +108,12 @@ void seek_farthest_tip(const DerivedSolution& derived, const Stops& stops, doubl
             see(t);
     }
     result.is_in_stops = farthest > nearest_to_stop * size;
-    result.starts_in_stops =
-        result.is_in_stops && beyond_stop(tip_at(0.0)) >= -nearest_to_stop * size;
+    // From the stop itself it may go in or away.
+    constexpr double early = 1e-3;
+    const double begin = early * std::min(derived.phases.front().end_value, final_time);
+    result.starts_in_stops = result.is_in_stops &&
+                             beyond_stop(tip_at(0.0)) >= -nearest_to_stop * size &&
+                             beyond_stop(tip_at(begin)) > 0.0;
     if (std::abs(farthest) <= nearest_to_stop * size)
         result.contact.touch = farthest_at;
 }
@@ -301,13 +305,16 @@ private:
     /// What a norm takes of the errors at all times.
     enum class Over { maximum, square };
 
-    /// order, or less where the force is lost: BDF2 loses it in one step alone.
+    /// order, or less where the force is lost: BDF2 loses it in one step alone, whose error,
+    /// however large, falls with the third power of small steps.
     [[nodiscard]] Forecast with_force(Method method, Over time, const Forecast& order) const {
         if (!loses_force(method))
             return order;
         if (method == Method::sdirk2)
             return slower(order, between(1.0, 2.0));
-        return slower(order, between(time == Over::maximum ? 1.0 : 1.5, always));
+        Forecast result = slower(order, between(time == Over::maximum ? 1.0 : 1.5, always));
+        result.greatest = result.is_known() ? 3.0 : result.greatest;
+        return result;
     }
 
     [[nodiscard]] bool is_penalised() const { return beam_.stops.epsilon > 0.0; }

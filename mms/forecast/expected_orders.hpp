@@ -73,7 +73,7 @@ struct ExpectedOrders {
     ContactHistory contact;    ///< at rigid stops; at penalised ones touch alone
     double law_distance = 0.0; ///< ExactSolution::law_distance
     bool is_in_stops = false;  ///< penalised stops: the tip passes one
-    /// Of those: it is on one at t = 0, and the first step is made with a force.
+    /// Of those: it is on one at t = 0 and goes on within it: the first step is made with a force.
     bool starts_in_stops = false;
     std::vector<ExpectedOrder> orders;
     std::vector<std::string> reasons; ///< in sentences, why an order is not 2 in h, 1 or 2 in dt
@@ -120,9 +120,9 @@ struct ExpectedOrders {
 ///   is below 3ζε; with greater steps as at rigid stops, but for SDIRK2 where the tip moves within
 ///   a stop, other than linearly in t: its stages are of order 1, which the stiff stop lets
 ///   through, and it has 1 to 2. So has the first step of BDF2, which SDIRK2 makes, where the tip
-///   is on a stop at t = 0: an error of order 1 over a time Δt, for 1 up to its own order in maxima
-///   over time, and 3/2 in L² over time; below 3ζε it falls with the third power of Δt. The errors
-///   of a solution of rigid stops stall, in an unknown way, at the distance of the two laws.
+///   is on a stop at t = 0: an error of order 1 over a time Δt, for 1 up to 3 in maxima over time,
+///   and from 3/2 in L² over time, as below 3ζε it falls with the third power of Δt. The errors of
+///   a solution of rigid stops stall, in an unknown way, at the distance of the two laws.
 ///
 /// Throws InputError where a derivative is too large.
 ExpectedOrders expected_orders(const AdmissibleSolution& solution);

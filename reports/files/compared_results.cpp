@@ -78,17 +78,16 @@ Json result_in(const std::string& name) {
 
 /// The values of a sweep; its scene has the first alone.
 Json swept_values(const Json& json, const std::string& name) {
+    const Json rows = json.value("rows", Json());
+    if (!rows.is_array() ||
+        !std::ranges::all_of(rows, [](const Json& row) { return row.is_object(); }))
+        throw InputError(
+            {name}, "is no result of a sweep: its rows are " +
+                        rows.dump(-1, ' ', false, Json::error_handler_t::replace).substr(0, 40) +
+                        "; they are a list of objects, one a value");
     Json values = Json::array();
-    const Json rows = json.value("rows", Json::array());
-    for (const auto& row : rows) {
-        if (!rows.is_array() || !row.is_object())
-            throw InputError(
-                {name},
-                "is no result of a sweep: its rows are " +
-                    rows.dump(-1, ' ', false, Json::error_handler_t::replace).substr(0, 40) +
-                    "; they are a list of objects, one a value");
+    for (const auto& row : rows)
         values.push_back(row.value("value", Json()));
-    }
     return values;
 }
 

@@ -426,7 +426,7 @@ std::string thousands_behind(const std::string& pattern, const std::string& numb
     static const std::regex thousands("^((,|'|_|\u2019|\u00a0|\u2009|\u202f)\\d{3})+(\\.\\d+)?(?!["
                                       "\\d,\\])}A-Za-z_]|\\.[A-Za-z])");
     static const std::regex whole(R"(^[-+]?\d+$)");
-    static const std::regex decimals(R"(^,\d+([eEdD][-+]?\d+)?(?![\d,\])}]|\.\d|[eEdD][-+]?\d))");
+    static const std::regex decimals(R"(^,\d+([eEdD][-+]?\d+)?(?!\d|,\d|\.\d|[eEdD][-+]?\d))");
     std::smatch match;
     const bool is_in_list =
         !before.empty() && std::string_view(",;([{").find(before.back()) != std::string_view::npos;

@@ -148,12 +148,17 @@ bool OrderEnsemble::leans_on_a_constant(const EnsembleMember& member, Index widt
 /// others' terms leave: where models of all widths follow all rows, those show what is whose. Of 3
 /// h^2 + dt on 8 × 8 levels the order 0 of h alone had made 1.990 ± 0.209 of 2.000 ± 0.014.
 bool OrderEnsemble::is_of_the_others(const EnsembleMember& member) const {
+    const auto shows_all_terms = [&](const EnsembleMember& all) {
+        if (!all.is_of_all_rows())
+            return false;
+        double least = infinity; // of the terms: what follows the others alone says nothing of it
+        for (Index i = 0; i < rows_.widths(); ++i)
+            least = std::min(least, mean_share_of_errors(all.fit, i, rows_));
+        return all.fit.scale <= least * (all.family == 0 ? tuning_.followed_by_leading_terms
+                                                         : tuning_.followed_to_rounding);
+    };
     return member.along >= 0 && std::abs(member.fit.order(0).value) < tuning_.constant &&
-           std::ranges::any_of(members_, [&](const EnsembleMember& all) {
-               return all.is_of_all_rows() &&
-                      all.fit.scale <= (all.family == 0 ? tuning_.followed_by_leading_terms
-                                                        : tuning_.followed_to_rounding);
-           });
+           std::ranges::any_of(members_, shows_all_terms);
 }
 
 /// Whether another order may follow the levels of a width as well, with another correlation between

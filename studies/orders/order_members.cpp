@@ -283,14 +283,26 @@ void fit_each_alone(const TermRows& rows, const AllLevels& levels,
     }
 }
 
+/// The part of each error that the term of one width is.
+Eigen::ArrayXd shares_of_errors(const TermFit& fit, Index width, const TermRows& rows) {
+    Eigen::ArrayXd shares(rows.size());
+    for (Index r = 0; r < rows.size(); ++r)
+        shares[r] =
+            fit.measured_term(width, rows.log_widths(r, width)) / std::exp(rows.log_errors[r]);
+    return shares;
+}
+
 } // namespace
 
 double share_of_errors(const TermFit& fit, Index width, const TermRows& rows) {
-    double share = 0;
-    for (Index r = 0; r < rows.size(); ++r)
-        share = std::max(share, fit.measured_term(width, rows.log_widths(r, width)) /
-                                    std::exp(rows.log_errors[r]));
-    return share;
+    double greatest = 0;
+    for (const double share : shares_of_errors(fit, width, rows))
+        greatest = std::max(greatest, share);
+    return greatest;
+}
+
+double mean_share_of_errors(const TermFit& fit, Index width, const TermRows& rows) {
+    return std::sqrt(shares_of_errors(fit, width, rows).square().mean());
 }
 
 std::vector<EnsembleMember> fit_members(const TermRows& rows, const AllLevels& levels) {

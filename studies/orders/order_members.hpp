@@ -31,6 +31,8 @@ constexpr int logarithmic_family = 3;
 
 /// The greatest part of an error that the term of one width is, of all rows.
 double share_of_errors(const TermFit& fit, Eigen::Index width, const TermRows& rows);
+/// The root of the mean square of that part, over all rows.
+double mean_share_of_errors(const TermFit& fit, Eigen::Index width, const TermRows& rows);
 
 /// All fits that are believed. A sequence has windows down to the two finest levels; other rows
 /// such of at least three levels and half of them, in each width, and each width alone on the rows

@@ -95,12 +95,13 @@ struct OrderTuning {
     /// A model follows rows that stand off it by no more than this (root of mean square), or thrice
     /// known scatter.
     double followed = 0.15;
-    /// Leading terms alone that follow all rows so closely are those that there are; and models
-    /// with next terms that do so to this. Of 250 grids of the beam with great couplings 30 more
-    /// orders missed, of 911 in dt, without these two: models whose leading terms alone stand off
-    /// by 2.8e-4 or more, and with next terms by 1e-6.
-    double followed_by_leading_terms = 1e-4;
-    double followed_to_rounding = 1e-7; ///< see followed_by_leading_terms
+    /// Leading terms alone that follow all rows to so small a part of the least of them are those
+    /// that there are; and models with next terms that do so to the second. Of 250 grids of the
+    /// beam with great couplings 30 more orders missed, of 911 in dt, without these two: leading
+    /// terms alone stand off by 2.8e-4 there or more, models with next terms by 1e-6. Next terms
+    /// 0.1 to 0.4 of an order on are followed by leading terms to 5e-5 of their own.
+    double followed_by_leading_terms = 1e-5;
+    double followed_to_rounding = 1e-8; ///< see followed_by_leading_terms
     /// Errors that differ by no more than this part show no other term beside them.
     double unchanged = 0.1;
     /// What other widths leave of an error where they are finest is known well enough to be taken

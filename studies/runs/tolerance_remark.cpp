@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 namespace tvbeam {
@@ -71,17 +72,27 @@ std::string tolerance_remark(const Scene& scene, const Series& series,
     const RungResult direct = once_more(scheme);
     if (direct.errors.empty() || !most_changed(series, last, last, direct))
         return {};
-    // The Hermite form has round-off, too, which a smaller tolerance leaves as it is.
+    // The Hermite form has round-off, too, which a tolerance at which the iteration leaves nothing
+    // to be seen leaves as it is.
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k < series.measures.size(); ++k)
+        if (error_of(last, k) > 0.0)
+            least = std::min(least, error_of(last, k));
+    constexpr double unseen = 0.01; // of an error
     scheme = own;
-    scheme.tolerance /= 100.0;
+    scheme.tolerance *= std::min(unseen, unseen * least / bound);
     const RungResult closer = once_more(scheme);
-    if (closer.errors.empty())
-        return {};
     const auto found = [&](std::size_t k, const RungResult& other) {
         return fmt::format("At s = {}, dt = {:.4g} the error {} is {:.2g}, and {:.2g} ",
                            last.rung.elements, last.rung.dt, series.measures[k].root(),
                            error_of(last, k), error_of(other, k));
     };
+    if (closer.errors.empty()) // it does not come so close
+        return found(*most_changed(series, last, last, direct), direct) +
+               "by the direct algorithm: the difference is what the fixed-point iteration leaves "
+               "at "
+               "this tolerance, or the round-off of the Hermite form. It has no order in h and dt, "
+               "and what is said of orders may be wrong by it; take algorithm = \"direct\".";
     std::string words;
     if (const auto k = most_changed(series, last, last, closer))
         words = found(*k, closer) +

@@ -139,6 +139,20 @@ BOOST_DATA_TEST_CASE(more_exact_levels_of_a_grid_make_no_wider_intervals,
     }
 }
 
+// A term is a small part of most errors: what follows all rows closely says nothing of it.
+BOOST_DATA_TEST_CASE(an_order_that_the_other_term_hides_in_most_rows_is_held_or_not_determined,
+                     data::make({0.2, 0.4}), gap) {
+    std::vector<ErrorRow> rows;
+    for (int i = 0; i < 6; ++i)
+        for (int j = 0; j < 6; ++j) {
+            const double h = std::exp2(-i);
+            const double dt = std::pow(1.5, -j);
+            rows.push_back({{h, dt}, h * h * (1 + 1.6 * std::pow(h, gap)) + 240 * dt * dt});
+        }
+    const OrderInterval order = estimate_orders(rows).front();
+    BOOST_TEST((!order.determined || holds(order, 2.0)), order.value);
+}
+
 // h^p + r h², p from 1.6 to 1.9: both terms are of one size where h is finest, and the pairwise
 // orders hardly move on their way to p.
 BOOST_AUTO_TEST_CASE(an_order_beside_a_close_one_is_held_or_not_determined) {

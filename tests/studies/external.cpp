@@ -206,6 +206,8 @@ BOOST_AUTO_TEST_CASE(a_pattern_that_ends_within_a_number_is_a_failure) {
                                                           {"v = 1,5e-3", R"(v = ([0-9.]+))"},
                                                           {"v = -3,5000 m", R"(v = (-?\d+))"},
                                                           {"v = 0,25", R"(v = (\d+))"},
+                                                          {"v = 0,0012, w = 3", R"(v = (\d+))"},
+                                                          {"(in L2: v = 0,25)", R"(v = (\d+))"},
                                                           {"v = 12345,5.", R"(v = (\d+))"}})
         BOOST_TEST(read({line}, pattern).failure.find("with a decimal point") != std::string::npos,
                    line);

@@ -283,6 +283,7 @@ BOOST_AUTO_TEST_CASE(a_tip_that_starts_in_a_penalised_stop_costs_bdf2_an_order) 
     for (const auto& [tip, loses] : {Case{"(5 + sin(t))/4", true},
                                      {"1 + exp(t) - cos(t)", true},
                                      {"(5 + t)/4", false},
+                                     {"1 - t + 2*t^2", false},
                                      {"0.8 + t^3", false}}) {
         const Problem one = problem(tip);
         const ExpectedOrders expected = expected_orders({one.solution, one.beam, one.final_time});
@@ -292,7 +293,7 @@ BOOST_AUTO_TEST_CASE(a_tip_that_starts_in_a_penalised_stop_costs_bdf2_an_order) 
                 order.norm.find("Linf") != std::string::npos || order.norm == "corollary";
             const double least = !loses ? own : own / 2.0 * (is_maximum ? 1.0 : 1.5);
             BOOST_TEST(order.bdf2.least == least, tip << ", " << order.norm);
-            BOOST_TEST(order.bdf2.greatest == own, tip << ", " << order.norm);
+            BOOST_TEST(order.bdf2.greatest == (loses ? 1.5 * own : own), tip << ", " << order.norm);
         }
         bool is_said = false;
         for (const std::string& reason : expected.reasons)

@@ -457,6 +457,27 @@ BOOST_AUTO_TEST_CASE(what_a_smaller_tolerance_leaves_is_not_of_the_iteration) {
     BOOST_TEST(is_named);
 }
 
+// The tolerance, and a hundredth of it, are above all that is computed: both end the iteration at
+// its first step.
+BOOST_AUTO_TEST_CASE(what_a_large_tolerance_leaves_is_of_the_iteration) {
+    const TemporaryDirectory directory;
+    directory.write("small.toml",
+                    "theta = '1e-9*sin(pi*x)*(1+t)'\nu = '1e-11*(1-cos(pi*x))*(1+t)'\n");
+    const StudyResult result = run_study(read_scene(
+        directory.write("s.toml", "solution = './small.toml'\n[beam]\nalpha = 0.9\nzeta = 0.15\n"
+                                  "[scheme]\nalgorithm = 'fixed-point'\n[ladder]\n"
+                                  "final_time = 1\nelements = [16, 32]\ndt = [0.0125, 0.003125]\n"
+                                  "norms = ['theta_L2L2']\n"),
+        {}));
+    bool is_named = false;
+    for (const auto& remark : result.remarks) {
+        is_named =
+            is_named || remark.find("what the fixed-point iteration leaves") != std::string::npos;
+        BOOST_TEST(remark.find("no tolerance makes smaller") == std::string::npos, remark);
+    }
+    BOOST_TEST(is_named);
+}
+
 // The square of 1e155 is beyond the range of doubles, and no error is small beside infinity.
 BOOST_AUTO_TEST_CASE(what_is_as_large_as_the_square_root_of_doubles_is_no_rounding) {
     const TemporaryDirectory directory;
