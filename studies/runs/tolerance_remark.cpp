@@ -97,10 +97,10 @@ std::string tolerance_remark(const Scene& scene, const Series& series,
     if (const auto k = most_changed(series, last, last, closer))
         words = found(*k, closer) +
                 fmt::format("with the tolerance {:.2g}: the difference is what the fixed-point "
-                            "iteration leaves at this tolerance. It has no order in h and dt, and "
-                            "what is said of orders may be wrong by it; take a smaller tolerance, "
-                            "or algorithm = \"direct\".",
-                            scheme.tolerance);
+                            "iteration leaves at {:.2g}. It has no order in h and dt, and what is "
+                            "said of orders may be wrong by it; take a smaller tolerance, or "
+                            "algorithm = \"direct\".",
+                            scheme.tolerance, own.tolerance);
     if (const auto k = most_changed(series, last, closer, direct))
         words += (words.empty() ? "" : " ") + found(*k, direct) +
                  fmt::format("by the direct algorithm: {} round-off of the Hermite form, which no "
