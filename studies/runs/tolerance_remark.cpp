@@ -90,9 +90,8 @@ std::string tolerance_remark(const Scene& scene, const Series& series,
     if (closer.errors.empty()) // it does not come so close
         return found(*most_changed(series, last, last, direct), direct) +
                "by the direct algorithm: the difference is what the fixed-point iteration leaves "
-               "at "
-               "this tolerance, or the round-off of the Hermite form. It has no order in h and dt, "
-               "and what is said of orders may be wrong by it; take algorithm = \"direct\".";
+               "at this tolerance, or the round-off of the Hermite form. It has no order in h and "
+               "dt, and what is said of orders may be wrong by it; take algorithm = \"direct\".";
     std::string words;
     if (const auto k = most_changed(series, last, last, closer))
         words = found(*k, closer) +
