@@ -317,13 +317,14 @@ std::string from_model(const Measure& norm, std::span<const Refinement> roots,
 /// A level without any error, between others: not of a solver that has come to the exact solution.
 std::string lone_zero(const Measure& norm, std::span<const Refinement> roots) {
     const auto zero = std::ranges::find(roots, 0.0, &Refinement::error);
-    if (zero == roots.end() || std::none_of(zero, roots.end(), [](const Refinement& root) {
-            return is_positive(root.error);
-        }))
+    const auto finer = std::find_if(zero, roots.end(),
+                                    [](const Refinement& root) { return is_positive(root.error); });
+    if (finer == roots.end())
         return {};
-    return norm.name + ": the error is zero at " + rung_name(roots, *zero) +
-           ", and not on a finer level: no order goes through it, and it has no part in what is "
-           "said of the others.";
+    return norm.name + ": the error is zero at " + rung_name(roots, *zero) + ", and not at " +
+           rung_name(roots, *finer) +
+           ", a finer level: no order goes through a zero, and it has no part in what is said of "
+           "the others.";
 }
 
 } // namespace

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <utility>
 
 namespace tvbeam {
@@ -25,7 +26,7 @@ public:
         : last_named_(named.back()), count_(named.size()), final_time_(final_time),
           formula_(std::move(formula)) {
         const Rung& first = named.front();
-        const double root = 1.0 / static_cast<double>(count_ - 1);
+        const double root = 1.0 / static_cast<double>(distinct(named) - 1);
         const double elements = first.has_mesh() ? static_cast<double>(last_named_.elements) /
                                                        static_cast<double>(first.elements)
                                                  : 1.0;
@@ -51,6 +52,14 @@ public:
     }
 
 private:
+    /// Without those that a ladder has twice.
+    static std::size_t distinct(const std::vector<Rung>& named) {
+        std::set<std::pair<std::int64_t, double>> widths;
+        for (const Rung& rung : named)
+            widths.emplace(rung.elements, rung.has_steps() ? rung.dt : 0.0);
+        return widths.size();
+    }
+
     [[nodiscard]] std::optional<Rung> with_steps(Rung next, double added) const {
         next.dt = formula_ ? number_from_expression(*formula_,
                                                     {{"s", static_cast<double>(next.elements)}})

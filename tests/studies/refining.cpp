@@ -279,6 +279,9 @@ BOOST_AUTO_TEST_CASE(levels_are_added_by_the_ladder_s_own_ratio_but_at_least_roo
                boost::test_tools::per_element());
     BOOST_TEST(levels_of("elements = [8, 12, 18]", 5) == (Elements{8, 12, 18, 27, 41}),
                boost::test_tools::per_element());
+    // A level that is there twice is one: they are three.
+    BOOST_TEST(levels_of("elements = [10, 20, 40, 40]", 6) == (Elements{10, 20, 40, 40, 80, 160}),
+               boost::test_tools::per_element());
     // 5/4 is too little: 4, 5, 5 √2, 10, 10 √2.
     BOOST_TEST(levels_of("elements = [4, 5]", 6) == (Elements{4, 5, 7, 10, 14, 20}),
                boost::test_tools::per_element());
