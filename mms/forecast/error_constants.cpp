@@ -329,6 +329,10 @@ LeadingTerm leading_term(const Norm& norm, double order, const Squares& squares)
     return {order, squares.unit * std::sqrt(sum)};
 }
 
+/// What the stages lose where ζ is no larger than a step decays with exp(−Δt/ζ) alone.
+constexpr const char* small_viscosity =
+    "SDIRK2 with zeta below T/100: the sizes hold for steps far below zeta alone";
+
 std::string why_not(const ExpectedOrders& expected, const DerivedSolution& derived,
                     const Beam& beam, double final_time, const std::string& time_scheme) {
     if (expected.law_distance > 0.0)
@@ -363,9 +367,8 @@ std::string why_not(const ExpectedOrders& expected, const DerivedSolution& deriv
             return "theta_tt or u_xxtt jumps at t = " + number_text(*t);
     if (time_scheme == "sdirk2" && beam.zeta == 0.0)
         return "SDIRK2 without viscosity";
-    // What its stages lose where zeta is no larger than a step decays with exp(-dt/zeta) alone.
-    if (time_scheme == "sdirk2" && beam.zeta < least_viscosity * final_time)
-        return "SDIRK2 with zeta below T/100: the sizes hold for steps far below zeta alone";
+    if (time_scheme == "sdirk2" && beam.zeta < least_viscosity * final_time && beam.alpha != 0.0)
+        return small_viscosity;
     return {};
 }
 
@@ -414,6 +417,12 @@ std::string why_not_of(const Norm& norm, const ExpectedOrders& expected,
     if (scheme.name == "bdf2" &&
         ((expected.theta_is_quadratic && of_theta) || (expected.u_is_quadratic && of_u)))
         return "what is quadratic in t has the error of BDF2's first step alone";
+    if (scheme.name == "sdirk2" && forecaster.is_hardly_viscous() && (of_u || !of_theta))
+        return small_viscosity;
+    if (scheme.name == "bdf2" && expected.first_step_lags && (of_u || !of_theta))
+        return "with zeta below T/100 the first step of BDF2, which is one of SDIRK2, may be most "
+               "of "
+               "the error";
     if (forecaster.jumps_at_first() && peak_of_theta)
         return "without viscosity the temperature jumps in the first step, where a maximum over "
                "time may stand";

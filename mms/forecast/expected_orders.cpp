@@ -65,6 +65,13 @@ bool bends_at_an_end(const DerivedSolution& derived, double final_time) {
     });
 }
 
+/// Whether u_xxtt is other than zero somewhere at t = 0.
+bool bends_at_first(const DerivedSolution& derived) {
+    const GiNaC::symbol& t = model_symbols().t;
+    return !is_identically_zero(
+        substituted(derivative(derived.derived.front().u_xxt, t), {{t, 0}}));
+}
+
 /// Whether u(1,t) is linear in t in every phase.
 bool tip_is_linear(const DerivedSolution& derived, double final_time) {
     const ModelSymbols& s = model_symbols();
@@ -157,10 +164,10 @@ public:
         };
         const auto theta_in = [&](Over time, Method method) {
             const Forecast order = theta_in_time(method);
-            return coupled_ ? with_force(method, time, order) : order;
+            return coupled_ ? with_stages(method, time, order) : order;
         };
         const auto u_in = [&](Over time, Method method) {
-            return with_force(method, time, u_in_time(method, always));
+            return with_stages(method, time, u_in_time(method, always));
         };
         const auto theta = [&](Method method) { return theta_in(Over::square, method); };
         const auto theta_max = [&](Method method) { return theta_in(Over::maximum, method); };
@@ -288,10 +295,13 @@ private:
         const double pressed = known_.contact.pressed_until
                                    ? std::nextafter(*known_.contact.pressed_until, 0.0)
                                    : always;
+        const auto of_u = [&](double until) {
+            return with_stages(method, Over::square, u_in_time(method, until));
+        };
         if (loses_force(method))
-            return with_force(method, Over::square, u_in_time(method, pressed));
-        return of_stress(u_in_time(method, pressed), [&](const ContactOnset& onset) {
-            const Forecast p = u_in_time(method, onset.t);
+            return of_u(pressed);
+        return of_stress(of_u(pressed), [&](const ContactOnset& onset) {
+            const Forecast p = of_u(onset.t);
             const auto order = [](double of_u, double j) {
                 return std::max(of_u - 0.5, of_u * share(j));
             };
@@ -305,10 +315,13 @@ private:
     /// What a norm takes of the errors at all times.
     enum class Over { maximum, square };
 
-    /// order, or less where the force is lost: BDF2 loses it in one step alone, whose error,
-    /// however large, falls with the third power of small steps.
-    [[nodiscard]] Forecast with_force(Method method, Over time, const Forecast& order) const {
-        if (!loses_force(method))
+    /// order, or less where the order of SDIRK2's stages, one, shows: BDF2 has them in one step
+    /// alone, whose error, however large, falls with the third power of small steps.
+    [[nodiscard]] Forecast with_stages(Method method, Over time, const Forecast& order) const {
+        const bool lags = method == Method::sdirk2 ? known_.stages_lag
+                          : method == Method::bdf2 ? known_.first_step_lags
+                                                   : false;
+        if (!lags && !loses_force(method))
             return order;
         if (method == Method::sdirk2)
             return slower(order, between(1.0, 2.0));
@@ -429,9 +442,11 @@ ExpectedOrders expected_orders(const AdmissibleSolution& solution) {
         if (coupled)
             result.theta_is_quadratic = result.u_is_quadratic =
                 result.theta_is_quadratic && result.u_is_quadratic;
-        result.stages_miss_ends = result.theta_has_time_error && coupled &&
-                                  beam.zeta < least_viscosity * final_time &&
+        const bool is_hardly_viscous = beam.zeta < least_viscosity * final_time;
+        result.stages_miss_ends = result.theta_has_time_error && coupled && is_hardly_viscous &&
                                   bends_at_an_end(derived, final_time);
+        result.stages_lag = is_hardly_viscous && beam.zeta > 0.0 && !u_in_pieces;
+        result.first_step_lags = result.stages_lag && bends_at_first(derived);
         result.orders = PredictedOrders(result, beam).all();
         result.reasons = order_reasons(result, beam);
         return result;

@@ -66,6 +66,10 @@ struct ExpectedOrders {
     /// Without viscosity, or with little in steps longer than ζ, a stage's defect α Δt² u_xxtt
     /// enters the heat equation at an end, where Θ cannot follow it.
     bool stages_miss_ends = false;
+    /// With little viscosity, in steps longer than ζ, and u_xx not linear in t: the stages of
+    /// SDIRK2 leave ζΔt u_xxtt in u_xx; u_xxtt at t = 0 is what the first step of BDF2 leaves.
+    bool stages_lag = false;
+    bool first_step_lags = false;
     std::vector<Switch> switches; ///< those before final_time
     std::vector<Cusp> cusps;      ///< up to final_time
     std::optional<Kink> kink;
@@ -100,7 +104,10 @@ struct ExpectedOrders {
 ///   O(Δt³) stays: 3. Without viscosity u_xx answers to the load at once, and the stages of SDIRK2,
 ///   which are of order 1, leave Δt² u_xxtt in the heat equation: where that is not zero at an end,
 ///   its part in the mode k is 1/k, of modes up to Δt^(-1/2). So SDIRK2 has 7/4 to 2 in the norm of
-///   θ̃_x, and 2 in the others; its single step in BDF2 leaves 9/4 to 3.
+///   θ̃_x, and 2 in the others; its single step in BDF2 leaves 9/4 to 3. With little viscosity, in
+///   steps longer than ζ, the same stages leave ζΔt u_xxtt in u_xx, and by the coupling in θ̃: 1 to
+///   2; the first step of BDF2 leaves it over a time Δt: 1 up to 3 in maxima over time, from 3/2 in
+///   L² over time (Prothero and Robinson 1974: a stiff equation shows the order of the stages).
 /// - of the stress without coupling: (1 − x, ·) of the beam equation has u(1,t) and its rate alone.
 ///   A tip that has been held from t = 0 on, or that is linear in t by one formula, has no time
 ///   error, and neither has σ.

@@ -137,7 +137,9 @@ std::vector<std::string> order_reasons(const ExpectedOrders& known, const Beam& 
                                                              : " in u";
         text.push_back(what + ": BDF2 has no error" + where +
                        " but that of its first step, which SDIRK2 makes: order " +
-                       (known.stages_miss_ends ? "2.25 to 3." : "3."));
+                       (known.first_step_lags    ? "3 in small steps."
+                        : known.stages_miss_ends ? "2.25 to 3."
+                                                 : "3."));
     }
     if (known.stages_miss_ends)
         text.push_back(std::string(beam.zeta == 0.0 ? "zeta = 0" : "zeta is below T/100") +
@@ -145,6 +147,18 @@ std::vector<std::string> order_reasons(const ExpectedOrders& known, const Beam& 
                        "fixed: stages of SDIRK2 leave a layer there, and theta_x has its order "
                        "1.75 to 2 in dt" +
                        (beam.zeta == 0.0 ? "." : ", 2 in steps far below zeta alone."));
+    if (known.stages_lag)
+        text.push_back("zeta is below T/100: in steps longer than that the stages of SDIRK2, of "
+                       "order 1, leave "
+                       "zeta*dt*u_xxtt in u" +
+                       std::string(coupled ? ", and by the coupling in theta" : "") +
+                       ", which has 1 in dt, or what theta brings to it, and 2 in steps far below "
+                       "zeta alone." +
+                       (known.first_step_lags
+                            ? " So does the first step of BDF2, which SDIRK2 makes: 1 in maxima "
+                              "over time, 1.5 "
+                              "in L2 over time, and in small steps it falls like dt^3."
+                            : ""));
     add_switch_reasons(known, text);
     for (const Cusp& cusp : known.cusps)
         for (const bool of_theta : {true, false}) {
