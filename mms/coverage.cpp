@@ -11,7 +11,9 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <optional>
 #include <utility>
+#include <vector>
 
 namespace tvbeam {
 
@@ -40,24 +42,30 @@ public:
 
     std::vector<TermUse> terms() {
         using Phase = DerivedPhase;
-        add("(1)", "theta_t", inside(&Phase::theta_t), "theta is steady");
-        add("(1)", "theta_xx", inside(&Phase::theta_xx), "theta is linear in x");
-        add_product("(1)", "alpha", beam_.alpha, "u_xxt", inside(&Phase::u_xxt));
-        add("(1)", "a heat source f", inside(&Phase::heat_source), "f is zero");
-        add("(2)", "a body force q", inside(&Phase::body_force), "sigma does not depend on x");
-        add("(3)", "sigma", inside(&Phase::sigma), "sigma is zero");
-        add("(3)", "u_xxx", inside(&Phase::u_xxx), "u is quadratic in x");
+        const auto field = [](ex Phase::*part) -> Formula {
+            return [part](const Phase& phase) { return phase.*part; };
+        };
         // The one that derive leaves out where ζ = 0.
-        const Size u_xxxt = size_of(along_beam, [](const DerivedPhase& phase) {
+        const auto u_xxxt = [](const Phase& phase) {
             return derivative(phase.u_xxt, model_symbols().x);
-        });
-        add_product("(3)", "zeta", beam_.zeta, "u_xxxt", u_xxxt);
-        add_product("(3)", "alpha", beam_.alpha, "theta_x", inside(&Phase::theta_x));
-        add("(3)", "a load G", inside(&Phase::couple_load), "G is zero");
+        };
+        const std::vector<Size> sizes = inside(
+            {field(&Phase::theta_t), field(&Phase::theta_xx), field(&Phase::u_xxt),
+             field(&Phase::heat_source), field(&Phase::body_force), field(&Phase::sigma),
+             field(&Phase::u_xxx), u_xxxt, field(&Phase::theta_x), field(&Phase::couple_load)});
+        auto next = sizes.begin();
+        add("(1)", "theta_t", *next++, "theta is steady");
+        add("(1)", "theta_xx", *next++, "theta is linear in x");
+        add_product("(1)", "alpha", beam_.alpha, "u_xxt", *next++);
+        add("(1)", "a heat source f", *next++, "f is zero");
+        add("(2)", "a body force q", *next++, "sigma does not depend on x");
+        add("(3)", "sigma", *next++, "sigma is zero");
+        add("(3)", "u_xxx", *next++, "u is quadratic in x");
+        add_product("(3)", "zeta", beam_.zeta, "u_xxxt", *next++);
+        add_product("(3)", "alpha", beam_.alpha, "theta_x", *next++);
+        add("(3)", "a load G", *next++, "G is zero");
         add_contact();
-        add("(9)", "an end moment m",
-            size_of(at_one_end, [](const DerivedPhase& phase) { return phase.end_moment; }),
-            "m is zero");
+        add("(9)", "an end moment m", end_moment(), "m is zero");
         add("(10)", "an end temperature theta_A", {std::abs(beam_.theta_A)}, "theta_A = 0");
         add("t = 0", "an initial temperature", at_start(&Phase::theta), "theta0 is zero");
         add("t = 0", "an initial deflection", at_start(&Phase::u), "u0 is zero");
@@ -81,33 +89,74 @@ private:
     }
 
     /// A formula that vanishes identically is zero, whatever rounding makes of it.
-    static void grow(Size& size, const ex& formula, const CloseLook& x, const CloseLook& t) {
-        if (is_identically_zero(formula))
+    static std::optional<Tape> tape_unless_zero(const ex& formula) {
+        return is_identically_zero(formula) ? std::nullopt : std::optional(compile_tape({formula}));
+    }
+
+    static void grow(Size& size, const std::optional<Tape>& tape, const CloseLook& x,
+                     const CloseLook& t) {
+        if (!tape)
             return;
         size.is_zero = false;
-        const Tape tape = compile_tape({formula});
-        const auto values = [&tape](const ArrayXd& at_x, const ArrayXd& at_t) -> ArrayXd {
-            return tape.evaluate(at_x, at_t).row(0);
-        };
-        size.largest = std::max(size.largest, largest_size(values, x, t));
+        size.largest = std::max(size.largest, largest_size(values_of(*tape), x, t));
     }
 
-    template <typename Formula>
-    [[nodiscard]] Size size_of(const CloseLook& x, const Formula& formula) const {
+    static PointFunction values_of(const Tape& tape) {
+        return [&tape](const ArrayXd& x, const ArrayXd& t) -> ArrayXd {
+            return tape.evaluate(x, t).row(0);
+        };
+    }
+
+    using Formula = std::function<ex(const DerivedPhase&)>;
+
+    /// Of fields inside the beam. Each is looked at where another is largest, too: a layer that is
+    /// met in one of them is seen in all.
+    [[nodiscard]] std::vector<Size> inside(const std::vector<Formula>& formulas) const {
+        std::vector<Size> sizes(formulas.size());
+        for (std::size_t i = 0; i < times_.size(); ++i) {
+            std::vector<std::optional<Tape>> tapes;
+            std::vector<double> x;
+            std::vector<double> t;
+            for (const Formula& formula : formulas) {
+                tapes.push_back(tape_unless_zero(formula(derived_.derived[i])));
+                if (!tapes.back())
+                    continue;
+                const LargestPoint found =
+                    largest_point(values_of(*tapes.back()), along_beam, times_[i]);
+                if (found.size > 0.0) {
+                    x.push_back(found.x);
+                    t.push_back(found.t);
+                }
+            }
+            const auto count = static_cast<Eigen::Index>(x.size());
+            for (std::size_t k = 0; k < formulas.size(); ++k) {
+                if (!tapes[k])
+                    continue;
+                sizes[k].is_zero = false;
+                if (count == 0)
+                    continue;
+                const ArrayXd found = values_of(*tapes[k])(Eigen::Map<ArrayXd>(x.data(), count),
+                                                           Eigen::Map<ArrayXd>(t.data(), count));
+                sizes[k].largest = std::max(sizes[k].largest,
+                                            found.isFinite().select(found.abs(), 0.0).maxCoeff());
+            }
+        }
+        return sizes;
+    }
+
+    [[nodiscard]] Size end_moment() const {
         Size size;
         for (std::size_t i = 0; i < times_.size(); ++i)
-            grow(size, formula(derived_.derived[i]), x, times_[i]);
+            grow(size, tape_unless_zero(derived_.derived[i].end_moment), at_one_end, times_[i]);
         return size;
-    }
-
-    [[nodiscard]] Size inside(ex DerivedPhase::*part) const {
-        return size_of(along_beam, [&](const DerivedPhase& phase) { return phase.*part; });
     }
 
     [[nodiscard]] Size at_start(ex DerivedPhase::*part) const {
         Size size;
-        grow(size, substituted(derived_.derived.front().*part, {{model_symbols().t, 0}}),
-             along_beam, {0.0, 0.0});
+        grow(
+            size,
+            tape_unless_zero(substituted(derived_.derived.front().*part, {{model_symbols().t, 0}})),
+            along_beam, {0.0, 0.0});
         return size;
     }
 

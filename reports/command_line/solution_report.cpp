@@ -42,7 +42,7 @@ std::string beam_text(const SolutionSetting& setting) {
 std::string coverage_text(const std::vector<TermUse>& terms) {
     Table::Column equation{"", {}};
     Table::Column term{"exercised", {}};
-    Table::Column size{"up to", {}};
+    Table::Column size{"seen up to", {}};
     std::string untested;
     for (const TermUse& use : terms) {
         if (use.is_exercised()) {

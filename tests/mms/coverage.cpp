@@ -87,6 +87,23 @@ BOOST_AUTO_TEST_CASE(sizes_of_terms_are_those_of_their_formulas) {
     check_unused(terms, "t = 0", "an initial temperature", "theta0 is zero");
 }
 
+// Within 1e-4 of t = 0.31 theta_t is up to 85, and f = theta_t − theta_xx with it; within 1e-4 of x
+// = 0.31 theta_x up to 6, and G = alpha theta_x + … with it.
+BOOST_AUTO_TEST_CASE(a_layer_that_is_met_in_one_term_is_seen_in_all) {
+    const std::string u = "u = '0.001*x^2*(3 - x)*sin(t)'\n";
+    const auto terms = [&](const std::string& theta) {
+        return coverage(
+            {parse_solution("theta = '" + theta + "'\n" + u, "my.toml"), {0.3, 0.1, 0.0, {}}, 1.0});
+    };
+    const auto pulse = terms("sin(pi*x)*(cos(t) + 0.01*exp(-1e8*(t - 0.31)^2))");
+    const double rate = use(pulse, "(1)", "theta_t").largest;
+    BOOST_TEST(rate > 80.0);
+    BOOST_TEST(use(pulse, "(1)", "a heat source f").largest > rate - 0.1);
+    const auto hump = terms("cos(t)*sin(pi*x) + 0.01*x*(1 - x)*exp(-1e8*(x - 0.31)^2)");
+    BOOST_TEST(use(hump, "(1)", "theta_xx").largest > 4e5);
+    BOOST_TEST(use(hump, "(1)", "a heat source f").largest > 4e5);
+}
+
 BOOST_AUTO_TEST_CASE(cases_of_contact_are_distinguishable) {
     const auto on = [&](const std::string& name, const Beam& beam) {
         const Solution solution = shipped_solution(name);
