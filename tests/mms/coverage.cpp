@@ -98,7 +98,7 @@ BOOST_AUTO_TEST_CASE(a_layer_that_is_met_in_one_term_is_seen_in_all) {
     const auto pulse = terms("sin(pi*x)*(cos(t) + 0.01*exp(-1e8*(t - 0.31)^2))");
     const double rate = use(pulse, "(1)", "theta_t").largest;
     BOOST_TEST(rate > 80.0);
-    BOOST_TEST(use(pulse, "(1)", "a heat source f").largest > rate - 0.1);
+    BOOST_TEST(use(pulse, "(1)", "a heat source f").largest > rate - 10.0); // theta_xx
     const auto hump = terms("cos(t)*sin(pi*x) + 0.01*x*(1 - x)*exp(-1e8*(x - 0.31)^2)");
     BOOST_TEST(use(hump, "(1)", "theta_xx").largest > 4e5);
     BOOST_TEST(use(hump, "(1)", "a heat source f").largest > 4e5);
