@@ -1,6 +1,6 @@
 #include "reports/command_line/check_report.hpp"
 
-#include "reports/document/visible_text.hpp"
+#include "mms/text/visible_text.hpp"
 #include "reports/files/output_file.hpp"
 #include "reports/formats/markdown_report.hpp"
 

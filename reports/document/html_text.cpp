@@ -1,6 +1,6 @@
 #include "reports/document/html_text.hpp"
 
-#include "reports/document/visible_text.hpp"
+#include "mms/text/visible_text.hpp"
 
 #include <algorithm>
 #include <cctype>

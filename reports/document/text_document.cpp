@@ -1,7 +1,7 @@
 #include "reports/document/text_document.hpp"
 
+#include "mms/text/visible_text.hpp"
 #include "reports/document/text_table.hpp"
-#include "reports/document/visible_text.hpp"
 
 namespace tvbeam {
 

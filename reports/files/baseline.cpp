@@ -2,8 +2,8 @@
 
 #include "mms/text/file_text.hpp"
 #include "mms/text/input_error.hpp"
+#include "mms/text/visible_text.hpp"
 #include "reports/document/json_text.hpp"
-#include "reports/document/visible_text.hpp"
 #include "reports/files/held_values.hpp"
 #include "reports/files/said_result.hpp"
 #include "studies/grid/grid.hpp"
@@ -122,7 +122,7 @@ BaselineEntry baseline_entry(const StudyResult& result) {
 BaselineEntry whole_entry(const StudyResult& result,
                           const std::vector<CheckedExpectation>& checked) {
     BaselineEntry entry = baseline_entry(result);
-    entry.said = said_by(result, checked).dump();
+    entry.said = json_line(said_by(result, checked));
     return entry;
 }
 

@@ -1,6 +1,6 @@
 #include "reports/formats/junit_report.hpp"
 
-#include "reports/document/visible_text.hpp"
+#include "mms/text/visible_text.hpp"
 
 #include <boost/property_tree/ptree.hpp>
 #include <boost/property_tree/xml_parser.hpp>

@@ -1,8 +1,8 @@
 #include "reports/formats/latex_report.hpp"
 
+#include "mms/text/visible_text.hpp"
 #include "reports/document/raised_text.hpp"
 #include "reports/document/text_table.hpp"
-#include "reports/document/visible_text.hpp"
 #include "reports/document/written_number.hpp"
 #include "reports/formats/report_format.hpp"
 #include "studies/table_row.hpp"

@@ -1,6 +1,6 @@
 #include "reports/formats/markdown_report.hpp"
 
-#include "reports/document/visible_text.hpp"
+#include "mms/text/visible_text.hpp"
 #include "reports/document/written_number.hpp"
 #include "reports/formats/report_format.hpp"
 #include "studies/table_row.hpp"

@@ -1,6 +1,6 @@
 #include "reports/plots/pgfplots_text.hpp"
 
-#include "reports/document/visible_text.hpp"
+#include "mms/text/visible_text.hpp"
 #include "reports/formats/latex_report.hpp"
 #include "reports/plots/readable_axes.hpp"
 #include "reports/plots/readable_legend.hpp"

@@ -1,6 +1,6 @@
 #include "reports/plots/plot_style.hpp"
 
-#include "reports/document/visible_text.hpp"
+#include "mms/text/visible_text.hpp"
 #include "studies/text/number_text.hpp"
 
 #include <boost/algorithm/string/replace.hpp>

@@ -1,6 +1,6 @@
 #include "reports/studies/run_fields.hpp"
 
-#include "reports/document/visible_text.hpp"
+#include "mms/text/visible_text.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

@@ -1,5 +1,6 @@
 #include "studies/external/external_runs.hpp"
 
+#include "mms/text/visible_text.hpp"
 #include "studies/external/process.hpp"
 #include "studies/text/number_text.hpp"
 
@@ -221,6 +222,8 @@ public:
         if (result.status != RungStatus::ok) {
             result.errors.clear();
             result.printed.clear();
+            // What the program wrote is text of any kind, and a reason goes into every report.
+            result.reason = visible(result.reason);
         }
         task.advance(std::max<std::int64_t>(task.rung.steps, 1));
         return result;

@@ -1,5 +1,7 @@
 #include "studies/external/output.hpp"
 
+#include "mms/text/visible_text.hpp"
+
 #include <algorithm>
 #include <vector>
 
@@ -10,9 +12,9 @@ namespace {
 constexpr std::size_t longest_tail = 4096;
 constexpr std::size_t longest_shown_line = 200;
 
-/// Without what a terminal or a table would stumble over.
+/// Without what a terminal, a table or a file of JSON would stumble over.
 std::string printable(std::string_view line) {
-    std::string text(line.substr(0, longest_shown_line));
+    std::string text(whole_characters(line, longest_shown_line));
     std::replace_if(
         text.begin(), text.end(),
         [](char c) { return static_cast<unsigned char>(c) < ' ' || c == '\x7f'; }, ' ');
@@ -20,7 +22,7 @@ std::string printable(std::string_view line) {
     if (first == std::string::npos)
         return {};
     text.erase(text.find_last_not_of(' ') + 1);
-    return text.substr(first) + (line.size() > longest_shown_line ? " ..." : "");
+    return visible(text.substr(first)) + (line.size() > longest_shown_line ? " ..." : "");
 }
 
 } // namespace
@@ -55,6 +57,9 @@ void OutputLines::finish() {
 std::string OutputLines::last_lines(std::size_t count) const {
     std::vector<std::string> lines;
     std::string_view rest = tail_;
+    const auto is_inner = [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U; };
+    while (tail_.size() == longest_tail && !rest.empty() && is_inner(rest.front()))
+        rest.remove_prefix(1); // what is left of a character that the tail begins within
     while (!rest.empty() && lines.size() < count) {
         const std::size_t end = rest.find_last_of("\n\r");
         const auto line = end == std::string_view::npos ? rest : rest.substr(end + 1);

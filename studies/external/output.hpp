@@ -20,7 +20,8 @@ public:
     void take(std::string_view chunk);
     void finish(); ///< the last line may have no end
 
-    /// The last lines with something in them, at most `count`, in one line of text: "a | b".
+    /// The last lines with something in them, at most `count`, in one line of text, "a | b", with
+    /// what is no UTF-8 as \xF6.
     [[nodiscard]] std::string last_lines(std::size_t count) const;
 
 private:

@@ -1,8 +1,10 @@
 #include "studies/external/readings.hpp"
 
 #include "mms/text/characters.hpp"
+#include "mms/text/visible_text.hpp"
 #include "studies/external/output.hpp"
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -171,7 +173,8 @@ public:
         constexpr std::size_t longest_shown = 40;
         return is_number_ ? number_of(name_, text_)
                           : ReadFigure{{},
-                                       name_ + " is " + text_.substr(0, longest_shown) +
+                                       fmt::format("{} is {}", name_,
+                                                   whole_characters(text_, longest_shown)) +
                                            ", which is not one number"};
     }
 

@@ -1,6 +1,7 @@
 // One table, written as text, Markdown, LaTeX and HTML.
 
 #include "core/norms/norms.hpp"
+#include "mms/text/visible_text.hpp"
 #include "reports/command_line/check_report.hpp"
 #include "reports/document/html_text.hpp"
 #include "reports/document/json_text.hpp"
@@ -10,7 +11,6 @@
 #include "reports/document/result_document.hpp"
 #include "reports/document/text_document.hpp"
 #include "reports/document/text_table.hpp"
-#include "reports/document/visible_text.hpp"
 #include "reports/document/written_number.hpp"
 #include "reports/formats/csv_report.hpp"
 #include "reports/formats/html_report.hpp"
@@ -28,6 +28,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <array>
 #include <sstream>
 
 using namespace tvbeam;
@@ -218,6 +219,13 @@ BOOST_AUTO_TEST_CASE(what_a_terminal_would_obey_is_written_out) {
     BOOST_TEST(visible("\xed\xa0\x80") == "\\xED\\xA0\\x80");
     BOOST_TEST(visible("\xf4\x90\x80\x80") == "\\xF4\\x90\\x80\\x80");
     BOOST_TEST(visible("\xe2\x88") == "\\xE2\\x88");
+    // Cut where a character ends, and within what is none.
+    for (std::size_t most = 0; most <= 11; ++most)
+        BOOST_TEST(
+            whole_characters("aé中😀b", most) ==
+            std::string("aé中😀b").substr(
+                0, std::array<std::size_t, 12>{0, 1, 1, 3, 3, 3, 6, 6, 6, 6, 10, 11}.at(most)));
+    BOOST_TEST(whole_characters("\xf6\xf6\xf6", 2) == "\xf6\xf6");
 }
 
 BOOST_AUTO_TEST_CASE(json_keeps_control_characters_escaped) {

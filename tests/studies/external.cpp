@@ -408,6 +408,14 @@ BOOST_AUTO_TEST_CASE(lines_are_told_whole_and_their_last_are_kept) {
     BOOST_TEST(lines.back() == "three\x01");
     BOOST_TEST(output.last_lines(2) == "two | three"); // nothing that a terminal would obey
     BOOST_TEST(output.last_lines(5) == "one | two | three");
+    // Nor what is no UTF-8: Latin-1, and a character that the longest line ends in.
+    OutputLines foreign([](const std::string&) {});
+    foreign.take("ersch\xF6pft\n" + std::string(199, 'x') + "é and so on");
+    BOOST_TEST(foreign.last_lines(2) == "ersch\\xF6pft | " + std::string(199, 'x') + " ...");
+    foreign.take(std::string(1000, ' ') + "中");
+    for (int i = 0; i < 1500; ++i)
+        foreign.take("中"); // of three bytes, of which one is left at the begin of 4096
+    BOOST_TEST(foreign.last_lines(1).starts_with("中中"), foreign.last_lines(1));
     // A line without end takes no more memory than this.
     for (int i = 0; i < 100; ++i)
         output.take(std::string(1000, 'x'));

@@ -1,4 +1,5 @@
 #include "mms/text/input_error.hpp"
+#include "mms/text/visible_text.hpp"
 #include "reports/command_line/check_report.hpp"
 #include "reports/command_line/commands/command.hpp"
 #include "reports/command_line/commands/destination.hpp"
@@ -6,7 +7,6 @@
 #include "reports/command_line/commands/shared_options.hpp"
 #include "reports/command_line/commands/shown_run.hpp"
 #include "reports/command_line/end_requests.hpp"
-#include "reports/document/visible_text.hpp"
 #include "reports/files/baseline.hpp"
 #include "reports/formats/report_format.hpp"
 #include "reports/sweep/sweep.hpp"

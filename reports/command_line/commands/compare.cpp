@@ -1,6 +1,6 @@
+#include "mms/text/visible_text.hpp"
 #include "reports/command_line/commands/command.hpp"
 #include "reports/document/text_table.hpp"
-#include "reports/document/visible_text.hpp"
 #include "reports/files/compared_results.hpp"
 #include "reports/files/output_file.hpp"
 #include "studies/text/number_text.hpp"

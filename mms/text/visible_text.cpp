@@ -1,7 +1,8 @@
-#include "reports/document/visible_text.hpp"
+#include "mms/text/visible_text.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -60,6 +61,16 @@ std::string visible(const std::string& text) {
         rest.remove_prefix(length == 0 ? 1 : length);
     }
     return shown;
+}
+
+std::string_view whole_characters(std::string_view text, std::size_t most) {
+    if (text.size() <= most)
+        return text;
+    constexpr std::size_t longest = 4; // bytes of a character
+    for (std::size_t begin = most - std::min(most, longest - 1); begin < most; ++begin)
+        if (begin + first_of(text.substr(begin)).length > most)
+            return text.substr(0, begin);
+    return text.substr(0, most);
 }
 
 } // namespace tvbeam

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
+#include <string_view>
 
 namespace tvbeam {
 
@@ -8,5 +10,8 @@ namespace tvbeam {
 /// the line end and the tabulator, as \x1B or \u009B, and bytes that are no UTF-8. What is left
 /// may stand in XML, too.
 std::string visible(const std::string& text);
+
+/// What the text begins with, in at most so many bytes, and no part of a character at the end.
+std::string_view whole_characters(std::string_view text, std::size_t most);
 
 } // namespace tvbeam

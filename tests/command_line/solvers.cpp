@@ -1,0 +1,61 @@
+// Programs under study, as the whole program meets them: what they write, and what changes while
+// they run.
+
+#include "tests/command_line/called_program.hpp"
+
+#include <boost/test/unit_test.hpp>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <sstream>
+#include <string>
+
+using namespace tvbeam;
+
+BOOST_AUTO_TEST_SUITE(solvers_under_study)
+
+namespace {
+
+/// A scene beside a script, s.sh, of this text, which gets the number of elements.
+std::string scene_with(const TemporaryDirectory& directory, const std::string& script) {
+    directory.write("s.sh", script);
+    return directory.write("s.toml", "[solver]\ncommand = [\"sh\", \"s.sh\", \"{elements}\"]\n"
+                                     "files = [\"s.sh\"]\nerrors = { L2 = 'L2 = (\\S+)' }\n"
+                                     "[ladder]\nelements = [4, 8, 16]\nnorms = [\"L2\"]\n");
+}
+
+const std::string second_order = "awk -v n=\"$1\" 'BEGIN { printf \"L2 = %.15e\\n\", 0.3/n^2 }'\n";
+
+std::string in(const TemporaryDirectory& directory, const std::string& name) {
+    return (directory.path() / name).string();
+}
+
+} // namespace
+
+// Latin-1, and a line that is cut within a character.
+BOOST_AUTO_TEST_CASE(what_a_program_writes_in_another_encoding_is_text_in_every_report) {
+    for (const auto& [words, shown] :
+         {std::pair<std::string, std::string>{"Speicher ersch\\366pft", "Speicher ersch\\xF6pft"},
+          {std::string(199, 'x') + "\\303\\251 und so fort", std::string(199, 'x') + " ..."}}) {
+        const TemporaryDirectory directory;
+        const std::string scene = scene_with(directory, "[ $1 != 16 ] || { printf '" + words +
+                                                            "\\n' >&2; exit 3; }\n" + second_order);
+        const std::string baseline = in(directory, "b.json");
+        for (const std::string gate : {"--whole --record ", "--baseline "}) {
+            const Called called = call(directory, "check " + scene + " " + gate + baseline);
+            BOOST_TEST(called.exit == 3, called.errors);
+            BOOST_TEST(called.errors == "tvbeam: a run failed; the report says which and why\n");
+        }
+        BOOST_TEST(has(nlohmann::json::parse(directory.read("b.json")).dump(),
+                       nlohmann::json(shown).dump().substr(1, shown.size())));
+        // In one run as in parts.
+        call(directory, "run " + scene + " --quiet --out " + in(directory, "one"));
+        call(directory, "run " + scene + " --quiet --shard 1/1 --out " + in(directory, "parts"));
+        call(directory, "merge --quiet " + in(directory, "parts"));
+        for (const std::string file : {"one/ladder.csv", "parts/ladder.csv"})
+            BOOST_TEST(has(directory.read(file), "standard error it wrote: " + shown),
+                       directory.read(file));
+    }
+}
+
+BOOST_AUTO_TEST_SUITE_END()
