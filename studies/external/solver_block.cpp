@@ -3,6 +3,7 @@
 #include "mms/text/characters.hpp"
 #include "mms/text/nearest_name.hpp"
 #include "mms/text/toml_reader.hpp"
+#include "mms/text/visible_text.hpp"
 #include "studies/external/solution_formulas.hpp"
 #include "studies/scene/shipped.hpp"
 
@@ -15,6 +16,7 @@
 #include <fstream>
 #include <iterator>
 #include <set>
+#include <string_view>
 #include <system_error>
 
 namespace tvbeam {
@@ -32,6 +34,14 @@ bool is_name(const std::string& text) {
                        [](char c) { return is_letter(c) || is_digit(c) || c == '_'; });
 }
 
+/// The system takes a text up to its first character of code 0: what follows would be lost unsaid.
+void require_whole(const TableReader& table, const std::string& key, const std::string& text,
+                   std::optional<std::size_t> element = std::nullopt) {
+    constexpr const char* what = " holds a character of code 0, which ends a text; leave it out";
+    if (text.find('\0') != std::string::npos)
+        throw element ? table.error(key, what, *element) : table.error(key, what);
+}
+
 std::vector<Template> read_command(TableReader& table) {
     const auto words = table.texts("command");
     if (!words || words->empty())
@@ -39,8 +49,7 @@ std::vector<Template> read_command(TableReader& table) {
                                      "a list: [\"python3\", \"heat.py\", \"{elements}\"]");
     std::vector<Template> command;
     for (std::size_t i = 0; i < words->size(); ++i) {
-        if ((*words)[i].find('\0') != std::string::npos)
-            throw table.error("command", " holds a character of code 0", i);
+        require_whole(table, "command", (*words)[i], i);
         command.push_back({(*words)[i], table.place("command", i)});
     }
     if (command.front().text.empty())
@@ -80,24 +89,46 @@ SolverFile read_file(const TableReader& table, std::size_t i, const std::string&
     return file;
 }
 
-std::vector<SolverFile> read_files(TableReader& table, const std::filesystem::path& folder) {
+using FileNames = std::set<std::string>; ///< in the directory of a run
+
+/// The name among them beside which this one cannot stand in a directory: it is the same, or one is
+/// a folder on the way to the other.
+std::optional<std::string> in_the_way(const FileNames& names, const std::string& name) {
+    for (std::filesystem::path part = name; !part.empty(); part = part.parent_path())
+        if (names.contains(part.string()))
+            return part.string();
+    const auto within = names.lower_bound(name + "/");
+    return within != names.end() && within->starts_with(name + "/") ? std::optional(*within)
+                                                                    : std::nullopt;
+}
+
+std::vector<SolverFile> read_files(TableReader& table, const std::filesystem::path& folder,
+                                   FileNames& names) {
     std::vector<SolverFile> files;
-    std::set<std::string> names;
     const auto given = table.texts("files").value_or(std::vector<std::string>{});
     for (std::size_t i = 0; i < given.size(); ++i) {
+        require_whole(table, "files", given[i], i);
         files.push_back(read_file(table, i, given[i], folder));
-        if (!names.insert(files.back().name).second)
+        const std::string& name = files.back().name;
+        if (const auto other = in_the_way(names, name))
             throw table.error("files",
-                              " holds two that become '" + files.back().name +
-                                  "' in the directory of a run; remove one",
+                              *other == name
+                                  ? " holds two that become '" + name +
+                                        "' in the directory of a run; remove one"
+                                  : " holds '" + *other + "' and '" + name +
+                                        "', of which one would be a folder with the other in it; "
+                                        "rename one",
                               i);
+        names.insert(name);
     }
     return files;
 }
 
-/// What a run writes stands in its own directory.
+/// What a run writes stands in its own directory. A copy of it from an earlier run would pass for
+/// what a program has written that has written nothing.
 std::string read_file_name(const TableReader& table, const std::string& key,
-                           const std::string& name) {
+                           const std::string& name, const FileNames& files) {
+    require_whole(table, key, name);
     const std::filesystem::path path = name;
     if (path.extension() != ".json" && path.extension() != ".csv")
         throw table.error(key, " is '" + name +
@@ -107,13 +138,19 @@ std::string read_file_name(const TableReader& table, const std::string& key,
         throw table.error(key, " is '" + name +
                                    "'; it must be a file in the directory of the run, to which "
                                    "its path is relative");
+    if (const auto copied = in_the_way(files, path.lexically_normal().string()))
+        throw table.error(key, " is '" + name +
+                                   "', which the program writes, and solver.files "
+                                   "copies '" +
+                                   *copied +
+                                   "' to its place before each run; take that out of solver.files");
     return name;
 }
 
-FigureSource read_source(TableReader& table, const std::string& key) {
+FigureSource read_source(TableReader& table, const std::string& key, const FileNames& files) {
     FigureSource source;
     if (table.is_string(key)) {
-        source.file = read_file_name(table, key, *table.text(key));
+        source.file = read_file_name(table, key, *table.text(key), files);
         return source;
     }
     auto patterns = table.table(key);
@@ -168,6 +205,7 @@ Parameters read_parameters(TableReader& table, const Parameters* known) {
                                                             "; give its usual value there");
         }
         parameters[name] = *given->word(name);
+        require_whole(*given, name, parameters[name]);
     }
     return parameters;
 }
@@ -176,10 +214,11 @@ std::map<std::string, std::string> read_environment(TableReader& table) {
     std::map<std::string, std::string> environment;
     if (auto given = table.table("environment"))
         for (const auto& name : given->unread()) {
-            if (name.empty() || name.find('=') != std::string::npos)
+            if (name.empty() || name.find_first_of(std::string_view("=\0", 2)) != std::string::npos)
                 throw InputError(given->place_of_key(name),
-                                 "'" + name + "' is no name of a variable");
+                                 "'" + visible(name) + "' is no name of a variable");
             environment[name] = *given->word(name);
+            require_whole(*given, name, environment[name]);
         }
     return environment;
 }
@@ -250,9 +289,10 @@ SolverBlock read_solver(TableReader table, const std::filesystem::path& folder, 
     SolverBlock solver;
     solver.folder = folder;
     solver.command = read_command(table);
-    solver.files = read_files(table, folder);
-    solver.errors = read_source(table, "errors");
-    solver.values = read_source(table, "values");
+    FileNames files;
+    solver.files = read_files(table, folder, files);
+    solver.errors = read_source(table, "errors", files);
+    solver.values = read_source(table, "values", files);
     require_other_columns(table, solver_keys(solver).measures);
     for (const auto& pattern : solver.values.patterns)
         if (solver.errors.pattern(pattern.name) != nullptr)

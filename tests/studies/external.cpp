@@ -758,6 +758,72 @@ BOOST_AUTO_TEST_CASE(a_file_beside_the_scene_that_no_run_would_find_is_refused_b
 
 BOOST_AUTO_TEST_SUITE_END()
 
+BOOST_AUTO_TEST_SUITE(block)
+
+namespace {
+
+/// What is wrong with a block; the folder of the scene holds a few files.
+std::string refusal(const std::string& block, const std::string& command = "\"true\"") {
+    const TemporaryDirectory directory;
+    fs::create_directory(directory.path() / "a");
+    for (const char* name : {"errors.json", "errors.csv.in", "s.sh", "a.in", "a/b", "a/v.json"})
+        directory.write(name, "{\"L2\": 1}\n");
+    try {
+        read_scene(directory.write("s.toml", "[solver]\ncommand = [" + command + "]\n" + block +
+                                                 "[ladder]\nelements = [2, 4]\nnorms = ['L2']\n"));
+        return "";
+    } catch (const InputError& error) {
+        const std::string what = error.what();
+        return what.substr(what.find("s.toml"));
+    }
+}
+
+const std::string pattern = "errors = { L2 = 'L2 = (\\S+)' }\n";
+
+} // namespace
+
+// A copy of what an earlier run wrote would pass for what a run wrote that wrote nothing.
+BOOST_AUTO_TEST_CASE(a_file_that_the_program_writes_is_none_that_is_copied) {
+    for (const auto& [block, wanted] : std::vector<std::pair<std::string, std::string>>{
+             {"files = ['s.sh', 'errors.json']\nerrors = 'errors.json'\n",
+              "s.toml:4:10: solver.errors is 'errors.json', which the program writes"},
+             {"files = ['errors.json']\nerrors = './errors.json'\n", "copies 'errors.json'"},
+             {"files = ['errors.csv.in']\nerrors = 'errors.csv'\n", "copies 'errors.csv'"},
+             {pattern + "files = ['a/v.json']\nvalues = 'a/v.json'\n",
+              "solver.values is 'a/v.json', which the program writes"},
+             {"files = ['a.in']\nerrors = 'a/e.json'\n", "copies 'a'"}}) {
+        const std::string message = refusal(block);
+        BOOST_TEST(message.find(wanted) != std::string::npos, message);
+    }
+    BOOST_TEST(refusal("files = ['a/v.json']\nerrors = 'errors.json'\n") == "");
+}
+
+BOOST_AUTO_TEST_CASE(a_file_that_would_be_the_folder_of_another_is_refused) {
+    for (const std::string files : {"['s.sh', 'a.in', 'a/b']", "['s.sh', 'a/b', 'a.in']"}) {
+        const std::string message = refusal("files = " + files + "\n" + pattern);
+        BOOST_TEST(message.starts_with("s.toml:3:"), message);
+        BOOST_TEST(message.find("of which one would be a folder") != std::string::npos, message);
+    }
+}
+
+// What follows it would be lost: programs get texts up to there.
+BOOST_AUTO_TEST_CASE(a_character_of_code_0_is_refused) {
+    for (const std::string block :
+         {"parameters = { k = \"ab\\u0000cd\" }\n", "environment = { A = \"1\\u00002\" }\n",
+          "files = [\"s.sh\\u0000x\"]\n"}) {
+        const std::string message = refusal(pattern + block);
+        BOOST_TEST(message.find("holds a character of code 0") != std::string::npos, message);
+    }
+    const std::string name = refusal(pattern + "environment = { \"A\\u0000B\" = \"1\" }\n");
+    BOOST_TEST(name.find("is no name of a variable") != std::string::npos, name);
+    const std::string word = refusal(pattern, "\"true\", \"a\\u0000b\"");
+    BOOST_TEST(word.starts_with("s.toml:2:"), word);
+    const std::string file = refusal("errors = \"e\\u0000.json\"\n");
+    BOOST_TEST(file.find("holds a character of code 0") != std::string::npos, file);
+}
+
+BOOST_AUTO_TEST_SUITE_END()
+
 BOOST_AUTO_TEST_SUITE(names)
 
 namespace {
