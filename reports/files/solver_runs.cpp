@@ -55,6 +55,7 @@ void SolverRuns::read_line(const KeptLine& line) {
 std::optional<RungResult> SolverRuns::find(const Series& series, std::size_t index) {
     const std::string identity = identities_.of(series, index);
     const std::scoped_lock lock(mutex_);
+    asked_.insert(identity);
     auto result = kept(series, index, identity);
     used_ += result && !runs_[identity].is_new ? 1 : 0;
     return result;
@@ -93,6 +94,9 @@ void SolverRuns::add(const Series& series, std::size_t index, const RungResult& 
             printed[series.measures[k].name] = tvbeam::kept(result.printed[k]);
     }
     const std::scoped_lock lock(mutex_);
+    // A program that was made anew during its run is not what the run is of.
+    if (!asked_.contains(identity))
+        return;
     Run& run = runs_[identity];
     run.seconds = result.seconds;
     run.wall_clock = result.wall_clock;

@@ -9,6 +9,7 @@
 #include <map>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <string>
 
 namespace tvbeam {
@@ -69,6 +70,7 @@ private:
     TornLines torn_;
     std::string failure_;
     std::map<std::string, Run> runs_; ///< by identity
+    std::set<std::string> asked_;     ///< for which runs, by identity
     std::size_t used_ = 0;            ///< runs that were found
 };
 

@@ -1,11 +1,10 @@
 #include "studies/external/external_runs.hpp"
 
 #include "mms/text/visible_text.hpp"
+#include "studies/external/digest.hpp"
 #include "studies/external/process.hpp"
 #include "studies/text/number_text.hpp"
 
-#include <boost/uuid/name_generator_sha1.hpp>
-#include <boost/uuid/uuid_io.hpp>
 #include <nlohmann/json.hpp>
 
 #include <fmt/format.h>
@@ -18,6 +17,7 @@
 #include <memory>
 #include <new>
 #include <set>
+#include <stdexcept>
 #include <utility>
 
 #include <unistd.h>
@@ -139,6 +139,10 @@ void fill(const SolverBlock& solver, const Placeholders& values, const fs::path&
         fs::create_directories(target.parent_path());
         if (!file.contents) {
             fs::copy_file(file.source, target);
+            // The copy, as its source may change while it is made.
+            if (digest(target) != file.digest)
+                throw std::runtime_error(file.name + " was changed during the study, whose runs "
+                                                     "would be of two programs; begin it again");
             continue;
         }
         std::ofstream stream(target, std::ios::binary);
@@ -325,16 +329,6 @@ private:
     std::atomic<std::size_t> next_ = 0; ///< directory
 };
 
-std::string digest(const std::string& text) {
-    const boost::uuids::name_generator_sha1 name(boost::uuids::ns::oid());
-    return to_string(name(text));
-}
-
-std::string digest(const fs::path& file) {
-    std::ifstream stream(file, std::ios::binary);
-    return digest(std::string(std::istreambuf_iterator<char>(stream), {}));
-}
-
 /// Variables of this process that say which code a program runs.
 std::map<std::string, std::string> inherited(const SolverBlock& solver) {
     std::map<std::string, std::string> variables;
@@ -422,12 +416,6 @@ StudiedSolver external_runs(const SolverBlock& solver, const Keeper& keeper) {
             .measures_for_nothing = true};
 }
 
-RunIdentities::RunIdentities(const SolverBlock& solver) : solver_(solver) {
-    for (const auto& file : solver.files)
-        if (!file.contents)
-            digests_[file.name] = digest(file.source);
-}
-
 namespace {
 
 /// The files that a word names by absolute paths: itself, or those within it, as in
@@ -484,14 +472,14 @@ std::string RunIdentities::of(const Series& series, std::size_t level) const {
                         {"errors", reading_of(solver_.errors)},
                         {"values", reading_of(solver_.values)},
                         {"seconds", solver_.seconds ? solver_.seconds->text : ""},
-                        {"files", digests_}};
+                        {"files", nlohmann::json::object()}};
     // Scripts and inputs that are called where they are, as by `sh /path/solve.sh`.
     for (const auto& argument : run.arguments)
         for (const auto& file : files_named_in(argument))
             json["called"][file] = digest(fs::path(file));
     for (const auto& file : solver_.files)
-        if (file.contents)
-            json["files"][file.name] = digest(file.contents->filled(values));
+        json["files"][file.name] =
+            file.contents ? digest(file.contents->filled(values)) : file.digest;
     return digest(json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
 }
 

@@ -5,7 +5,6 @@
 #include "studies/runs/studied_solver.hpp"
 
 #include <cstddef>
-#include <map>
 #include <string>
 
 namespace tvbeam {
@@ -22,9 +21,10 @@ std::string remark_on_untold_widths(const SolverBlock& solver, const std::vector
 
 /// An external program as a solver under study. Each run has a directory of its own, with the
 /// block's files in it, which is removed after it. A run fails, with the reason and the last lines
-/// that it wrote, where it exits with another code than 0, is killed, takes too long, or does not
-/// give each figure that is asked for as one finite number, an error ≥ 0. Its processes are ended
-/// with it. Both must outlive the result.
+/// that it wrote, where one of the files is not any more what it was, and where it exits with
+/// another code than 0, is killed, takes too long, or does not give each figure that is asked for
+/// as one finite number, an error ≥ 0. Its processes are ended with it. Both must outlive the
+/// result.
 StudiedSolver external_runs(const SolverBlock& solver, const Keeper& keeper);
 
 /// What runs are known again by: a digest of whatever their figures depend on, which is the
@@ -35,12 +35,11 @@ StudiedSolver external_runs(const SolverBlock& solver, const Keeper& keeper);
 /// it.
 class RunIdentities {
 public:
-    explicit RunIdentities(const SolverBlock& solver);
+    explicit RunIdentities(const SolverBlock& solver) : solver_(solver) {}
     [[nodiscard]] std::string of(const Series& series, std::size_t level) const;
 
 private:
     const SolverBlock& solver_;
-    std::map<std::string, std::string> digests_; ///< of the files that are no templates, by name
 };
 
 } // namespace tvbeam

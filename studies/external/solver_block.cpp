@@ -4,6 +4,7 @@
 #include "mms/text/nearest_name.hpp"
 #include "mms/text/toml_reader.hpp"
 #include "mms/text/visible_text.hpp"
+#include "studies/external/digest.hpp"
 #include "studies/external/solution_formulas.hpp"
 #include "studies/scene/shipped.hpp"
 
@@ -310,6 +311,12 @@ SolverBlock read_solver(TableReader table, const std::filesystem::path& folder, 
     require_those_of_solution(solver, solver.parameters, table.place("parameters"));
     table.finish();
     return solver;
+}
+
+void note_contents(SolverBlock& solver) {
+    for (SolverFile& file : solver.files)
+        if (!file.contents)
+            file.digest = digest(file.source);
 }
 
 Method method_of(const SolverBlock& solver, const Parameters& parameters) {

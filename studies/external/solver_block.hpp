@@ -17,6 +17,7 @@ struct SolverFile {
     std::filesystem::path source;
     std::string name;                 ///< in the directory
     std::optional<Template> contents; ///< of a template, to be filled in; others are copied
+    std::string digest = {};          ///< of what others held at note_contents()
 };
 
 /// Parameters by name, as they are written into commands and templates.
@@ -56,6 +57,9 @@ struct SolverBlock {
 /// Without formulas the solution is not derived, and its placeholders stay. Throws InputError where
 /// a value is missing or breaks its rule, or a file is not there.
 SolverBlock read_solver(TableReader table, const std::filesystem::path& folder, bool formulas);
+
+/// Notes what the files hold now, by which runs are known: of another state none is made.
+void note_contents(SolverBlock& solver);
 
 /// What the blocks of studies may name: errors and values, and schemes that are other parameters.
 /// The block must outlive it.

@@ -425,6 +425,8 @@ Scene read_scene(const std::string& name_or_file, const std::vector<std::string>
         scene.report = read_report(*std::move(report), reading.report_files);
     root.table("short"); // what it holds is read in the short form
     root.finish();
+    if (scene.solver && !reading.unrun)
+        note_contents(*scene.solver); // last, as they may be large
     scene.json = [table = std::make_shared<const toml::table>(std::move(document.table))] {
         return json_of(*table);
     };

@@ -32,6 +32,48 @@ std::string in(const TemporaryDirectory& directory, const std::string& name) {
 
 } // namespace
 
+// The second run changes the script beside the scene.
+BOOST_AUTO_TEST_CASE(runs_of_a_program_that_changes_meanwhile_are_not_mixed) {
+    const TemporaryDirectory directory;
+    const std::string file = in(directory, "s.sh");
+    const std::string run =
+        "run " +
+        scene_with(directory, "[ $1 != 8 ] || echo 'echo L2 = 7' >" + file + "\n" + second_order) +
+        " --quiet --out " + in(directory, "out");
+    const Called changed = call(directory, run);
+    BOOST_TEST(changed.exit == 3);
+    const auto rungs = [&] {
+        return nlohmann::json::parse(directory.read("out/result.json")).at("ladder").at("rungs");
+    };
+    BOOST_TEST(rungs().at(1).at("status") == "ok");
+    BOOST_TEST(rungs().at(2).at("reason").get<std::string>().starts_with(
+                   "s.sh was changed during the study"),
+               rungs().at(2).dump());
+    // Nothing was kept as the new program's.
+    const Called again = call(directory, run);
+    BOOST_TEST(again.exit == 0, again.errors);
+    BOOST_TEST(!has(again.errors, "finished runs"), again.errors);
+    BOOST_TEST(rungs().at(0).at("errors").at("L2") == 7.0);
+}
+
+// A program that is called where it is, and made anew while it runs.
+BOOST_AUTO_TEST_CASE(a_run_is_kept_as_one_of_the_program_that_made_it) {
+    const TemporaryDirectory directory;
+    std::string text =
+        directory.read(scene_with(directory, "").substr(directory.path().string().size() + 1));
+    text.replace(text.find("\"sh\", \"s.sh\""), 12, "\"./solve\"");
+    text.replace(text.find("[\"s.sh\"]"), 8, "[]");
+    const std::string program =
+        directory.write("solve", "#!/bin/sh\n[ $1 != 16 ] || touch -d 2001-01-01 " +
+                                     in(directory, "solve") + "\n" + second_order);
+    std::filesystem::permissions(program, std::filesystem::perms::owner_all);
+    const std::string run =
+        "run " + directory.write("own.toml", text) + " --out " + in(directory, "out");
+    BOOST_TEST(call(directory, run).exit == 0);
+    const Called again = call(directory, run);
+    BOOST_TEST(!has(again.output, "found again"), again.output);
+}
+
 // Latin-1, and a line that is cut within a character.
 BOOST_AUTO_TEST_CASE(what_a_program_writes_in_another_encoding_is_text_in_every_report) {
     for (const auto& [words, shown] :

@@ -7,7 +7,9 @@
 #include "studies/external/placeholders.hpp"
 #include "studies/external/process.hpp"
 #include "studies/external/readings.hpp"
+#include "studies/ladder/ladder.hpp"
 #include "studies/scene/scene.hpp"
+#include "studies/study.hpp"
 #include "tests/temporary_directory.hpp"
 
 #include <boost/test/unit_test.hpp>
@@ -20,6 +22,7 @@
 #include <filesystem>
 #include <fstream>
 #include <optional>
+#include <set>
 #include <sstream>
 #include <string>
 #include <thread>
@@ -737,6 +740,30 @@ BOOST_AUTO_TEST_CASE(a_run_is_known_however_the_way_to_its_scene_is_written) {
         BOOST_TEST(identity(scene) != known, files);
         directory.write("scenes/solve.sh", "#!/bin/sh\necho L2 = 1\n");
     }
+}
+
+BOOST_AUTO_TEST_CASE(a_run_is_known_by_all_of_a_large_file) {
+    const Known known;
+    std::string large((std::size_t{5} << 20U) / 2, 'x'); // 2.5 MiB
+    std::set<std::string> identities;
+    for (const std::size_t at : {std::size_t{0}, large.size() / 2, large.size() - 1}) {
+        large[at] = 'y';
+        known.directory.write("mesh.dat", large);
+        identities.insert(known.identity("", "[\"solve.sh\", \"mesh.dat\"]"));
+    }
+    BOOST_TEST(identities.size() == 3U);
+}
+
+BOOST_AUTO_TEST_CASE(a_run_on_another_file_than_the_scene_was_read_with_fails) {
+    const Known known;
+    const Scene scene = read_scene(known.scene());
+    known.directory.write("solve.sh", "echo L2 = 2\n");
+    const StudyResult result = run_study(scene);
+    for (const auto& rung : result.get<LadderResult>()->rungs) {
+        BOOST_TEST((rung.status == RungStatus::failed));
+        BOOST_TEST(rung.reason.starts_with("solve.sh was changed during the study"), rung.reason);
+    }
+    BOOST_TEST(!run_study(read_scene(known.scene())).failed());
 }
 
 BOOST_AUTO_TEST_CASE(a_file_beside_the_scene_that_no_run_would_find_is_refused_beforehand) {
