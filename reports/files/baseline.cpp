@@ -150,13 +150,12 @@ BaselineEntry baseline_entry(const DataAnalysis& analysis) {
             std::move(not_made)};
 }
 
-std::string earlier_baseline(const std::string& file) {
+std::optional<Baseline> earlier_baseline(const std::string& file) {
     std::error_code error;
     if (!std::filesystem::is_regular_file(file, error) ||
         std::filesystem::file_size(file, error) == 0)
-        return {};
-    const Baseline earlier(file); // which refuses what is none
-    return file_text(file, largest_baseline);
+        return std::nullopt;
+    return Baseline(file);
 }
 
 void require_another_name(std::set<std::string>& names, const std::string& name,
@@ -166,11 +165,12 @@ void require_another_name(std::set<std::string>& names, const std::string& name,
                                     "; a baseline goes by their names: rename one");
 }
 
-std::string baseline_of(const std::vector<BaselineEntry>& entries, const std::string& earlier) {
+std::string baseline_of(const std::vector<BaselineEntry>& entries, const std::string& file) {
     Json scenes = Json::object();
     std::set<std::string> names;
-    if (!earlier.empty())
-        scenes = Json::parse(earlier)["scenes"];
+    const auto earlier = earlier_baseline(file);
+    if (earlier)
+        scenes = Json::parse(file_text(file, largest_baseline))["scenes"];
     for (const auto& [name, place, figures, rounding, not_made, said] : entries) {
         require_another_name(names, name, place);
         Json errors = Json::object();
@@ -178,10 +178,8 @@ std::string baseline_of(const std::vector<BaselineEntry>& entries, const std::st
             errors[what] = figure_json(error);
         if (!said.empty())
             errors[said_key] = Json::parse(said);
-        else if (scenes.contains(name) && scenes[name].contains(said_key))
-            throw InputError(place,
-                             "was recorded there with all that its result says; add --whole, "
-                             "or record in another file");
+        else if (earlier)
+            earlier->require_room(name);
         if (errors.empty())
             throw InputError(place,
                              "measures nothing that a baseline could keep; add norms, or a block "
@@ -196,6 +194,13 @@ std::string baseline_of(const std::vector<BaselineEntry>& entries, const std::st
         separator = ",\n";
     }
     return text + "\n}}\n";
+}
+
+void Baseline::require_room(const std::string& scene) const {
+    if (has_said(scene))
+        throw InputError({file_}, "has all that the result of '" + scene +
+                                      "' says, and a record of its numbers would take the place "
+                                      "of that; add --whole, or record in another file");
 }
 
 Baseline::Baseline(const std::string& file) : file_(file) {

@@ -40,14 +40,10 @@ BaselineEntry baseline_entry(const DataAnalysis& analysis);
 void require_another_name(std::set<std::string>& names, const std::string& name,
                           const Place& place);
 
-/// Entries as JSON (schema tvbeam-baseline/1), to hold later runs against. earlier: an earlier
-/// baseline, whose entries of other names stay; empty: none. Throws InputError where two have one
-/// name, or one has nothing to keep.
-std::string baseline_of(const std::vector<BaselineEntry>& entries, const std::string& earlier = {});
-
-/// What stands in a file that a baseline is to be recorded in: a baseline, or nothing. Throws
-/// InputError where it is something else.
-std::string earlier_baseline(const std::string& file);
+/// Entries as JSON (schema tvbeam-baseline/1), to hold later runs against. file: that they are to
+/// be recorded in, whose entries of other names stay; empty: none. Throws InputError where two have
+/// one name, one has nothing to keep, or the file has no room for it.
+std::string baseline_of(const std::vector<BaselineEntry>& entries, const std::string& file = {});
 
 /// A recorded baseline.
 class Baseline {
@@ -63,6 +59,10 @@ public:
     [[nodiscard]] std::vector<CheckedExpectation> check(const BaselineEntry& entry,
                                                         double tolerance) const;
 
+    /// Throws InputError where what the scene says was recorded, too: a record of numbers alone
+    /// would take its place.
+    void require_room(const std::string& scene) const;
+
     /// Whether what the scene says was recorded, too.
     [[nodiscard]] bool has_said(const std::string& scene) const { return said_.contains(scene); }
 
@@ -77,5 +77,9 @@ private:
     std::map<std::string, std::map<std::string, Recorded>> scenes_;
     std::map<std::string, std::string> said_; ///< BaselineEntry::said
 };
+
+/// What stands in a file that a baseline is to be recorded in: a baseline, or nothing. Throws
+/// InputError where it is something else.
+std::optional<Baseline> earlier_baseline(const std::string& file);
 
 } // namespace tvbeam

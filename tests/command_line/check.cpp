@@ -236,7 +236,9 @@ BOOST_AUTO_TEST_CASE(a_whole_record_holds_words_and_counters) {
     // A record of figures alone would take its place.
     const Called less = call(directory, checked + "--record " + file);
     BOOST_TEST(less.exit == 2);
+    BOOST_TEST(has(less.errors, file + ": has all that the result of 'sheared' says"), less.errors);
     BOOST_TEST(has(less.errors, "add --whole"), less.errors);
+    BOOST_TEST(less.output.empty(), less.output); // nothing has run
     BOOST_TEST(call(directory, checked + "--baseline " + file).exit == 0);
 
     // Other words, with the same numbers.

@@ -410,6 +410,27 @@ BOOST_AUTO_TEST_CASE(analyse_writes_and_gates_as_a_scene_does) {
     BOOST_TEST(call(directory, "analyse - --size ndofs --error L2 < " + table).exit == 0);
 }
 
+// As check does: entries of other names stay, and what is no baseline is refused at the start.
+BOOST_AUTO_TEST_CASE(a_table_is_recorded_into_what_is_there) {
+    const TemporaryDirectory directory;
+    const std::string in = directory.path().string() + "/";
+    const std::string analyse =
+        "analyse " + directory.write("t.csv", "h,error\n0.4,0.16\n0.2,0.04\n0.1,0.01\n");
+    BOOST_TEST(call(directory, "check sheared --short --record " + in + "b.json").exit == 0);
+    BOOST_TEST(call(directory, analyse + " --record " + in + "b.json").exit == 0);
+    BOOST_TEST(call(directory, analyse + " --baseline " + in + "b.json").exit == 0);
+    BOOST_TEST(call(directory, "check sheared --short --baseline " + in + "b.json").exit == 0);
+    directory.write("notes.txt", "mine\n");
+    const Called refused =
+        call(directory, analyse + " --json " + in + "a.json --record " + in + "notes.txt");
+    BOOST_TEST(refused.exit == 2);
+    BOOST_TEST(has(refused.errors, "notes.txt: is not a baseline"), refused.errors);
+    BOOST_TEST(directory.read("notes.txt") == "mine\n");
+    BOOST_TEST(!std::filesystem::exists(in + "a.json"));
+    // A device holds nothing.
+    BOOST_TEST(call(directory, analyse + " --record /dev/null").exit == 0);
+}
+
 // What a link points to is replaced, not the link.
 BOOST_AUTO_TEST_CASE(a_file_behind_a_link_is_written_and_the_link_stays) {
     const TemporaryDirectory directory;

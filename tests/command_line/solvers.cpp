@@ -100,4 +100,21 @@ BOOST_AUTO_TEST_CASE(what_a_program_writes_in_another_encoding_is_text_in_every_
     }
 }
 
+// A study is interrupted by one of another scene that records in the same file.
+BOOST_AUTO_TEST_CASE(records_that_are_made_side_by_side_are_all_kept) {
+    const TemporaryDirectory directory;
+    const std::string record = " --record " + in(directory, "b.json");
+    const std::string scene = scene_with(directory, "[ $1 != 8 ] || " + std::string(tvbeam_binary) +
+                                                        " check sheared --short --quiet" + record +
+                                                        " >&2\n" + second_order);
+    for (int times = 0; times < 2; ++times) { // in a new file, and in one that is there
+        const Called called = call(directory, "check " + scene + record);
+        BOOST_TEST(called.exit == 0, called.output + called.errors);
+        const auto scenes = nlohmann::json::parse(directory.read("b.json")).at("scenes");
+        BOOST_TEST(scenes.contains("s"));
+        BOOST_TEST(scenes.contains("sheared"));
+        directory.write("b.json", R"({"schema": "tvbeam-baseline/1", "scenes": {}})");
+    }
+}
+
 BOOST_AUTO_TEST_SUITE_END()

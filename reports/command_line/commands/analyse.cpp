@@ -3,6 +3,7 @@
 #include "reports/command_line/check_report.hpp"
 #include "reports/command_line/commands/command.hpp"
 #include "reports/command_line/commands/destination.hpp"
+#include "reports/command_line/commands/record.hpp"
 #include "reports/command_line/commands/said.hpp"
 #include "reports/command_line/commands/shared_options.hpp"
 #include "reports/document/text_document.hpp"
@@ -61,7 +62,8 @@ int analyse_command(const AnalyseOptions& options) {
     Destination json = destination(options.json);
     Destination csv = destination(options.csv);
     Destination junit = destination(options.junit);
-    Destination record = destination(options.record);
+    Record record(options.record);
+    record.require_room(baseline_entry(analysis).name);
     opened([] { add_to_step_summary({}); });
     if (out)
         if (const std::string left_out = out->write(reported(analysis)); !left_out.empty())
@@ -73,7 +75,7 @@ int analyse_command(const AnalyseOptions& options) {
     if (junit.wanted())
         junit.write(junit_report({checked}));
     if (record.wanted())
-        record.write(baseline_of({baseline_entry(analysis)}));
+        record.write({baseline_entry(analysis)});
     const Document document = analysis_document(analysis);
     const bool gated = options.expect || baseline;
     if (!json.standard_output() && !csv.standard_output() && !junit.standard_output() &&

@@ -3,6 +3,7 @@
 #include "reports/command_line/check_report.hpp"
 #include "reports/command_line/commands/command.hpp"
 #include "reports/command_line/commands/destination.hpp"
+#include "reports/command_line/commands/record.hpp"
 #include "reports/command_line/commands/said.hpp"
 #include "reports/command_line/commands/shared_options.hpp"
 #include "reports/command_line/commands/shown_run.hpp"
@@ -62,12 +63,12 @@ std::string own_program() {
 
 constexpr const char* interrupted_reason = "it was interrupted";
 
-int check_command(const CheckOptions& options) {
+/// All scenes are read before any is run, so that a mistake in the last is not found after the
+/// others' run.
+std::vector<Scene> read_scenes(const CheckOptions& options) {
     if (const auto sweep = sweep_in(options.overrides))
         throw InputError({"--set " + sweep->key},
                          "has several values, which tvbeam run puts into one table; name one here");
-    // All scenes are read before any is run, so that a mistake in the last is not found after the
-    // others' run.
     std::vector<Scene> scenes;
     for (const auto& name : options.scenes)
         scenes.push_back(read_scene(name, options.overrides,
@@ -77,10 +78,14 @@ int check_command(const CheckOptions& options) {
                                      .program = own_program()}));
     for (const auto& scene : scenes)
         predict(scene, options.quiet, options.really_long);
-    const auto baseline =
-        options.baseline.empty() ? std::nullopt : std::optional<Baseline>(options.baseline);
+    return scenes;
+}
+
+/// That every scene runs, and has something to be checked against or recorded.
+void require_checkable(const std::vector<Scene>& scenes, const CheckOptions& options) {
+    const bool is_compared = !options.baseline.empty() || !options.record.empty();
     for (const auto& scene : scenes)
-        if (scene.expectations.empty() && !baseline && options.record.empty())
+        if (scene.expectations.empty() && !is_compared)
             throw InputError(
                 {scene.file},
                 "has no [expect] block, so there is nothing to check; add one, or record a "
@@ -91,16 +96,23 @@ int check_command(const CheckOptions& options) {
         require_runnable(scene);
         require_no_input("--junit", options.junit, files_of(scene));
         require_no_input("--record", options.record, files_of(scene));
-        if (baseline || !options.record.empty())
+        if (is_compared)
             require_recordable(scene);
         if (!options.record.empty())
             require_another_name(recorded, scene.name, {scene.file});
     }
+}
+
+int check_command(const CheckOptions& options) {
+    const std::vector<Scene> scenes = read_scenes(options);
+    const auto baseline =
+        options.baseline.empty() ? std::nullopt : std::optional<Baseline>(options.baseline);
+    require_checkable(scenes, options);
     Destination junit = destination(options.junit);
-    const std::string earlier = options.record.empty() || options.record == "-"
-                                    ? std::string()
-                                    : earlier_baseline(options.record);
-    Destination record = destination(options.record);
+    Record record(options.record);
+    for (const auto& scene : scenes)
+        if (!options.whole)
+            record.require_room(scene.name);
     opened([] { add_to_step_summary({}); });
 
     std::vector<StudyResult> results;
@@ -159,7 +171,7 @@ int check_command(const CheckOptions& options) {
     if (junit.wanted())
         junit.write(junit_report(checked));
     if (record.wanted() && !results.back().interrupted()) {
-        record.write(baseline_of(entries, earlier));
+        record.write(entries);
         if (!record.standard_output() && !junit.standard_output() && !options.quiet)
             write_standard_output(recorded_report(entries, options.record));
     }
