@@ -13,6 +13,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <functional>
@@ -212,12 +213,19 @@ Baseline::Baseline(const std::string& file) : file_(file) {
     };
     // Its names are sorted: of many thousands each is found at once. A baseline has few levels, and
     // a deep value would be copied and written by recursion.
-    const auto shallow = [&](int depth, nlohmann::json::parse_event_t /*event*/,
-                             nlohmann::json& /*value*/) {
+    std::array<std::set<std::string>, deepest_baseline + 2> names; // by depth
+    const auto looked_at = [&](int depth, nlohmann::json::parse_event_t event,
+                               const nlohmann::json& value) {
         require(depth <= deepest_baseline);
+        const auto within = static_cast<std::size_t>(depth);
+        if (event == nlohmann::json::parse_event_t::object_start)
+            names.at(within + 1).clear();
+        if (event == nlohmann::json::parse_event_t::key && !names.at(within).insert(value).second)
+            throw InputError({file}, "has '" + value.get<std::string>() +
+                                         "' more than once; which is meant? Remove the other");
         return true;
     };
-    const auto json = nlohmann::json::parse(text, shallow, false);
+    const auto json = nlohmann::json::parse(text, looked_at, false);
     require(!json.is_discarded() && json.is_object() && json.contains("schema") &&
             json["schema"] == baseline_schema && json.contains("scenes") &&
             json["scenes"].is_object());

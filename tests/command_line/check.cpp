@@ -216,6 +216,24 @@ BOOST_AUTO_TEST_CASE(a_whole_record_knows_folders_and_small_numbers) {
     BOOST_TEST(again.exit == 0, again.output + again.errors);
 }
 
+// The last would silently be the one that counts.
+BOOST_AUTO_TEST_CASE(a_baseline_that_has_a_name_twice_is_refused) {
+    const TemporaryDirectory directory;
+    const auto refusal = [&](const std::string& scenes) {
+        const Called called =
+            call(directory, "check sheared --short --baseline " +
+                                directory.write("b.json", "{\"schema\": \"tvbeam-baseline/1\", "
+                                                          "\"scenes\": {" +
+                                                              scenes + "}}"));
+        BOOST_TEST(called.exit == 2, called.output);
+        return called.errors;
+    };
+    const std::string scene = refusal(R"("sheared": {"a": 1}, "other": {}, "sheared": {"a": 2})");
+    BOOST_TEST(has(scene, "b.json: has 'sheared' more than once; which is meant?"), scene);
+    const std::string figure = refusal(R"("other": {"b": 1}, "sheared": {"a": 1, "b": 2, "a": 1})");
+    BOOST_TEST(has(figure, "b.json: has 'a' more than once; which is meant?"), figure);
+}
+
 // Beside its figures a whole record keeps what a result says, and what its expectations look at.
 BOOST_AUTO_TEST_CASE(a_whole_record_holds_words_and_counters) {
     const TemporaryDirectory directory;
