@@ -234,6 +234,18 @@ BOOST_AUTO_TEST_CASE(a_baseline_that_has_a_name_twice_is_refused) {
     BOOST_TEST(has(figure, "b.json: has 'a' more than once; which is meant?"), figure);
 }
 
+// What was checked is in the file that a server reads, whatever standard output goes to.
+BOOST_AUTO_TEST_CASE(junit_does_not_depend_on_standard_output) {
+    const TemporaryDirectory directory;
+    const Called called =
+        call(directory, "check sheared free-decay --short --junit " +
+                            (directory.path() / "j.xml").string() + " > /dev/full");
+    BOOST_TEST(called.exit == 3);
+    BOOST_TEST(has(called.errors, "cannot write to standard output"), called.errors);
+    for (const std::string scene : {"sheared", "free-decay"})
+        BOOST_TEST(has(directory.read("j.xml"), "testsuite name=\"" + scene + "\""));
+}
+
 // Beside its figures a whole record keeps what a result says, and what its expectations look at.
 BOOST_AUTO_TEST_CASE(a_whole_record_holds_words_and_counters) {
     const TemporaryDirectory directory;

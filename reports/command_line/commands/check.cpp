@@ -17,6 +17,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <exception>
 #include <filesystem>
 #include <memory>
 #include <mutex>
@@ -118,7 +119,18 @@ int check_command(const CheckOptions& options) {
     std::vector<StudyResult> results;
     std::vector<BaselineEntry> entries; // to be recorded
     std::vector<CheckedScene> checked;
-    std::mutex mutex; // of what is checked
+    std::mutex mutex;        // of what is checked
+    std::exception_ptr lost; // of what standard output did not take; files do not depend on it
+    const auto show = [&](const std::string& text) {
+        try {
+            if (!lost)
+                write_standard_output(text);
+        } catch (const OutputError&) {
+            if (!junit.wanted() && !record.wanted())
+                throw;
+            lost = std::current_exception();
+        }
+    };
     const auto add = [&](const CheckedScene& one) {
         const std::scoped_lock lock(mutex);
         checked.push_back(one);
@@ -164,7 +176,7 @@ int check_command(const CheckOptions& options) {
         const bool only_recorded = record.wanted() && one.passed() && one.expectations.empty();
         if (!junit.standard_output() && !record.standard_output() && !only_recorded &&
             !(options.quiet && one.passed()))
-            write_standard_output(check_report(one, coloured()));
+            show(check_report(one, coloured()));
         add(one);
     }
     end_requests.settle();
@@ -173,9 +185,11 @@ int check_command(const CheckOptions& options) {
     if (record.wanted() && !results.back().interrupted()) {
         record.write(entries);
         if (!record.standard_output() && !junit.standard_output() && !options.quiet)
-            write_standard_output(recorded_report(entries, options.record));
+            show(recorded_report(entries, options.record));
     }
     add_to_step_summary(check_markdown(checked));
+    if (lost)
+        std::rethrow_exception(lost);
     const bool failed = std::any_of(results.begin(), results.end(),
                                     [](const StudyResult& result) { return result.failed(); });
     const bool passed = std::all_of(checked.begin(), checked.end(),
