@@ -117,4 +117,25 @@ BOOST_AUTO_TEST_CASE(records_that_are_made_side_by_side_are_all_kept) {
     }
 }
 
+// Else the next file that is opened takes the place of what was closed.
+BOOST_AUTO_TEST_CASE(streams_that_are_closed_are_nobody_s) {
+    const TemporaryDirectory directory;
+    const std::string scene = scene_with(directory, second_order);
+    const auto without = [](const std::string& streams) {
+        return "sh -c 'exec \"$0\" \"$@\" " + streams + "' ";
+    };
+    for (const std::string streams : {"2>&-", "0<&- 2>&-"}) {
+        const Called called = call(directory, "run " + scene, without(streams));
+        BOOST_TEST(called.exit == 0);
+        BOOST_TEST(has(called.output, "L2: order 2.00"), called.output);
+    }
+    const Called nowhere = call(directory, "run " + scene, without(">&-"));
+    BOOST_TEST(nowhere.exit == 3);
+    BOOST_TEST(has(nowhere.errors, "cannot write to standard output"), nowhere.errors);
+    call(directory, "run table1 --out " + in(directory, "x") + " --shard 1/2", without("2>&-"));
+    std::istringstream lines(directory.read("x/shard-1-of-2.jsonl"));
+    for (std::string line; std::getline(lines, line);)
+        BOOST_TEST(has(line, "{"), line);
+}
+
 BOOST_AUTO_TEST_SUITE_END()

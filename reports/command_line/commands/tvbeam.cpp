@@ -16,7 +16,9 @@
 #include <string>
 #include <vector>
 
+#include <fcntl.h>
 #include <malloc.h>
+#include <unistd.h>
 
 namespace {
 
@@ -126,9 +128,18 @@ int reported_command_line(int argc, char** argv) {
     }
 }
 
+/// What the caller has closed the next file would get, and in it stood what is said. As if it were
+/// still closed nothing can be read from it or written to it.
+void occupy_closed_streams() {
+    for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+        if (fcntl(stream, F_GETFD) < 0) // open takes the lowest that is free
+            open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY);
+}
+
 } // namespace
 
 int main(int argc, char** argv) {
+    occupy_closed_streams();
     // Vectors of large meshes come and go; their pages stay, as to clear new ones takes longer than
     // to compute with them.
     constexpr int keep = 1 << 30; // bytes
