@@ -84,6 +84,32 @@ BOOST_AUTO_TEST_CASE(what_gnuplot_complains_of_is_said) {
                called.errors);
 }
 
+// Its pictures are drawn by the same command, which goes on from the runs that are kept.
+BOOST_AUTO_TEST_CASE(a_run_that_is_asked_to_end_while_it_draws_was_interrupted) {
+    const TemporaryDirectory directory;
+    std::filesystem::create_directory(directory.path() / "bin");
+    std::filesystem::permissions(
+        directory.write("bin/gnuplot", "#!/bin/sh\nkill -TERM $PPID\nsleep 10\n"),
+        std::filesystem::perms::owner_all);
+    const std::string run = "run " + directory.write("scene.toml", scene("")) + " --quiet --out " +
+                            (directory.path() / "r").string();
+    const std::string ending = "PATH=" + (directory.path() / "bin").string() + ":$PATH ";
+    const Called called = call(directory, run, ending);
+    BOOST_TEST(called.exit == 3);
+    BOOST_TEST(has(called.errors, "the pictures are left out"), called.errors);
+    BOOST_TEST(has(called.errors, "interrupted; the result holds what was finished; --resume"),
+               called.errors);
+    const Called resumed = call(directory, run + " --resume");
+    BOOST_TEST(resumed.exit == 0, resumed.errors);
+    BOOST_TEST(std::filesystem::exists(directory.path() / "r/plots/convergence.svg"));
+    BOOST_TEST(!std::filesystem::exists(directory.path() / "r/unfinished.jsonl"));
+    // The table of a sweep, and what shards have made.
+    BOOST_TEST(call(directory, run + "s --set beam.alpha=0.1,0.2", ending).exit == 3);
+    BOOST_TEST(call(directory, run + "m --shard 1/1").exit == 0);
+    BOOST_TEST(
+        call(directory, "merge --quiet " + (directory.path() / "rm").string(), ending).exit == 3);
+}
+
 BOOST_DATA_TEST_CASE(reading_ends_at_the_first_signal, data::make({"INT", "TERM", "HUP"}), signal) {
     const TemporaryDirectory directory;
     const std::string fifo = (directory.path() / "fifo.toml").string();

@@ -4,6 +4,7 @@
 #include "reports/command_line/commands/said.hpp"
 #include "reports/command_line/commands/shared_options.hpp"
 #include "reports/command_line/commands/shell_words.hpp"
+#include "reports/command_line/commands/shown_run.hpp"
 #include "reports/command_line/end_requests.hpp"
 #include "reports/command_line/progress_line.hpp"
 #include "reports/document/result_document.hpp"
@@ -196,8 +197,7 @@ int merge_command(const MergeOptions& options) {
     end_requests.settle();
     if (!complete)
         result.remarks.push_back("Part of the runs: " + merged.missing() + ".");
-    if (const std::string left_out = out->write(reported(result)); !left_out.empty())
-        say(left_out);
+    const bool interrupted = !write_reports(*out, reported(result)) || result.interrupted();
     if (!options.quiet)
         write_standard_output(text_document(result_document(result)));
     if (!complete) {
@@ -205,9 +205,9 @@ int merge_command(const MergeOptions& options) {
                                "what makes the rest");
         return run_failed;
     }
-    if (result.interrupted() || result.failed()) {
-        say(result.interrupted() ? "interrupted; the result holds what was finished"
-                                 : "a run failed; the result says which and why");
+    if (interrupted || result.failed()) {
+        say(interrupted ? "interrupted; the result holds what was finished"
+                        : "a run failed; the result says which and why");
         return run_failed;
     }
     return done;

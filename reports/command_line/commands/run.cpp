@@ -107,8 +107,9 @@ private:
 };
 
 /// What there is to say of a run that did not go well; empty when it did.
-std::string trouble_of(const StudyResult& result, const std::optional<KeptRuns>& kept) {
-    if (result.interrupted())
+std::string trouble_of(const StudyResult& result, bool interrupted,
+                       const std::optional<KeptRuns>& kept) {
+    if (interrupted)
         return "interrupted; the result holds what was finished" + (kept ? kept->advice() : "");
     return result.failed() ? "a run failed; the result says which and why" : "";
 }
@@ -145,14 +146,14 @@ int run_command(const RunOptions& options) {
     end_requests.settle();
     if (const std::string remark = kept ? kept->remark() : ""; !remark.empty())
         result.remarks.push_back(remark);
+    bool interrupted = result.interrupted();
     // Files first: what standard output goes to may be gone.
     if (out) {
         kept->write();
-        if (const std::string left_out = out->write(reported(result)); !left_out.empty())
-            say(left_out);
+        interrupted = !write_reports(*out, reported(result)) || interrupted;
         if (!kept->failure().empty())
             say(kept->failure() + "; the runs behind it are not kept");
-        if (!result.interrupted())
+        if (!interrupted)
             kept->end();
     }
     const auto write_csv = [&] {
@@ -170,7 +171,7 @@ int run_command(const RunOptions& options) {
         write_csv();
     else if (!options.quiet)
         write_standard_output(text_document(result_document(result)));
-    if (const std::string trouble = trouble_of(result, kept); !trouble.empty()) {
+    if (const std::string trouble = trouble_of(result, interrupted, kept); !trouble.empty()) {
         say(trouble);
         return run_failed;
     }
@@ -209,9 +210,9 @@ int sweep_command(const RunOptions& options, const Sweep& sweep) {
     }
     end_requests.settle();
     const Reported all = reported(sweep, results);
+    bool interrupted = all.interrupted;
     const auto write = [&](ReportDirectory& directory, const Reported& what) {
-        if (const std::string left_out = directory.write(what); !left_out.empty())
-            say(left_out);
+        interrupted = !write_reports(directory, what) || interrupted;
     };
     if (out) {
         write(*out, all);
@@ -227,10 +228,10 @@ int sweep_command(const RunOptions& options, const Sweep& sweep) {
         csv.write(sweep_csv(sweep, results));
     if (!json.standard_output() && !csv.standard_output() && !options.quiet)
         write_standard_output(text_document(all.document));
-    if (all.interrupted || all.failed)
-        say(all.interrupted ? "interrupted; the table holds what was finished"
-                            : "a run failed; its row says so");
-    return all.interrupted || all.failed ? run_failed : done;
+    if (interrupted || all.failed)
+        say(interrupted ? "interrupted; the table holds what was finished"
+                        : "a run failed; its row says so");
+    return interrupted || all.failed ? run_failed : done;
 }
 
 } // namespace

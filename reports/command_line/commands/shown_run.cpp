@@ -1,6 +1,7 @@
 #include "reports/command_line/commands/shown_run.hpp"
 
 #include "reports/command_line/commands/said.hpp"
+#include "reports/command_line/end_requests.hpp"
 #include "reports/command_line/progress_line.hpp"
 #include "studies/predicted_work.hpp"
 
@@ -30,6 +31,13 @@ void predict(const Scene& scene, bool quiet, bool really_long) {
 StudyResult run_shown(const Scene& scene, bool quiet, int jobs, FinishedRuns* finished) {
     ProgressLine progress(!quiet);
     return run_study(scene, {.jobs = jobs, .progress = &progress, .finished = finished});
+}
+
+bool write_reports(ReportDirectory& out, const Reported& result) {
+    const std::string left_out = out.write(result);
+    if (!left_out.empty())
+        say(left_out);
+    return left_out.empty() || !EndRequests::made();
 }
 
 } // namespace tvbeam
