@@ -24,6 +24,8 @@ using Json = nlohmann::ordered_json;
 constexpr std::size_t largest_result = std::size_t{1} << 30U; // bytes
 constexpr int deepest_result = 40;                            // values within each other
 
+constexpr std::array schemas{"tvbeam-result/1", "tvbeam-analysis/1", "tvbeam-sweep/1"};
+
 /// Different from run to run of the same. No number of a solver is called so.
 bool is_time(const std::string& key) {
     return key == "seconds" || key.starts_with("seconds to "); // of a sweep of a race
@@ -68,8 +70,7 @@ Json result_in(const std::string& name) {
     };
     Json json = Json::parse(file_text(file, largest_result), depth, false);
     const bool is_result = shallow && json.is_object() && json.contains("schema") &&
-                           json["schema"].is_string() &&
-                           json["schema"].get<std::string>().starts_with("tvbeam-");
+                           std::ranges::find(schemas, json["schema"]) != schemas.end();
     if (!is_result)
         throw InputError({file}, "is not a result of tvbeam; name a result.json, or the directory "
                                  "of --out that holds one");

@@ -329,6 +329,13 @@ BOOST_AUTO_TEST_CASE(a_comparison_says_what_differs_and_by_how_much) {
     BOOST_TEST(other.exit == 1);
     BOOST_TEST(has(other.output, "beam.alpha: 1 against 2, by a part of 0.50"), other.output);
     BOOST_TEST(call(directory, "compare " + files + "/dev/null").exit == 2);
+    for (const std::string schema : {"tvbeam-baseline/1", "tvbeam-result/2"}) {
+        const Called none =
+            call(directory, "compare " + files +
+                                directory.write("no.json", R"({"schema": ")" + schema + "\"}"));
+        BOOST_TEST(none.exit == 2, schema);
+        BOOST_TEST(has(none.errors, "no.json: is not a result of tvbeam"), none.errors);
+    }
     // Rows of a sweep are found by their values, in any order.
     const std::string row = R"({"schema":"tvbeam-sweep/1","rows":[{"value":1,"e":)";
     const std::string a = directory.write("a.json", row + "1.0},{\"value\":2,\"e\":5}]}");
