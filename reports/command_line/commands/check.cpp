@@ -104,99 +104,144 @@ void require_checkable(const std::vector<Scene>& scenes, const CheckOptions& opt
     }
 }
 
+/// Scenes that are run and checked one after the other, and what is written of them.
+class SceneChecks {
+public:
+    SceneChecks(const CheckOptions& options, const std::vector<Scene>& scenes,
+                const std::optional<Baseline>& baseline)
+        : options_(options), scenes_(scenes), baseline_(baseline),
+          junit_(destination(options.junit)), record_(options.record) {
+        for (const auto& scene : scenes)
+            if (!options.whole)
+                record_.require_room(scene.name);
+    }
+
+    void run_all() {
+        // From here on there is something to keep.
+        EndRequests end_requests([this] { keep_what_is_checked(); });
+        for (const auto& scene : scenes_)
+            if (!run_one(scene))
+                break;
+        end_requests.settle();
+    }
+
+    void write() {
+        if (junit_.wanted())
+            junit_.write(junit_report(checked_));
+        if (record_.wanted() && !interrupted_) {
+            record_.write(entries_);
+            if (!record_.standard_output() && !junit_.standard_output() && !options_.quiet)
+                show(recorded_report(entries_, options_.record));
+        }
+        add_to_step_summary(check_markdown(checked_));
+        if (lost_)
+            std::rethrow_exception(lost_);
+    }
+
+    [[nodiscard]] int exit_code() const {
+        if (failed_ && !interrupted_)
+            say("a run failed; the report says which and why");
+        return failed_                                                ? run_failed
+               : std::ranges::all_of(checked_, &CheckedScene::passed) ? done
+                                                                      : violated;
+    }
+
+private:
+    /// Whether the next may be run.
+    bool run_one(const Scene& scene) {
+        const auto start = std::chrono::steady_clock::now();
+        const StudyResult result = run_shown(scene, options_.quiet, options_.jobs, nullptr);
+        const auto elapsed = [&start] {
+            return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+        };
+        failed_ = failed_ || result.failed();
+        interrupted_ = result.interrupted();
+        CheckedScene one{scene.name + (scene.defect ? " (with a deliberate defect)" : ""),
+                         0.0,
+                         interrupted_ ? interrupted_reason : result.ending().reason,
+                         {}};
+        if (interrupted_)
+            say_interrupted("interrupted in " + scene.name);
+        else
+            compare(one, result, scene.name);
+        one.seconds = elapsed(); // what is expected may take its time, too
+        if (!interrupted_)
+            show_checked(one);
+        const std::scoped_lock lock(mutex_);
+        checked_.push_back(one);
+        return !interrupted_;
+    }
+
+    void compare(CheckedScene& one, const StudyResult& result, const std::string& name) {
+        one.expectations = check(result);
+        const auto entry = [&](bool whole) {
+            return whole ? whole_entry(result, one.expectations) : baseline_entry(result);
+        };
+        if (record_.wanted())
+            entries_.push_back(entry(options_.whole));
+        if (!baseline_)
+            return;
+        const auto more = baseline_->check(entry(baseline_->has_said(name)), options_.tolerance);
+        one.expectations.insert(one.expectations.end(), more.begin(), more.end());
+    }
+
+    void show_checked(const CheckedScene& one) {
+        const bool only_recorded = record_.wanted() && one.passed() && one.expectations.empty();
+        if (!junit_.standard_output() && !record_.standard_output() && !only_recorded &&
+            !(options_.quiet && one.passed()))
+            show(check_report(one, coloured()));
+    }
+
+    /// Files do not depend on what standard output takes.
+    void show(const std::string& text) {
+        try {
+            if (!lost_)
+                write_standard_output(text);
+        } catch (const OutputError&) {
+            if (!junit_.wanted() && !record_.wanted())
+                throw;
+            lost_ = std::current_exception();
+        }
+    }
+
+    /// Where the process is about to end.
+    void keep_what_is_checked() {
+        std::vector<CheckedScene> reported;
+        {
+            const std::scoped_lock lock(mutex_);
+            reported = checked_;
+        }
+        const Scene& scene = scenes_.at(std::min(reported.size(), scenes_.size() - 1));
+        if (reported.size() < scenes_.size())
+            reported.push_back({scene.name, 0.0, interrupted_reason, {}});
+        say_interrupted("interrupted in " + scene.name);
+        if (junit_.wanted())
+            junit_.write(junit_report(reported));
+    }
+
+    const CheckOptions& options_;
+    const std::vector<Scene>& scenes_;
+    const std::optional<Baseline>& baseline_;
+    Destination junit_;
+    Record record_;
+    std::vector<BaselineEntry> entries_; ///< to be recorded
+    std::vector<CheckedScene> checked_;
+    std::mutex mutex_; ///< of checked_
+    bool failed_ = false;
+    bool interrupted_ = false;
+    std::exception_ptr lost_; ///< of what standard output did not take
+};
+
 int check_command(const CheckOptions& options) {
     const std::vector<Scene> scenes = read_scenes(options);
     const auto baseline =
         options.baseline.empty() ? std::nullopt : std::optional<Baseline>(options.baseline);
     require_checkable(scenes, options);
-    Destination junit = destination(options.junit);
-    Record record(options.record);
-    for (const auto& scene : scenes)
-        if (!options.whole)
-            record.require_room(scene.name);
+    SceneChecks checked(options, scenes, baseline);
     opened([] { add_to_step_summary({}); });
-
-    std::vector<StudyResult> results;
-    std::vector<BaselineEntry> entries; // to be recorded
-    std::vector<CheckedScene> checked;
-    std::mutex mutex;        // of what is checked
-    std::exception_ptr lost; // of what standard output did not take; files do not depend on it
-    const auto show = [&](const std::string& text) {
-        try {
-            if (!lost)
-                write_standard_output(text);
-        } catch (const OutputError&) {
-            if (!junit.wanted() && !record.wanted())
-                throw;
-            lost = std::current_exception();
-        }
-    };
-    const auto add = [&](const CheckedScene& one) {
-        const std::scoped_lock lock(mutex);
-        checked.push_back(one);
-    };
-    // From here on there is something to keep.
-    EndRequests end_requests([&] {
-        std::vector<CheckedScene> reported;
-        {
-            const std::scoped_lock lock(mutex);
-            reported = checked;
-        }
-        const Scene& scene = scenes.at(std::min(reported.size(), scenes.size() - 1));
-        if (reported.size() < scenes.size())
-            reported.push_back({scene.name, 0.0, interrupted_reason, {}});
-        say_interrupted("interrupted in " + scene.name);
-        if (junit.wanted())
-            junit.write(junit_report(reported));
-    });
-    for (const auto& scene : scenes) {
-        const std::string shown = scene.name + (scene.defect ? " (with a deliberate defect)" : "");
-        const auto start = std::chrono::steady_clock::now();
-        results.push_back(run_shown(scene, options.quiet, options.jobs, nullptr));
-        const auto elapsed = [&start] {
-            return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-        };
-        if (results.back().interrupted()) {
-            add({shown, elapsed(), interrupted_reason, {}});
-            say_interrupted("interrupted in " + scene.name);
-            break;
-        }
-        CheckedScene one{shown, 0.0, results.back().ending().reason, check(results.back())};
-        one.seconds = elapsed(); // what is expected may take its time, too
-        if (record.wanted())
-            entries.push_back(options.whole ? whole_entry(results.back(), one.expectations)
-                                            : baseline_entry(results.back()));
-        if (baseline) {
-            const auto more = baseline->check(baseline->has_said(scene.name)
-                                                  ? whole_entry(results.back(), one.expectations)
-                                                  : baseline_entry(results.back()),
-                                              options.tolerance);
-            one.expectations.insert(one.expectations.end(), more.begin(), more.end());
-        }
-        const bool only_recorded = record.wanted() && one.passed() && one.expectations.empty();
-        if (!junit.standard_output() && !record.standard_output() && !only_recorded &&
-            !(options.quiet && one.passed()))
-            show(check_report(one, coloured()));
-        add(one);
-    }
-    end_requests.settle();
-    if (junit.wanted())
-        junit.write(junit_report(checked));
-    if (record.wanted() && !results.back().interrupted()) {
-        record.write(entries);
-        if (!record.standard_output() && !junit.standard_output() && !options.quiet)
-            show(recorded_report(entries, options.record));
-    }
-    add_to_step_summary(check_markdown(checked));
-    if (lost)
-        std::rethrow_exception(lost);
-    const bool failed = std::any_of(results.begin(), results.end(),
-                                    [](const StudyResult& result) { return result.failed(); });
-    const bool passed = std::all_of(checked.begin(), checked.end(),
-                                    [](const CheckedScene& scene) { return scene.passed(); });
-    if (failed && !results.back().interrupted())
-        say("a run failed; the report says which and why");
-    return failed ? run_failed : passed ? done : violated;
+    checked.run_all();
+    checked.write();
+    return checked.exit_code();
 }
 
 } // namespace
