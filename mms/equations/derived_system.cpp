@@ -18,6 +18,7 @@ using Role = DerivedFunction::Role;
 namespace {
 
 constexpr int largest_expanded_power = 100; // of a polynomial
+constexpr int largest_power = 1000;         // of checked_power
 
 GiNaC::exmap values_of(const std::vector<DerivedParameter>& parameters) {
     GiNaC::exmap values;
@@ -34,7 +35,16 @@ bool varies(const ex& expression, const GiNaC::exmap& values) {
     return false;
 }
 
-/// The parameters in a whole exponent of what varies; none where it is no such.
+/// Whether it may be negative, where only whole powers of it have a value.
+bool may_be_negative(const ex& expression, const GiNaC::exmap& values) {
+    try {
+        return varies(expression, values) || numeric_value(substituted(expression, values)) < 0.0;
+    } catch (const AlgebraError&) {
+        return false;
+    }
+}
+
+/// The parameters in a whole exponent of what may be negative; none where it is no such.
 std::set<std::string> in_whole_exponent(const ex& base, const ex& exponent,
                                         const std::vector<DerivedParameter>& parameters) {
     const GiNaC::exmap values = values_of(parameters);
@@ -42,11 +52,11 @@ std::set<std::string> in_whole_exponent(const ex& base, const ex& exponent,
     for (const auto& parameter : parameters)
         if (exponent.has(parameter.symbol))
             used.insert(parameter.name);
-    if (used.empty() || !varies(base, values))
+    if (used.empty() || !may_be_negative(base, values))
         return {};
     const auto value = number_with(exponent, values);
-    const bool is_whole =
-        value && value->is_integer() && GiNaC::abs(*value) <= largest_expanded_power;
+    const int largest = varies(base, values) ? largest_expanded_power : largest_power;
+    const bool is_whole = value && value->is_integer() && GiNaC::abs(*value) <= largest;
     return is_whole ? used : std::set<std::string>{};
 }
 

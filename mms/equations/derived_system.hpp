@@ -29,8 +29,8 @@ struct DerivedParameter {
     GiNaC::realsymbol symbol;
     GiNaC::ex exact;
     double value = 0.0;
-    /// It makes the exponent of something that varies whole, and its number stands for it
-    /// everywhere: x^n is smooth at x = 0 for n = 3, and n x^n/x has a value there.
+    /// It makes the exponent of something that varies, or is negative, whole, and its number stands
+    /// for it everywhere: x^n is smooth at x = 0 for n = 3, and n x^n/x has a value there.
     bool is_number = false;
 };
 

@@ -247,6 +247,24 @@ BOOST_AUTO_TEST_CASE(what_is_singular_by_its_parameters_is_so_everywhere) {
     BOOST_TEST(pole.find("f is zero") == std::string::npos, pole);
 }
 
+// (-1.3)² = 1.69; 1.3 needs no whole exponent, and its power stays one of parameters.
+BOOST_AUTO_TEST_CASE(a_whole_power_of_a_negative_parameter_has_a_value) {
+    const std::string parameters = "[parameters]\nb = -1.3\nn = 2\n";
+    const std::string whole =
+        "my.toml:7:1: parameter n stands in whole exponents, and 2 for it everywhere";
+    BOOST_TEST(remark_of("sin(x)*t", "diff(u, t) - b^n*diff(u, x, 2)", parameters) == whole);
+    BOOST_TEST(remark_of("sin(x)*t*b^n", "diff(u, t) - diff(u, x, 2)", parameters) == whole);
+    BOOST_TEST(remark_of("sin(x)*t", "diff(u, t) - sin(b)^n*diff(u, x, 2)", parameters) == whole);
+    BOOST_TEST(remark_of("sin(x)*t", "diff(u, t) - b^n*diff(u, x, 2)",
+                         "[parameters]\nb = -1.3\nn = 101\n") ==
+               "my.toml:7:1: parameter n stands in whole exponents, and 101 for it everywhere");
+    BOOST_TEST(remark_of("sin(x)*t", "diff(u, t) - b^n*diff(u, x, 2)",
+                         "[parameters]\nb = 1.3\nn = 2\n") == "");
+    BOOST_TEST(
+        remark_of("sin(x)*t", "diff(u, t) - b^n*diff(u, x, 2)", "[parameters]\nb = -1.3\nn = 0.5\n")
+            .find("the base b of a power is 0 or beyond everywhere") != std::string::npos);
+}
+
 BOOST_AUTO_TEST_CASE(every_singularity_of_a_source_is_said) {
     const std::string many =
         remark_of("x", "1/(u - 0.3) + 1/(u - 0.4) + 1/(u - 0.6) + 1/(u - 0.7)");
