@@ -53,11 +53,25 @@ std::vector<double> operation_counts(const Program& program) {
     return counts;
 }
 
-/// Steps that are read more than once and worth a name: compilers find pi*y/2 again by themselves.
-std::vector<int> shared_steps(const Program& program) {
+/// By step: whether there is no name in it, not even pi.
+std::vector<bool> numbers_in(const Program& program) {
+    std::vector<bool> numbers;
+    for (const auto& step : program.steps()) {
+        const auto is = [&](int operand) {
+            return operand < 0 || numbers[static_cast<std::size_t>(operand)];
+        };
+        numbers.push_back(step.operation != Operation::name && is(step.left) && is(step.right));
+    }
+    return numbers;
+}
+
+/// Steps that get a name: those that are read more than once and worth one (compilers find pi*y/2
+/// again by themselves), and numbers of functions where the compiler would refuse exp(-800.0).
+std::vector<int> named_steps(const Program& program, const Dialect& dialect) {
     constexpr double worth_a_name = 4.0; // operands: of two operations
     const auto& steps = program.steps();
     const std::vector<double> counts = operation_counts(program);
+    const std::vector<bool> numbers = numbers_in(program);
     std::vector<int> reads(steps.size(), 0);
     for (const auto& step : steps)
         for (const int operand : {step.left, step.right})
@@ -66,8 +80,14 @@ std::vector<int> shared_steps(const Program& program) {
     for (const int output : program.outputs())
         ++reads[static_cast<std::size_t>(output)];
     std::vector<int> shared;
+    std::vector<bool> named(steps.size(), false);
+    if (dialect.refuses_numbers)
+        for (const auto& step : steps)
+            if (step.operation == Operation::function)
+                named[static_cast<std::size_t>(step.left)] =
+                    numbers[static_cast<std::size_t>(step.left)];
     for (std::size_t i = 0; i < steps.size(); ++i)
-        if (reads[i] > 1 && counts[i] > worth_a_name)
+        if (named[i] || (reads[i] > 1 && counts[i] > worth_a_name))
             shared.push_back(static_cast<int>(i));
     return shared;
 }
@@ -91,7 +111,7 @@ CodeBody body_of(const Program& program, const Dialect& dialect, std::set<std::s
         const auto found = names.find(step);
         return found == names.end() ? std::string() : found->second;
     };
-    for (const int step : shared_steps(program)) {
+    for (const int step : named_steps(program, dialect)) {
         const std::string text = infix_text(program, step, dialect.infix, named);
         names[step] = free_name(program.steps()[static_cast<std::size_t>(step)].field);
         body.shared.emplace_back(names[step], text);
@@ -103,13 +123,15 @@ CodeBody body_of(const Program& program, const Dialect& dialect, std::set<std::s
     return body;
 }
 
-/// In a comment nothing may end it, or join it to the next line.
+/// In a comment nothing may end it, or join it to the next line, as the trigraph ??/ of C does.
 std::string comment_text(const std::string& text) {
     std::string line;
     for (const char c : text) {
         const bool blank = c == '\n' || c == '\t' || c == '\r' || c == ' ';
         if (blank && (line.empty() || line.back() == ' '))
             continue;
+        if (c == '/' && line.ends_with("??"))
+            line += ' ';
         const auto byte = static_cast<unsigned char>(c);
         line += blank ? ' ' : (c == '\\' || byte < 0x20U || byte == 0x7FU) ? '?' : c;
     }

@@ -15,6 +15,26 @@ bool may_break(const std::string& text, std::size_t at) {
     return c == ' ' || (c == '*' && next != '*' && before != '*') || (c == '/' && next != '/');
 }
 
+/// Where there is no such place: within brackets, beside one.
+bool may_break_at_bracket(const std::string& text, std::size_t at) {
+    return text[at] == '(' || (text[at] == ')' && text[at + 1] == ')');
+}
+
+/// How much of the text a line of at most this length takes; no more than `least` where it breaks
+/// nowhere behind that.
+std::size_t length_of_line(const std::string& text, std::size_t longest, std::size_t least) {
+    for (const auto may : {may_break, may_break_at_bracket})
+        for (std::size_t end = longest; end > least; --end)
+            if (may(text, end - 1))
+                return end;
+    return least;
+}
+
+/// Whether a byte of UTF-8 goes on with a character.
+bool goes_on(char byte) {
+    return (static_cast<unsigned char>(byte) & 0xC0U) == 0x80U;
+}
+
 } // namespace
 
 bool is_long(const std::string& text) {
@@ -25,10 +45,9 @@ std::string wrapped_code(const std::string& text, std::size_t indent, const std:
     std::string result;
     std::string rest = text;
     while (is_long(rest)) {
-        std::size_t end = longest_line - ending.size();
-        while (end > indent + 20 && !may_break(rest, end - 1))
-            --end;
-        if (end <= indent + 20)
+        const std::size_t least = indent + 20;
+        const std::size_t end = length_of_line(rest, longest_line - ending.size(), least);
+        if (end == least)
             break;
         std::string line = rest.substr(0, end);
         while (!line.empty() && line.back() == ' ')
@@ -50,7 +69,8 @@ std::string wrapped_comment(const std::string& text, const std::string& sign) {
         while (end > indent && rest[end - 1] != ' ')
             --end;
         if (end <= indent) // a formula without blanks
-            end = room;
+            for (end = room; end > room - 3 && goes_on(rest[end]);)
+                --end;
         result += sign + " " + rest.substr(0, rest[end - 1] == ' ' ? end - 1 : end) + "\n";
         rest = std::string(indent, ' ') + rest.substr(end);
     }

@@ -38,7 +38,8 @@ struct CodeFile {
 };
 
 /// Text of code in lines of at most 100 characters where it can be broken: behind an operator or a
-/// comma. `ending`: what stands at the end of a line that goes on, as Fortran's &.
+/// comma, or else beside brackets. `ending`: what stands at the end of a line that goes on, as
+/// Fortran's &.
 std::string wrapped_code(const std::string& text, std::size_t indent, const std::string& ending);
 
 /// A comment in lines of at most 100 characters, each behind the sign.

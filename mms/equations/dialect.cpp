@@ -177,10 +177,11 @@ std::string write_fortran(const Dialect& dialect, const CodeFile& file) {
     std::string text = wrapped_comment(file.comment, "!") + "module " +
                        fortran_module(dialect, file) +
                        "\n  implicit none\n  integer, parameter :: dp = kind(1.0d0)\n";
+    // No named constants, of which compilers compute formulas and refuse those that underflow.
     if (file.uses_pi)
-        text += fmt::format("  real(dp), parameter :: pi = {}_dp\n", pi_digits);
+        text += fmt::format("  real(dp), protected :: pi = {}_dp\n", pi_digits);
     for (const auto& [name, value] : file.constants)
-        text += fmt::format("  real(dp), parameter :: {} = {}\n", name, value);
+        text += fmt::format("  real(dp), protected :: {} = {}\n", name, value);
     text += "contains\n";
     for (const auto& function : file.functions) {
         text += "\n" + wrapped_comment(function.comment, "  !");
@@ -334,7 +335,8 @@ const std::array<Dialect, 8>& dialects() {
                 true,
                 write_fortran,
                 true,
-                63},
+                63,
+                true},
         Dialect{python, "python", {.power = "**"}, false, write_python},
         Dialect{julia, "julia", {.power = "^"}, false, write_julia},
         Dialect{freefem, "freefem", {.power = "^"}, false, write_freefem, false},

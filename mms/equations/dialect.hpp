@@ -17,6 +17,8 @@ struct Dialect {
     std::string (*write)(const Dialect& dialect, const CodeFile& file);
     bool underscores = true; ///< in names
     std::size_t longest_name = std::string::npos;
+    /// Whether compilers refuse a function of numbers whose value over- or underflows.
+    bool refuses_numbers = false;
 
     /// The name, without what names may not have, and with a _ (or 0) at its end where it is
     /// reserved.

@@ -46,7 +46,13 @@ constexpr const char* macros_of_c =
     "FP_NORMAL FP_ILOGB0 FP_ILOGBNAN MATH_ERRNO MATH_ERREXCEPT math_errhandling MAXFLOAT SNAN "
     "SNANF SNANL RAND_MAX EXIT_SUCCESS EXIT_FAILURE BYTE_ORDER BIG_ENDIAN LITTLE_ENDIAN "
     "PDP_ENDIAN isless islessgreater islessequal isnormal issubnormal fpclassify isgreater "
-    "isgreaterequal isfinite signbit isunordered alloca linux unix i386";
+    "isgreaterequal isfinite signbit isunordered alloca linux unix i386 "
+    "FD_CLR FD_ISSET FD_SET FD_SETSIZE FD_ZERO NFDBITS MB_CUR_MAX WCONTINUED WEXITED WEXITSTATUS "
+    "WIFCONTINUED WIFEXITED WIFSIGNALED WIFSTOPPED WNOHANG WNOWAIT WSTOPPED WSTOPSIG WTERMSIG "
+    "WUNTRACED FP_INT_DOWNWARD FP_INT_TONEAREST FP_INT_TONEARESTFROMZERO FP_INT_TOWARDZERO "
+    "FP_INT_UPWARD FP_LLOGB0 FP_LLOGBNAN HUGE_VAL_F32 HUGE_VAL_F64 HUGE_VAL_F128 HUGE_VAL_F32X "
+    "HUGE_VAL_F64X SNANF32 SNANF64 SNANF128 SNANF32X SNANF64X be16toh be32toh be64toh htobe16 "
+    "htobe32 htobe64 htole16 htole32 htole64 le16toh le32toh le64toh";
 /// Other functions at global scope where C++ includes <cmath>.
 constexpr const char* other_functions_of_c =
     "a64l abort abs aligned_alloc alloca arc4random at_quick_exit atexit atof atoi atol atoll "

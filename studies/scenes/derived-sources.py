@@ -285,7 +285,7 @@ class Derived:
         elif language == "fortran":
             require_double(re.sub(r"!.*", "", text))
             text = re.sub(r"&\n\s*", " ", re.sub(r"!.*", "", text)).replace("_dp", "")
-            self.read_blocks(text, r"parameter :: (\w+) = (.*)", r"(?:function|subroutine) (\w+)\((.*?)\)\n(.*?)\n *end")
+            self.read_blocks(text, r"protected :: (\w+) = (.*)", r"(?:function|subroutine) (\w+)\((.*?)\)\n(.*?)\n *end")
         elif language == "moose":
             self.read_moose(re.sub(r"#.*", "", text))
         else:
