@@ -73,4 +73,8 @@ std::string_view whole_characters(std::string_view text, std::size_t most) {
     return text.substr(0, most);
 }
 
+std::string code_text(const std::string& character) {
+    return fmt::format("U+{:04X}", first_of(character).code);
+}
+
 } // namespace tvbeam

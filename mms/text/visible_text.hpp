@@ -14,4 +14,7 @@ std::string visible(const std::string& text);
 /// What the text begins with, in at most so many bytes, and no part of a character at the end.
 std::string_view whole_characters(std::string_view text, std::size_t most);
 
+/// The code of a character, where there is no other way to show it: "U+6F22".
+std::string code_text(const std::string& character);
+
 } // namespace tvbeam

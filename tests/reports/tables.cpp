@@ -269,7 +269,16 @@ BOOST_AUTO_TEST_CASE(text_is_shown_and_never_taken_for_markup) {
                "50\\% a\\_b \\textbackslash{}x \\{y\\} \\$ \\# \\& \\textasciitilde{} "
                "\\textasciicircum{}");
     BOOST_TEST(latex_text("a\x7f") == "a\\textbackslash{}x7F"); // pdflatex stops at it
-    BOOST_TEST(latex_text("Fernández ± L∞ 中") == "Fernández $\\pm$ L$^\\infty$ ?");
+    BOOST_TEST(latex_text("Fernández ± L∞ 中") == "Fernández $\\pm$ L$^\\infty$ U+4E2D");
+    BOOST_TEST(latex_text("\u03BC∇Ω漢😀") ==
+               "$\\mu$$\\nabla$$\\Omega$U+6F22U+1F600"); // each its own
+    // Greek is known whole: from Α to ω, but for a number that is no letter.
+    for (unsigned code = 0x391; code <= 0x3C9; ++code)
+        if (const bool is_letter = code != 0x3A2 && (code < 0x3AA || code > 0x3B0); is_letter) {
+            const std::string letter{static_cast<char>(0xC0U | code >> 6U),
+                                     static_cast<char>(0x80U | (code & 0x3FU))};
+            BOOST_TEST(latex_text(letter).find("U+") == std::string::npos, letter);
+        }
     BOOST_TEST(latex_text("t → ∞") == "t $\\to$ $\\infty$");
     // A _ within a word is none of Markdown's marks.
     BOOST_TEST(markdown_text("a_b _c d_") == "a_b \\_c d\\_");
