@@ -188,29 +188,6 @@ std::string comment_text(const std::string& text) {
     return line;
 }
 
-/// On a logarithmic axis: powers of ten; where it holds fewer than two, also 2 and 5 times those,
-/// or numbers evenly apart.
-std::vector<Tick> ticks_within(const AxisRange& range) {
-    constexpr std::size_t most = 7;
-    std::vector<Tick> powers;
-    std::vector<Tick> more;
-    if (!(range.first <= range.second))
-        return {};
-    const int last = static_cast<int>(std::floor(std::log10(range.second)));
-    for (int power = static_cast<int>(std::floor(std::log10(range.first))); power <= last; ++power)
-        for (const int times : {1, 2, 5}) {
-            const double value = number_in(fmt::format("{}e{}", times, power));
-            if (value < range.first || value > range.second)
-                continue;
-            more.push_back({value, scientific(value, 0)});
-            if (times == 1)
-                powers.push_back({value, "", power});
-        }
-    if (powers.size() > 1)
-        return thinned(powers, most);
-    return more.empty() ? linear_ticks(range) : more;
-}
-
 /// Of a number: 10^-3 rather than 1 x 10^-3, which is wider than what gnuplot writes.
 std::string latex_label(const std::string& text) {
     const std::string latex = latex_sentence(text);
@@ -224,7 +201,7 @@ std::string axis_text(char name, const Axis& axis, const AxisRange& range) {
     if (axis.range)
         text += fmt::format("    {0}min={1}, {0}max={2},\n", name, range.first, range.second);
     const auto ticks = axis.ticks            ? *axis.ticks
-                       : axis.is_logarithmic ? ticks_within(range)
+                       : axis.is_logarithmic ? powers_of_ten(range)
                                              : std::vector<Tick>();
     std::string places;
     std::string labels;

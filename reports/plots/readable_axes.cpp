@@ -86,7 +86,40 @@ void make_readable(Axis& axis, AxisRange range) {
     axis.range = {range.first - axis.room * span, range.second + axis.room * span};
 }
 
+/// At these multiples of powers of ten.
+std::vector<Tick> decimal_ticks(const AxisRange& range, const std::vector<int>& multiples) {
+    std::vector<Tick> ticks;
+    if (!(range.first <= range.second))
+        return {};
+    const int last = static_cast<int>(std::floor(std::log10(range.second)));
+    for (int power = static_cast<int>(std::floor(std::log10(range.first))); power <= last; ++power)
+        for (const int times : multiples)
+            if (const double value = decimal(times, power);
+                value >= range.first && value <= range.second)
+                ticks.push_back({value, scientific(value, 0)});
+    return ticks;
+}
+
+void make_logarithmic_readable(Axis& axis, const AxisRange& range) {
+    if (powers_of_ten(range).size() > 1)
+        return;
+    auto ticks = decimal_ticks(range, {1, 2, 5});
+    if (ticks.size() < 2)
+        if (auto even = linear_ticks(range); !even.empty())
+            ticks = std::move(even);
+    if (!ticks.empty())
+        axis.ticks = std::move(ticks);
+}
+
 } // namespace
+
+std::vector<Tick> powers_of_ten(const AxisRange& range) {
+    constexpr std::size_t most = 7;
+    auto ticks = decimal_ticks(range, {1});
+    for (auto& tick : ticks)
+        tick.power = static_cast<int>(std::lround(std::log10(tick.value)));
+    return thinned(ticks, most);
+}
 
 const std::string& field_of(const Row& row, int column) {
     return row.at(static_cast<std::size_t>(column - 1));
@@ -142,7 +175,11 @@ Drawing with_readable_axes(const Drawing& drawing) {
     Drawing readable = drawing;
     for (const bool is_x : {true, false}) {
         Axis& axis = is_x ? readable.x : readable.y;
-        if (!axis.is_logarithmic && !axis.ticks)
+        if (axis.ticks)
+            continue;
+        if (axis.is_logarithmic)
+            make_logarithmic_readable(axis, axis_range(drawing, is_x));
+        else
             make_readable(axis, axis_range(drawing, is_x));
     }
     for (auto& curve : readable.curves())

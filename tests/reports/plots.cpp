@@ -258,6 +258,27 @@ std::vector<std::pair<double, std::string>> ticks_of(const std::string& script, 
 
 } // namespace
 
+// Where it shows fewer than two powers of ten: at 2 and 5 times one, or evenly apart; in what
+// gnuplot draws and in what LaTeX does.
+BOOST_AUTO_TEST_CASE(a_logarithmic_axis_within_a_decade_has_numbers) {
+    for (const auto& [least, greatest] : std::vector<std::pair<double, double>>{
+             {0.00115, 0.00477}, {0.0135, 0.0303}, {2.98, 3.02}, {0.9, 8.0}, {1.1e-7, 9e-7}}) {
+        Drawing drawing;
+        drawing.y = {.is_logarithmic = true, .range = {{least / 1.01, greatest * 1.01}}};
+        drawing.add_curve(
+            {.block = drawing.add_block("h, error", fmt::format("2 {}\n1 {}\n", least, greatest))},
+            {}, "a");
+        const auto ticks = ticks_of(gnuplot_script(drawing, "narrow"), 'y');
+        BOOST_TEST((ticks.size() >= 2U && ticks.size() <= 8U), least);
+        const std::string latex = pgfplots_text({"narrow", "", drawing});
+        for (const auto& [place, text] : ticks) {
+            BOOST_TEST(number_in(text) == place, text);
+            BOOST_TEST((place > least / 1.02 && place < greatest * 1.02), text);
+            BOOST_TEST(has(latex, fmt::format("{}", place)), latex);
+        }
+    }
+}
+
 // Wherever the numbers lie and however near each other, a label is the number of its place, in not
 // many signs; and what is taken off all numbers, as the title says, is taken off those drawn.
 BOOST_AUTO_TEST_CASE(the_labels_of_a_linear_axis_are_the_numbers_of_their_places) {
