@@ -69,14 +69,14 @@ void ReportDirectory::make(const std::filesystem::path& directory) {
     made_.insert(made_.begin(), directory);
 }
 
-void ReportDirectory::remove_earlier(const std::set<std::string>& written) const {
-    std::error_code ignored;
+std::vector<std::filesystem::path> ReportDirectory::earlier_files() const {
+    std::vector<std::filesystem::path> files;
     for (const auto& format : report_formats())
         if (!format->is_written_unasked() ||
             std::find(formats_.begin(), formats_.end(), format.get()) != formats_.end())
-            for (const auto& file : format->earlier_files(path_))
-                if (!written.contains(file))
-                    std::filesystem::remove(path_ / file, ignored);
+            for (auto& file : format->earlier_files(path_))
+                files.push_back(std::move(file));
+    return files;
 }
 
 void ReportDirectory::lock() {
@@ -106,8 +106,14 @@ std::string ReportDirectory::write(const Reported& result) {
             files.emplace_back(path_ / name).prepare(text);
             written.insert(name);
         }
+    auto earlier = earlier_files(); // by what is replaced
     publish(files);
-    remove_earlier(written);
+    for (auto& file : earlier_files()) // beside what is new
+        earlier.push_back(std::move(file));
+    std::error_code ignored;
+    for (const auto& file : earlier)
+        if (!written.contains(file) && !result.directories.contains(*file.begin()))
+            std::filesystem::remove(path_ / file, ignored);
     return drawn.failure.empty() ? ""
                                  : drawn.failure +
                                        "; the pictures are left out, their scripts "

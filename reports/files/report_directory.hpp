@@ -26,10 +26,10 @@ struct Reported;
 ///
 /// Each appears whole or not at all, and none of them before all could be brought to the disk;
 /// where one cannot be given its name, none is, on file systems that can exchange two files. A
-/// file of an earlier result is replaced, and its plots and CSV files go where this result has none
-/// of their names. Kinds of files that a block leaves out stay as they are; figures for LaTeX go
-/// unless they are asked for again, and PDFs where plots are written without them, as a paper would
-/// go on to show what they were.
+/// file of an earlier result is replaced, and its plots and CSV files, and the directories of the
+/// values of a sweep, go where this result has none of their names. Kinds of files that a block
+/// leaves out stay as they are; figures for LaTeX go unless they are asked for again, and PDFs
+/// where plots are written without them, as a paper would go on to show what they were.
 class ReportDirectory {
 public:
     /// Makes the directory where it is missing, and keeps others from writing there as long as the
@@ -49,7 +49,7 @@ public:
 private:
     void make(const std::filesystem::path& directory);
     void lock();
-    void remove_earlier(const std::set<std::string>& written) const;
+    [[nodiscard]] std::vector<std::filesystem::path> earlier_files() const;
 
     std::filesystem::path path_;
     std::vector<const ReportFormat*> formats_; ///< those that are wanted

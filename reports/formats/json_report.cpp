@@ -5,6 +5,7 @@
 #include "reports/files/provenance.hpp"
 #include "reports/formats/report_format.hpp"
 #include "reports/studies/study_report.hpp"
+#include "reports/sweep/sweep.hpp"
 #include "studies/table_row.hpp"
 
 #include <nlohmann/json.hpp>
@@ -77,6 +78,10 @@ struct JsonFormat final : ReportFormat {
     std::vector<std::string> certain_files() const override { return {"result.json"}; }
     std::vector<NamedText> write(const ReportContents& contents) const override {
         return {{"result.json", contents.reported.json()}};
+    }
+    std::vector<std::filesystem::path>
+    earlier_files(const std::filesystem::path& directory) const override {
+        return files_of_sweep(directory);
     }
 };
 

@@ -10,6 +10,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -31,6 +32,7 @@ struct Reported {
     bool interrupted = false;                            ///< runs are missing
     std::function<std::vector<Formula>()> formulas = {}; ///< of the problem
     std::string source_text = {};                        ///< of the scene
+    std::set<std::string> directories = {}; ///< beside its files, with results of its parts
 };
 
 /// The result of a scene.
@@ -60,7 +62,8 @@ public:
     [[nodiscard]] virtual std::vector<NamedText> write(const ReportContents& contents) const = 0;
 
     /// Files in a directory that an earlier result has left and that would be taken for a part of
-    /// this one: known by their first lines, so that files of another origin stay.
+    /// this one: known by their first lines, or what they say of each other, so that files of
+    /// another origin stay. Directories behind what is in them.
     [[nodiscard]] virtual std::vector<std::filesystem::path>
     earlier_files(const std::filesystem::path& /*directory*/) const {
         return {};

@@ -1,6 +1,7 @@
 #include "reports/sweep/sweep.hpp"
 
 #include "mms/text/input_error.hpp"
+#include "mms/text/override_value.hpp"
 #include "reports/document/json_text.hpp"
 #include "reports/document/result_document.hpp"
 #include "reports/formats/json_report.hpp"
@@ -18,13 +19,15 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <limits>
+#include <fstream>
 #include <set>
 #include <tuple>
 
 namespace tvbeam {
 
 namespace {
+
+constexpr const char* sweep_schema = "tvbeam-sweep/1";
 
 bool is_word(const std::string& text) {
     return !text.empty() && std::all_of(text.begin(), text.end(), [](char c) {
@@ -44,11 +47,8 @@ bool is_directory_name(const std::string& text) {
             std::from_chars(text.data() + (text.front() == '+' ? 1 : 0), end, number).ptr == end);
 }
 
-/// Without the quotes of TOML around it, if it has some.
-std::string unquoted(const std::string& text) {
-    const bool quoted = text.size() > 2 && (text.front() == '"' || text.front() == '\'') &&
-                        text.back() == text.front();
-    return quoted ? text.substr(1, text.size() - 2) : text;
+bool is_between(const std::string& text, char first, char last) {
+    return text.size() > 1 && text.front() == first && text.back() == last;
 }
 
 /// Where a value that begins at `begin` ends: at a comma outside quotes and brackets, or the end.
@@ -57,7 +57,9 @@ std::size_t end_of_value(const std::string& text, std::size_t begin) {
     char quote = 0;
     for (std::size_t i = begin; i < text.size(); ++i) {
         const char c = text[i];
-        if (quote != 0)
+        if (quote == '"' && c == '\\')
+            ++i;
+        else if (quote != 0)
             quote = c == quote ? '\0' : quote;
         else if (c == '"' || c == '\'')
             quote = c;
@@ -75,20 +77,13 @@ std::vector<std::string> values_in(const std::string& text) {
     for (std::size_t begin = 0; begin <= text.size();) {
         const std::size_t end = end_of_value(text, begin);
         const std::string part = text.substr(begin, end - begin);
-        values.push_back(unquoted(part));
-        const bool is_list = part.size() > 1 && part.front() == '[' && part.back() == ']';
-        if (!is_word(part) && !is_list && values.back() == part)
+        if (!is_word(part) && !is_between(part, '[', ']') && !is_between(part, '"', '"') &&
+            !is_between(part, '\'', '\''))
             return {};
+        values.push_back(part);
         begin = end + 1;
     }
     return values;
-}
-
-std::optional<double> number(const std::string& text) {
-    double value = 0.0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    return error == std::errc() && end == text.data() + text.size() ? std::optional(value)
-                                                                    : std::nullopt;
 }
 
 /// A figure of a result: what it is of, and what.
@@ -156,7 +151,8 @@ std::vector<Cell> cells_of(const StudyResult& result) {
         add_race(*race, *result.scene.get<WorkPrecisionBlock>(), cells);
     for (const auto& [kind, record] : result.records.entries())
         for (const auto& [name, figure] : kind->figures(record))
-            cells.push_back({"", name, figure, false});
+            // Defects have names of the user's, which could be those of other figures.
+            cells.push_back({kind->judges_expectations() ? kind->name() : "", name, figure, false});
     return cells;
 }
 
@@ -195,7 +191,7 @@ Table table_of(const Sweep& sweep, const std::vector<StudyResult>& results) {
     Table::Group key{"", {{sweep.key, {}}}};
     std::vector<Table::Group> groups;
     for (std::size_t i = 0; i < rows.size(); ++i)
-        key.columns[0].cells.push_back(sweep.values[i]);
+        key.columns[0].cells.push_back(sweep.shown(i));
     for (std::size_t c = 0; !rows.empty() && c < rows.front().size(); ++c) {
         const Cell& head = rows.front()[c];
         if (groups.empty() || groups.back().heading != head.group || head.group.empty())
@@ -214,14 +210,53 @@ Table table_of(const Sweep& sweep, const std::vector<StudyResult>& results) {
             key, groups};
 }
 
+/// Values with their places among the results, in ascending order; none where one is no number.
+using Abscissas = std::vector<std::pair<double, std::size_t>>;
+Abscissas abscissas_of(const Sweep& sweep, std::size_t count) {
+    Abscissas all;
+    for (std::size_t i = 0; i < count; ++i)
+        if (const auto value = override_number(sweep.values[i]))
+            all.emplace_back(*value, i);
+    std::sort(all.begin(), all.end());
+    return all.size() == count ? all : Abscissas();
+}
+
+/// The points of a column, in stretches between those that cannot be drawn.
+std::vector<std::string> stretches_of(const std::vector<std::vector<Cell>>& rows, std::size_t c,
+                                      const Abscissas& abscissas, bool is_logarithmic) {
+    std::vector<std::string> stretches(1);
+    for (const auto& [abscissa, i] : abscissas)
+        if (const auto value = rows[i][c].value;
+            value && std::isfinite(*value) && (!is_logarithmic || *value > 0.0))
+            stretches.back() += fmt::format("{} {}\n", abscissa, *value);
+        else if (!stretches.back().empty())
+            stretches.emplace_back();
+    if (stretches.back().empty())
+        stretches.pop_back();
+    return stretches;
+}
+
+Axis sweep_axis(const std::string& key, const Abscissas& abscissas) {
+    const double least = abscissas.front().first;
+    constexpr double far = 20.0;
+    Axis axis{.title = key, .is_logarithmic = least > 0.0 && abscissas.back().first / least > far};
+    if (axis.is_logarithmic) {
+        std::vector<double> values;
+        for (const auto& [value, i] : abscissas)
+            values.push_back(value);
+        axis.range = range_of(values, 1.5);
+        constexpr std::size_t most_ticks = 6;
+        if (values.size() <= most_ticks)
+            axis.ticks = value_ticks(values, most_ticks);
+    }
+    return axis;
+}
+
 /// Curves over the values, where those are numbers: of the errors, or else of the other figures.
 std::vector<Plot> sweep_plots(const Sweep& sweep, const std::vector<StudyResult>& results) {
     const auto rows = rows_of(results);
-    std::vector<double> abscissa;
-    for (std::size_t i = 0; i < rows.size(); ++i)
-        if (const auto value = number(sweep.values[i]))
-            abscissa.push_back(*value);
-    if (rows.size() < 2 || abscissa.size() != rows.size())
+    const Abscissas abscissas = abscissas_of(sweep, rows.size());
+    if (abscissas.size() < 2)
         return {};
     const bool has_errors = std::any_of(rows.front().begin(), rows.front().end(),
                                         [](const Cell& cell) { return cell.is_error; });
@@ -231,31 +266,19 @@ std::vector<Plot> sweep_plots(const Sweep& sweep, const std::vector<StudyResult>
         const Cell& head = rows.front()[c];
         if (head.is_error != has_errors || head.heading == "ord.")
             continue;
-        std::string points;
-        for (std::size_t i = 0; i < rows.size(); ++i)
-            if (const auto value = rows[i][c].value;
-                value && std::isfinite(*value) && (!has_errors || *value > 0.0))
-                points += fmt::format("{} {}\n", abscissa[i], *value);
-        if (points.empty())
-            continue;
         const std::string name = head.group.empty() ? head.heading
                                  : has_errors       ? (head.words.empty() ? head.group : head.words)
                                                     : head.group + ": " + head.heading;
-        drawing.add_curve({.block = drawing.add_block(name, points)},
-                          look_of(series_style(series++)), name);
+        const auto stretches = stretches_of(rows, c, abscissas, has_errors);
+        for (const auto& points : stretches)
+            drawing.add_curve({.block = drawing.add_block(name, points)},
+                              look_of(series_style(series)),
+                              &points == &stretches.front() ? std::optional(name) : std::nullopt);
+        series += stretches.empty() ? 0 : 1;
     }
     if (drawing.is_empty())
         return {};
-    const auto [least, greatest] = std::minmax_element(abscissa.begin(), abscissa.end());
-    constexpr double far = 20.0;
-    const bool spreads = *least > 0.0 && *greatest / *least > far;
-    drawing.x = {.title = sweep.key, .is_logarithmic = spreads};
-    if (spreads) {
-        drawing.x.range = range_of(abscissa, 1.5);
-        constexpr std::size_t most_ticks = 6;
-        if (abscissa.size() <= most_ticks)
-            drawing.x.ticks = value_ticks(abscissa, most_ticks);
-    }
+    drawing.x = sweep_axis(sweep.key, abscissas);
     drawing.y = {.title = has_errors ? "error of the finest level" : "figure",
                  .is_logarithmic = has_errors};
     return {{"sweep", fmt::format("{} over {}.", has_errors ? "Errors" : "Figures", sweep.key),
@@ -287,7 +310,7 @@ std::vector<std::string> troubles(const Sweep& sweep, const std::vector<StudyRes
     std::vector<std::string> all;
     for (std::size_t i = 0; i < results.size(); ++i)
         if (const Ending ending = results[i].ending(); ending.failed)
-            all.push_back(fmt::format("{} = {}: {}", sweep.key, sweep.values[i],
+            all.push_back(fmt::format("{} = {}: {}", sweep.key, sweep.shown(i),
                                       ending.reason.empty() ? "a run failed" : ending.reason));
     return all;
 }
@@ -297,9 +320,16 @@ std::vector<std::string> overrides_of(const Sweep& sweep) {
     return sweep.overrides(fmt::format("{}", fmt::join(sweep.values, ",")));
 }
 
+std::vector<std::string> shown_values(const Sweep& sweep) {
+    std::vector<std::string> all;
+    for (std::size_t i = 0; i < sweep.values.size(); ++i)
+        all.push_back(sweep.shown(i));
+    return all;
+}
+
 std::string sweep_json(const Sweep& sweep, const std::vector<StudyResult>& results) {
     using Json = nlohmann::ordered_json;
-    Json json{{"schema", "tvbeam-sweep/1"}, {"key", sweep.key}};
+    Json json{{"schema", sweep_schema}, {"key", sweep.key}};
     if (has_defect(results))
         json["defect"] = defect_words;
     if (!results.empty()) {
@@ -313,8 +343,9 @@ std::string sweep_json(const Sweep& sweep, const std::vector<StudyResult>& resul
     json["rows"] = Json::array();
     const auto rows = rows_of(results);
     for (std::size_t i = 0; i < rows.size(); ++i) {
-        const auto value = number(sweep.values[i]);
-        Json row{{"value", value ? Json(*value) : Json(sweep.values[i])}};
+        const auto value = override_number(sweep.values[i]);
+        const auto text = override_text(sweep.values[i]);
+        Json row{{"value", value ? Json(*value) : Json(text ? *text : sweep.values[i])}};
         if (const Ending ending = results[i].ending(); ending.failed)
             row["failed"] = ending.reason;
         for (const auto& cell : rows[i]) {
@@ -345,8 +376,8 @@ std::vector<std::string> cautions(const Sweep& sweep, const std::vector<StudyRes
                 std::ranges::find(values_of, caution, [](const auto& of) { return of.first; });
             if (known == values_of.end())
                 known = values_of.insert(known, {caution, {}});
-            if (known->second.empty() || known->second.back() != sweep.values[i])
-                known->second.push_back(sweep.values[i]);
+            if (known->second.empty() || known->second.back() != sweep.shown(i))
+                known->second.push_back(sweep.shown(i));
         }
     std::vector<std::string> all;
     all.reserve(values_of.size());
@@ -357,7 +388,57 @@ std::vector<std::string> cautions(const Sweep& sweep, const std::vector<StudyRes
     return all;
 }
 
+/// The overrides that the result in a directory was made with; none where it has another schema.
+std::vector<std::string> overrides_in(const std::filesystem::path& directory,
+                                      const std::string& schema) {
+    std::ifstream stream(directory / "result.json");
+    try {
+        const auto json = nlohmann::json::parse(stream);
+        if (json.at("schema") == schema)
+            return json.at("provenance").at("overrides").get<std::vector<std::string>>();
+    } catch (const nlohmann::json::exception&) { // no result
+    }
+    return {};
+}
+
+/// Of the result in a directory: those that are in every one, and those that say whose they are.
+std::vector<std::filesystem::path> files_of_result(const std::filesystem::path& directory) {
+    std::vector<std::filesystem::path> files;
+    for (const auto& format : report_formats()) {
+        for (const auto& name : format->certain_files())
+            if (!name.starts_with("plots/"))
+                files.emplace_back(name);
+        for (auto& file : format->earlier_files(directory))
+            files.push_back(std::move(file));
+    }
+    files.emplace_back("plots");
+    return files;
+}
+
 } // namespace
+
+std::vector<std::filesystem::path> files_of_sweep(const std::filesystem::path& directory) {
+    std::optional<Sweep> sweep;
+    try {
+        sweep = sweep_in(overrides_in(directory, sweep_schema));
+    } catch (const InputError&) { // none of ours
+    }
+    if (!sweep)
+        return {};
+    std::vector<std::filesystem::path> files;
+    if (first_line(directory / "sweep.csv").starts_with(tvbeam::quoted(sweep->key)))
+        files.emplace_back("sweep.csv");
+    for (std::size_t i = 0; i < sweep->values.size(); ++i) {
+        const std::filesystem::path name = sweep->directory(i);
+        if (std::filesystem::is_symlink(directory / name) ||
+            overrides_in(directory / name, "tvbeam-result/1") != sweep->overrides(sweep->values[i]))
+            continue;
+        for (const auto& file : files_of_result(directory / name))
+            files.push_back(name / file);
+        files.push_back(name);
+    }
+    return files;
+}
 
 std::vector<std::string> Sweep::overrides(const std::string& value) const {
     auto all = others;
@@ -365,8 +446,13 @@ std::vector<std::string> Sweep::overrides(const std::string& value) const {
     return all;
 }
 
+std::string Sweep::shown(std::size_t i) const {
+    const auto text = override_text(values[i]);
+    return text && is_word(*text) && override_text(*text) == text ? *text : values[i];
+}
+
 std::string Sweep::directory(std::size_t i) const {
-    return is_directory_name(values[i]) ? values[i] : fmt::format("{}-of-{}", i + 1, values.size());
+    return is_directory_name(shown(i)) ? shown(i) : fmt::format("{}-of-{}", i + 1, values.size());
 }
 
 std::optional<Sweep> sweep_in(const std::vector<std::string>& overrides) {
@@ -386,8 +472,12 @@ std::optional<Sweep> sweep_in(const std::vector<std::string>& overrides) {
                              "one key is swept at a time, and " + sweep->key + " is already");
         std::set<std::string> values;
         for (const auto& word : given) {
-            const auto value = number(word);
-            if (!values.insert(value ? fmt::format("{}", *value) : word).second)
+            const auto value = override_number(word);
+            const auto text = override_text(word);
+            if (!values.insert(value  ? fmt::format("{}", *value)
+                               : text ? '"' + *text
+                                      : word)
+                     .second)
                 throw InputError({"--set " + assignment},
                                  word + " is there twice; name each value once");
         }
@@ -430,7 +520,7 @@ std::string sweep_csv(const Sweep& sweep, const std::vector<StudyResult>& result
         text += ",failed";
     text += "\n";
     for (std::size_t i = 0; i < rows.size(); ++i) {
-        text += is_word(sweep.values[i]) ? sweep.values[i] : quoted(sweep.values[i]);
+        text += is_word(sweep.shown(i)) ? sweep.shown(i) : quoted(sweep.shown(i));
         for (const auto& cell : rows[i])
             text += cell.value ? fmt::format(",{}", *cell.value) : comma;
         if (has_failed)
@@ -445,7 +535,7 @@ Reported reported(const Sweep& sweep, const std::vector<StudyResult>& results) {
     all.document.title = results.empty() ? sweep.key : results.front().scene.title;
     if (has_defect(results))
         all.document.title = std::string(defect_words) + ": " + all.document.title;
-    all.document.head = {sweep.key + " = " + values_text(sweep.values)};
+    all.document.head = {sweep.key + " = " + values_text(shown_values(sweep))};
     for (auto& caution : cautions(sweep, results))
         all.document.head.push_back(std::move(caution));
     if (!results.empty())
@@ -459,6 +549,8 @@ Reported reported(const Sweep& sweep, const std::vector<StudyResult>& results) {
         return std::vector<NamedText>{{"sweep.csv", sweep_csv(sweep, results)}};
     };
     all.plots = [&sweep, &results] { return sweep_plots(sweep, results); };
+    for (std::size_t i = 0; i < results.size(); ++i)
+        all.directories.insert(sweep.directory(i));
     for (const auto& result : results) {
         all.failed = all.failed || result.failed();
         all.interrupted = all.interrupted || result.interrupted();

@@ -3,6 +3,7 @@
 #include "reports/formats/report_format.hpp"
 #include "studies/study.hpp"
 
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,7 +13,10 @@ namespace tvbeam {
 /// A key that a scene is run with several values of: --set beam.alpha=0.1,1,10.
 struct Sweep {
     std::string key;
-    std::vector<std::string> values;
+    std::vector<std::string> values; ///< as they were given, texts with their quotes
+
+    /// Value i as it is shown: a text without its quotes where it is one without them, too.
+    [[nodiscard]] std::string shown(std::size_t i) const;
 
     /// The overrides of the scene for a value: others, as they were given, and this one.
     std::vector<std::string> others;
@@ -29,6 +33,11 @@ std::optional<Sweep> sweep_in(const std::vector<std::string>& overrides);
 /// Throws InputError where a norm of the scene's ladder is called as rows of the sweep's JSON call
 /// what is their own.
 void require_names_of_rows(const Sweep& sweep, const Scene& scene);
+
+/// What a sweep has written to the directory, by the result.json in it: its table, and in the
+/// directories of its values what is of their results; behind the files of each the directories,
+/// which may hold more. None where that is the result of no sweep.
+std::vector<std::filesystem::path> files_of_sweep(const std::filesystem::path& directory);
 
 /// One table of all: a row a value, with the error of the finest level and its observed order for
 /// each norm of a ladder, p and q of each of [orders], of each scheme of [work_precision] the

@@ -163,6 +163,71 @@ BOOST_AUTO_TEST_CASE(a_sweep_gives_a_row_a_value) {
     BOOST_TEST(call(directory, "run sheared --set beam.zeta=1,2 --set beam.alpha=1,2").exit == 2);
 }
 
+BOOST_AUTO_TEST_CASE(texts_are_swept_as_texts_and_recorded_so_that_they_can_be_given_again) {
+    const TemporaryDirectory directory;
+    const std::string run =
+        "run " + directory.write("scene.toml",
+                                 "[solver]\ncommand = [\"echo\", \"e = 1 {elements} {k}\"]\n"
+                                 "parameters = {k = \"a\"}\nerrors = {e = '^e = (\\S+)'}\n"
+                                 "[ladder]\nelements = [4, 8]\nnorms = [\"e\"]\n");
+    const std::string out = (directory.path() / "out").string();
+    const std::string values = R"("1.500","inf","a,b",b)";
+    const Called called =
+        call(directory, run + " --quiet --set 'solver.parameters.k=" + values + "' --out " + out);
+    BOOST_TEST(called.exit == 0, called.errors);
+    const auto sweep = nlohmann::json::parse(directory.read("out/result.json"));
+    std::vector<std::string> found;
+    for (const auto& row : sweep.at("rows"))
+        found.push_back(row.at("value"));
+    BOOST_TEST((found == std::vector<std::string>{"1.500", "inf", "a,b", "b"}));
+    BOOST_TEST(sweep.at("provenance").at("overrides").at(0) == "solver.parameters.k=" + values);
+    const auto first = nlohmann::json::parse(directory.read("out/1-of-4/result.json"));
+    BOOST_TEST(first.at("scene").at("solver").at("parameters").at("k") == "1.500");
+}
+
+// Defects are called as somebody likes: as what a row has of its own, or as a norm of the ladder.
+BOOST_AUTO_TEST_CASE(no_name_of_a_defect_takes_the_place_of_another_figure_of_a_sweep) {
+    const TemporaryDirectory directory;
+    std::string defects;
+    for (const std::string name : {"value", "failed", "theta_L2L2"})
+        defects += " --set 'sensitivity.defect." + name + ".moment_load=\"zeta*u_xxt\"'";
+    const Called called =
+        call(directory,
+             "run table1-sensitivity --quiet --set ladder.elements=[10,20] --set "
+             "'expect.ladder={u_LinfH2semi={orders=[1.95,2.08]}}' --set sensitivity.range=[1e-2,1] "
+             "--set sensitivity.defect={}" +
+                 defects + " --set beam.zeta=0.1,0.1001 --json -");
+    BOOST_TEST(called.exit == 0, called.errors);
+    const auto row = nlohmann::json::parse(called.output).at("rows").at(0);
+    BOOST_TEST(row.at("value") == 0.1);
+    BOOST_TEST(!row.contains("failed"));
+    BOOST_TEST(row.at("theta_L2L2").at("error").is_number());
+    for (const std::string name : {"value", "failed", "theta_L2L2"})
+        BOOST_TEST(row.at("sensitivity").contains(name), name);
+}
+
+// Another sweep, or a run, in the same directory: what was written for the values goes, what
+// somebody has put there stays.
+BOOST_AUTO_TEST_CASE(what_an_earlier_sweep_has_left_goes_and_what_is_not_ours_stays) {
+    const TemporaryDirectory directory;
+    namespace fs = std::filesystem;
+    const fs::path out = directory.path() / "out";
+    const std::string run = "run sheared --quiet --out " + out.string();
+    BOOST_TEST(call(directory, run + " --set beam.zeta=0.1,1,10").exit == 0);
+    directory.write("out/1/mine.txt", "mine");
+    fs::copy(out / "10", out / "11", fs::copy_options::recursive);
+    BOOST_TEST(call(directory, run + " --set beam.zeta=10,100").exit == 0);
+    BOOST_TEST(!fs::exists(out / "0.1"));
+    BOOST_TEST((fs::exists(out / "10" / "result.json") && fs::exists(out / "100" / "table.md")));
+    BOOST_TEST(directory.read("out/1/mine.txt") == "mine");
+    BOOST_TEST(!fs::exists(out / "1" / "result.json"));
+    BOOST_TEST(call(directory, run).exit == 0);
+    for (const std::string gone : {"10", "100", "sweep.csv", "plots/sweep.svg"})
+        BOOST_TEST(!fs::exists(out / gone), gone);
+    for (const std::string kept : {"11/result.json", "1/mine.txt", "result.json", "ladder.csv"})
+        BOOST_TEST(fs::exists(out / kept), kept);
+}
+
 // Values that are names of what the sweep writes, or of other directories.
 BOOST_AUTO_TEST_CASE(a_row_of_a_sweep_stays_within_the_directory_that_is_named) {
     const TemporaryDirectory directory;

@@ -195,6 +195,58 @@ BOOST_AUTO_TEST_CASE(a_sweep_s_figure_has_the_last_errors_over_the_values) {
     }));
 }
 
+// However they are given; TOML writes 0.25 as +0.25 or 0.2_5, too. Between a run that failed and
+// its neighbours there is nothing.
+BOOST_AUTO_TEST_CASE(a_sweep_s_curves_go_from_the_least_value_on_and_have_gaps) {
+    const Sweep sweep{"beam.zeta", {"1.0", "+0.25", "0.2_0", "0.5"}, {}};
+    std::vector<StudyResult> results;
+    for (const auto& value : sweep.values)
+        results.push_back(
+            run_study(read_scene("bent-later", {"expect={}", sweep.key + "=" + value})));
+    const auto rows_of = [&] {
+        std::vector<std::vector<double>> all;
+        const auto plots = reported(sweep, results).plots();
+        for (const auto& block : plots.at(0).drawing.blocks()) {
+            auto& values = all.emplace_back();
+            std::istringstream lines(block.rows);
+            for (std::string line; std::getline(lines, line);)
+                values.push_back(number_in(line));
+        }
+        return all;
+    };
+    BOOST_TEST((rows_of().at(0) == std::vector<double>{0.2, 0.25, 0.5, 1.0}));
+    results[3].get<LadderResult>()->rungs.back().errors[0] = std::nan("");
+    const auto rows = rows_of();
+    BOOST_TEST((rows.at(0) == std::vector<double>{0.2, 0.25}));
+    BOOST_TEST((rows.at(1) == std::vector<double>{1.0}));
+    const auto curves = reported(sweep, results).plots().at(0).drawing.curves();
+    BOOST_TEST((curves.at(0).title && !curves.at(1).title));
+    BOOST_TEST(curves.at(0).look.colour == curves.at(1).look.colour);
+}
+
+// What a value is TOML says: "1.5" is a text and 1.5 a number, +5 is 5 and 1_0 is 10.
+BOOST_AUTO_TEST_CASE(values_of_a_sweep_are_what_they_are_by_themselves) {
+    const auto swept = [](const std::string& values) { return *sweep_in({"a.k=" + values}); };
+    const Sweep texts = swept(R"("1.500","2.500",1.5,"inf",euler,"bdf2","a,b","c\"d",'e"f')");
+    BOOST_TEST((texts.values == std::vector<std::string>{"\"1.500\"", "\"2.500\"", "1.5", "\"inf\"",
+                                                         "euler", "\"bdf2\"", "\"a,b\"",
+                                                         R"("c\"d")", "'e\"f'"}));
+    BOOST_TEST(texts.overrides(texts.values[0]).front() == "a.k=\"1.500\"");
+    // Without quotes where it is the same without them.
+    BOOST_TEST(texts.shown(0) == "\"1.500\"");
+    BOOST_TEST(texts.shown(3) == "\"inf\"");
+    BOOST_TEST(texts.shown(5) == "bdf2");
+    BOOST_TEST(texts.directory(0) == "1-of-9");
+    BOOST_TEST(texts.directory(5) == "bdf2");
+    for (const std::string twice : {"+5,5", "1_0,10", "0x10,16", "\"a\",a", "1e1,10.0"})
+        BOOST_CHECK_THROW(swept(twice), InputError);
+    BOOST_TEST(swept("true,\"true\"").values.size() == 2U);
+    // What is recorded is the same sweep again.
+    const Sweep commas = swept(R"("a,b","c")");
+    BOOST_TEST((swept(fmt::format("{},{}", commas.values[0], commas.values[1])).values ==
+                std::vector<std::string>{"\"a,b\"", "\"c\""}));
+}
+
 // e = h²: a line of the order 2 through the finest error; of two errors no order is known.
 BOOST_AUTO_TEST_CASE(the_figure_of_a_table_has_the_order_that_is_determined) {
     const auto blocks = [](const std::vector<double>& widths) {
