@@ -1,5 +1,7 @@
 #include "mms/equations/code_lines.hpp"
 
+#include "mms/text/visible_text.hpp"
+
 namespace tvbeam {
 
 namespace {
@@ -28,11 +30,6 @@ std::size_t length_of_line(const std::string& text, std::size_t longest, std::si
             if (may(text, end - 1))
                 return end;
     return least;
-}
-
-/// Whether a byte of UTF-8 goes on with a character.
-bool goes_on(char byte) {
-    return (static_cast<unsigned char>(byte) & 0xC0U) == 0x80U;
 }
 
 } // namespace
@@ -69,8 +66,7 @@ std::string wrapped_comment(const std::string& text, const std::string& sign) {
         while (end > indent && rest[end - 1] != ' ')
             --end;
         if (end <= indent) // a formula without blanks
-            for (end = room; end > room - 3 && goes_on(rest[end]);)
-                --end;
+            end = whole_characters(rest, room).size();
         result += sign + " " + rest.substr(0, rest[end - 1] == ' ' ? end - 1 : end) + "\n";
         rest = std::string(indent, ' ') + rest.substr(end);
     }
