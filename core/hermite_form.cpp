@@ -1,6 +1,7 @@
 #include "core/hermite_form.hpp"
 
 #include "core/contact/contact.hpp"
+#include "core/contraction.hpp"
 #include "core/finite.hpp"
 #include "core/space/cells.hpp"
 #include "core/space/quadrature.hpp"
@@ -66,8 +67,9 @@ Eigen::VectorXd cubic_loads(const Mesh& mesh, const SpaceFunction& g, int deriva
 
 HermiteForm::HermiteForm(const Beam& beam, const ProblemData& data, const Mesh& mesh,
                          const Scheme& scheme, double dt)
-    : Solver(scheme.time, dt), beam_(beam), data_(data), mesh_(mesh), tolerance_(scheme.tolerance) {
-    assemble(scheme.thermal_mass);
+    : Solver(scheme.time, dt), beam_(beam), data_(data), mesh_(mesh),
+      mass_kind_(scheme.thermal_mass), tolerance_(scheme.tolerance) {
+    assemble();
     factor(scheme.time.at_step(1).stages.front().leading / dt);
     const Eigen::Index inner = mesh_.elements() - 1;
     loads_.resize(data_.profiles.size());
@@ -87,9 +89,9 @@ HermiteForm::HermiteForm(const Beam& beam, const ProblemData& data, const Mesh& 
                                    theta_.size() + deflection_.size() + tip_response_.size();
 }
 
-void HermiteForm::assemble(ThermalMass mass) {
+void HermiteForm::assemble() {
     const Eigen::Index s = mesh_.elements();
-    mass_ = thermal_mass_matrix(mesh_, mass);
+    mass_ = thermal_mass_matrix(mesh_, mass_kind_);
 
     // Entries in closed form, not by quadrature: the rows of B then annihilate rigid motions as
     // well as floating point allows, and the round-off of the method is no larger than it must be.
@@ -192,6 +194,14 @@ Eigen::VectorXd HermiteForm::beam_load(double t,
     return load;
 }
 
+std::string HermiteForm::predicted() const {
+    const double rho = contraction(beam_, mesh_, mass_kind_, leading_);
+    return rho < 1.0 ? ""
+                     : fmt::format("; where nothing holds the tip, each iteration multiplies the "
+                                   "error by {:.3g}, predicted",
+                                   rho);
+}
+
 std::string HermiteForm::solve(double c, double t,
                                const Eigen::Ref<const Eigen::VectorXd>& amplitudes) {
     if (c != leading_)
@@ -242,15 +252,15 @@ std::string HermiteForm::solve(double c, double t,
         deflection_ = next;
         if (!are_finite(theta) || !are_finite(next))
             return coupled ? fmt::format("the fixed-point iteration diverges: not finite after {} "
-                                         "iteration{}",
-                                         iteration, iteration == 1 ? "" : "s")
+                                         "iteration{}{}",
+                                         iteration, iteration == 1 ? "" : "s", predicted())
                            : "the temperature or the deflection is not finite";
         if (!coupled || change <= tolerance_)
             return {};
     }
     return fmt::format("the fixed-point iteration does not reach its tolerance {:g}: after {} "
-                       "iterations a nodal value still changes by {:g}; use the direct algorithm",
-                       tolerance_, iteration_limit, change);
+                       "iterations a nodal value still changes by {:g}{}; use the direct algorithm",
+                       tolerance_, iteration_limit, change, predicted());
 }
 
 double HermiteForm::tip_displacement() const {

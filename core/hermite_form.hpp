@@ -24,9 +24,9 @@ namespace tvbeam {
 /// until no nodal value changes by more than the tolerance (absolute; the paper does not say what
 /// it measures). The variational inequality concerns the tip value alone and is solved exactly in
 /// each iteration. For the other time schemes Δt stands for 1/c and the state before for y*
-/// (Stage). The iteration contracts by about α²Δt / ((Δt + ζ)(1 + π²Δt))
-/// (contraction.hpp); the round-off of B grows like h⁻⁴ (round_off.hpp). With an end temperature,
-/// θ̃_x = θ_x − θ_A adds −αθ_A (1, η') to the loads.
+/// (Stage). The iteration contracts by about α²Δt / ((Δt + ζ)(1 + π²Δt)), better where a stop
+/// holds the tip (contraction.hpp); the round-off of B grows like h⁻⁴ (round_off.hpp). With an end
+/// temperature, θ̃_x = θ_x − θ_A adds −αθ_A (1, η') to the loads.
 class HermiteForm final : public Solver {
 public:
     /// data and mesh must outlive the solver. Throws std::domain_error when a matrix cannot be
@@ -56,8 +56,10 @@ private:
     std::string solve(double c, double t,
                       const Eigen::Ref<const Eigen::VectorXd>& amplitudes) override;
 
-    void assemble(ThermalMass mass);
+    void assemble();
     void factor(double c);
+    /// Of an iteration that does not converge: its factor, where that is the reason; else nothing.
+    [[nodiscard]] std::string predicted() const;
     void project_initial_state();
     [[nodiscard]] Eigen::VectorXd heat_load(double t,
                                             const Eigen::Ref<const Eigen::VectorXd>& amplitudes);
@@ -67,6 +69,7 @@ private:
     Beam beam_;
     const ProblemData& data_;
     const Mesh& mesh_;
+    ThermalMass mass_kind_;
     double tolerance_;
     double leading_ = 0.0; // c, of which the factors are now
     double dt_ = 0.0;      // 1/c

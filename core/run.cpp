@@ -65,11 +65,17 @@ Resolution resolution_of(const ProblemData& data, const std::vector<Algorithm>& 
 std::unique_ptr<Solver> make_solver(const Beam& beam, const ProblemData& data, const Mesh& mesh,
                                     const Scheme& scheme, double dt, const Needs& needs) {
     if (scheme.algorithm == Algorithm::fixed_point) {
-        if (const double rho = greatest_contraction(beam, mesh, scheme, dt); !(rho < 1.0))
+        // Whether a stop will hold the tip is not known before: what contracts held is tried.
+        const bool has_stops = beam.stops.exist();
+        const double free = greatest_contraction(beam, mesh, scheme, dt);
+        const double held =
+            has_stops ? greatest_contraction(beam, mesh, scheme, dt, Tip::held) : free;
+        if (!(held < 1.0))
             throw std::domain_error(fmt::format(
                 "the fixed-point iteration would not contract: each of its iterations multiplies "
-                "the error by {:.3g}, predicted; use the direct algorithm",
-                rho));
+                "the error by {:.3g}, predicted{}; use the direct algorithm",
+                free,
+                has_stops ? fmt::format(", and by {:.3g} where a stop holds the tip", held) : ""));
         return std::make_unique<HermiteForm>(beam, data, mesh, scheme, dt);
     }
     return std::make_unique<MomentForm>(beam, data, mesh, scheme, dt, needs);

@@ -18,8 +18,10 @@ constexpr double part = 0.1; ///< of an error, from which on something else is s
 
 /// What the iteration may leave in the unknowns.
 double bound_of(const Scene& scene, const Scheme& scheme, double final_time, const Rung& rung) {
-    const double rho =
-        greatest_contraction(scene.beam, scene.mesh.with(rung.elements), scheme, rung.dt);
+    const Mesh mesh = scene.mesh.with(rung.elements);
+    double rho = greatest_contraction(scene.beam, mesh, scheme, rung.dt);
+    if (!(rho < 1.0)) // the run came to its end, as a stop held the tip
+        rho = greatest_contraction(scene.beam, mesh, scheme, rung.dt, Tip::held);
     const double adding_up = std::max(1.0, std::min(final_time, 1.0) / rung.dt);
     return adding_up * scheme.tolerance * rho / (1.0 - rho);
 }
