@@ -38,7 +38,7 @@ void add_stress(const StressBlock& stress, PredictedWork& predicted) {
 double repetitions(const SensitivityBlock& block) {
     constexpr double bisections = 8.0;
     return static_cast<double>(block.defects.size()) *
-           (std::log10(block.largest / block.smallest) + bisections);
+           (std::log10(block.largest) - std::log10(block.smallest) + bisections);
 }
 
 std::string time_text(double seconds) {

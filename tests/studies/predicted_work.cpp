@@ -71,6 +71,15 @@ BOOST_AUTO_TEST_CASE(the_prediction_counts_what_the_scene_asks_for) {
                    .runs == 20.0);
 }
 
+// The quotient of these two factors is beyond the doubles; their decades are 600.
+BOOST_AUTO_TEST_CASE(a_range_of_any_width_has_its_decades) {
+    const Scene scene =
+        scene_of(ladder("[8]", "[0.1]") + "[expect.ladder.theta_L2L2]\nerrors = [1]\n"
+                                          "[sensitivity]\nrange = [1e-300, 1e300]\n"
+                                          "[sensitivity.defect.f]\nheat_source = '1'\n");
+    BOOST_TEST(predicted_work(scene).runs == 609.0);
+}
+
 BOOST_AUTO_TEST_CASE(what_takes_too_long_runs_only_if_it_says_so) {
     const auto refused = [](const std::string& text) {
         const Scene scene = scene_of(text);
