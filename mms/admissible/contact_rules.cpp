@@ -31,6 +31,16 @@ double tip_tolerance(const Stops& stops, const std::vector<ContactPhase>& phases
                     std::max(relative_tolerance * size, roundings * u_scale));
 }
 
+/// Of a stress with the wrong sign at t, from its sign_change.
+std::string repair_of_sign(const ContactPhase& phase, double t, std::optional<double> change) {
+    if (change)
+        return "it changes its sign at t = " + number_text_beside(*change, t) +
+               (*change > t ? "; begin the contact there" : "; end the phase there");
+    return "change its sign" + (phase.sigma_formula.empty()
+                                    ? std::string()
+                                    : ", sigma = \"-(" + phase.sigma_formula + ")\"");
+}
+
 } // namespace
 
 ContactRules::ContactRules(const Beam& beam, std::vector<ContactPhase> phases, double u_scale,
@@ -242,19 +252,24 @@ void ContactRules::require_stress(const ContactPhase& phase, double t, double ti
                                   double stress) const {
     if (std::abs(stress) <= stress_tolerance_)
         return;
-    const auto fail = [&](const std::string& equation, const std::string& rule) {
+    const auto fail = [&](const std::string& equation, const std::string& rule, double other) {
         throw InputError(*phase.sigma, equation + ": sigma(1,t) is " + number_text(stress) +
-                                           " at t = " + number_text(t) + ", where u(1,t) is " +
-                                           number_text(tip) + "; it must be " + rule);
+                                           " at t = " + number_text_beside(t, other) +
+                                           ", where u(1,t) is " + number_text(tip) +
+                                           "; it must be " + rule);
+    };
+    const auto fail_by_sign = [&](const std::string& rule) {
+        const auto change = sign_change(phase, t);
+        fail("(8)", rule + repair_of_sign(phase, t, change), change.value_or(t));
     };
     if (!stops_.exist())
-        fail("(7)", "0, as the beam has no stops; leave sigma out or give the beam stops");
+        fail("(7)", "0, as the beam has no stops; leave sigma out or give the beam stops", t);
     if (!at_lower(tip) && !at_upper(tip))
-        fail("(7)", "0 strictly between the stops: " + repair_of_free_stress(tip));
+        fail("(7)", "0 strictly between the stops: " + repair_of_free_stress(tip), t);
     if (at_lower(tip) && !at_upper(tip) && stress < 0.0)
-        fail("(8)", "at least 0 at the stop g1: " + repair_of_sign(phase, t));
+        fail_by_sign("at least 0 at the stop g1: ");
     if (at_upper(tip) && !at_lower(tip) && stress > 0.0)
-        fail("(8)", "at most 0 at the stop g2: " + repair_of_sign(phase, t));
+        fail_by_sign("at most 0 at the stop g2: ");
 }
 
 /// A stress while the tip is free.
@@ -266,8 +281,8 @@ std::string ContactRules::repair_of_free_stress(double tip) const {
            (upper ? "g2, " : "g1, ") + number_text(upper ? to_upper : to_lower) + " away";
 }
 
-/// A stress of the wrong sign: all of it, or from the time on when it changes sign.
-std::string ContactRules::repair_of_sign(const ContactPhase& phase, double t) const {
+/// Where a stress that has the wrong sign at t changes it; none: it has it all the time.
+std::optional<double> ContactRules::sign_change(const ContactPhase& phase, double t) const {
     const auto is_positive = [&](double time) {
         return phase.ends(ArrayXd::Constant(1, time))(1, 0) > 0.0;
     };
@@ -277,9 +292,7 @@ std::string ContactRules::repair_of_sign(const ContactPhase& phase, double t) co
     const bool all =
         positive ? stress.minCoeff() >= -stress_tolerance_ : stress.maxCoeff() <= stress_tolerance_;
     if (all)
-        return "change its sign" + (phase.sigma_formula.empty()
-                                        ? std::string()
-                                        : ", sigma = \"-(" + phase.sigma_formula + ")\"");
+        return std::nullopt;
     const auto has_sign = [&](double time) { return is_positive(time) == positive; };
     // The last time before t with the other sign; where there is none, the first after it.
     double other = t;
@@ -289,10 +302,7 @@ std::string ContactRules::repair_of_sign(const ContactPhase& phase, double t) co
             if (other > t)
                 break;
         }
-    const bool from_start = other > t;
-    const double change = switch_time(has_sign, std::min(t, other), std::max(t, other));
-    return "it changes its sign at t = " + number_text(change) +
-           (from_start ? "; begin the contact there" : "; end the phase there");
+    return switch_time(has_sign, std::min(t, other), std::max(t, other));
 }
 
 } // namespace tvbeam

@@ -73,7 +73,7 @@ private:
     void require_stress(const ContactPhase& phase, double t, double tip, double stress) const;
     [[nodiscard]] std::string repair_of_tip(bool below) const;
     [[nodiscard]] std::string repair_of_free_stress(double tip) const;
-    [[nodiscard]] std::string repair_of_sign(const ContactPhase& phase, double t) const;
+    [[nodiscard]] std::optional<double> sign_change(const ContactPhase& phase, double t) const;
 
     Stops stops_;
     std::vector<ContactPhase> phases_;

@@ -340,6 +340,14 @@ const std::vector<Repair> repairs = {
      "most 0 at the stop g2: it changes its sign at t = 0.5; begin the contact there",
      "theta = 0\nu = \"x^2*g2\"\n[[phase]]\nuntil = 0.5\n[[phase]]\n"
      "sigma = \"t*(1/2 - t)\"\n"},
+    // A time and the one when the sign changes, as many digits of both as tell them apart.
+    {"[[phase]]\nuntil = 0.9999999\ntheta = 0\nu = \"x^2*g2\"\n[[phase]]\ntheta = 0\n"
+     "u = \"x^2*g2\"\nsigma = \"1 - t\"\n",
+     between_stops,
+     "8:10: (8): sigma(1,t) is 1e-07 at t = 0.9999999, where u(1,t) is 0.1; it must be at most 0 "
+     "at the stop g2: it changes its sign at t = 1; begin the contact there",
+     "[[phase]]\nuntil = 1\ntheta = 0\nu = \"x^2*g2\"\n[[phase]]\ntheta = 0\n"
+     "u = \"x^2*g2\"\nsigma = \"1 - t\"\n"},
     // Phases that do not meet: by how much, in which term, and where they would.
     {sine + phases("u = \"x^2*t/100\"\n", "u = \"x^2*(1/50 - (t - 2)^2/1000)\"\n"), between_stops,
      "6:6: (3): u jumps by 0.009 at t = 1, x = 1; it must be continuous: subtract 9*x^2/1000 from "
