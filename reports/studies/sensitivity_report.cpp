@@ -42,14 +42,17 @@ std::string finding(const CaughtDefect& defect, const SensitivityResult& result,
                    : fmt::format("{}: no expectation catches it at the factors tried, one a decade "
                                  "up to {}.",
                                  defect.name, shortest(block.largest));
-    const auto first = std::find(defect.least.begin(), defect.least.end(), least);
     const auto unseen = std::count(defect.least.begin(), defect.least.end(), std::nullopt);
+    // At the least factor that is tried nobody knows which of several is the first.
+    std::vector<std::string> first;
+    for (std::size_t i = 0; i < defect.least.size(); ++i)
+        if (defect.least[i] == least)
+            first.push_back(result.expectations[i]);
     return fmt::format(
         "{}: first caught at {} {}times its size, by {}; {} of {} expectations catch "
         "it at no factor tried.",
         defect.name, scientific(*least, 1), *least <= block.smallest ? "or fewer " : "",
-        result.expectations[static_cast<std::size_t>(first - defect.least.begin())], unseen,
-        defect.least.size());
+        listed(first), unseen, defect.least.size());
 }
 
 Section section(const SensitivityResult& result, const SensitivityBlock& block) {

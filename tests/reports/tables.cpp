@@ -308,6 +308,31 @@ BOOST_AUTO_TEST_CASE(formulas_are_set_with_raised_exponents_and_greek_letters) {
     BOOST_TEST(html_formula("sqrt(x + 1)").starts_with("√("), html_formula("sqrt(x + 1)"));
 }
 
+// Both catch the defect at the least factor that is tried.
+BOOST_AUTO_TEST_CASE(of_several_that_catch_a_defect_at_the_least_factor_none_is_called_the_first) {
+    const TemporaryDirectory directory;
+    const StudyResult result = run_study(read_scene(
+        directory.write("s.toml", "solution = 'free-oscillation'\n[beam]\nalpha = 0.3\n"
+                                  "zeta = 0.05\nstops = [-0.1, 0.1]\n[ladder]\n"
+                                  "final_time = 0.5\nelements = [4, 8]\ndt = [0.05, 0.025]\n"
+                                  "norms = ['theta_L2L2', 'u_L2H2']\n"
+                                  "[expect.ladder.theta_L2L2]\norders = [0.5, 3]\n"
+                                  "[expect.ladder.u_L2H2]\norders = [0.5, 3]\n"
+                                  "[sensitivity]\nrange = [1e3, 1e4]\n"
+                                  "[sensitivity.defect.f]\nheat_source = 'sin(pi*x)'\n"),
+        {}, {.expectations = true}));
+    std::string found;
+    for (const StudyReport* report : reports_of(result))
+        if (report->study() == "sensitivity")
+            for (const Section& section : report->sections(result))
+                for (const Block& block : section.blocks)
+                    if (const auto* finding = std::get_if<Finding>(&block))
+                        found += finding->text;
+    BOOST_TEST(has(found, "or fewer times its size, by ladder.theta_L2L2: observed order; "
+                          "ladder.u_L2H2: observed order; 0 of 2"),
+               found);
+}
+
 // Of two residuals the worse; what a case has not is blank; a remark holds from its first row on.
 BOOST_AUTO_TEST_CASE(a_stress_study_has_what_was_measured_of_each_case) {
     StudyResult result = run_study(read_scene("cubic-deflection"));
