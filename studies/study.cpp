@@ -227,7 +227,9 @@ StudyResult on_beam(const Scene& scene, const ProblemData& data, const Defects& 
     ProblemData measured = resolved;
     if (scene.reference && !scene.measures().empty())
         result.reference = measure_against_reference(scene, measured, execution);
-    const StudiedSolver solver = beam_runs(scene, resolved, measured, defects);
+    StudiedSolver solver = beam_runs(scene, resolved, measured, defects);
+    if (result.reference && !result.reference->failure.empty())
+        solver.rounding = {}; // runs of an earlier start have errors, and nothing says of what size
     if (scene.poses_problem()) {
         const ProblemData posed = defects.added_to(measured, scene.series().front().rungs.front());
         result.left_out = left_out({scene, posed, solver, own, execution, defects});

@@ -196,8 +196,8 @@ LadderResult analyse_ladder(const LadderBlock& block, const Method& method,
     }
     result.quadrature_remark = quadrature_remark(result.rungs, series.measures);
     if (!series.measures.empty() && solver.reference)
-        result.reference_remark =
-            reference_remark(*solver.reference, result.rungs, solver.starts_with_jump);
+        result.reference_remark = reference_remark(*solver.reference, result.rungs, series.measures,
+                                                   solver.jump_at_start);
     return result;
 }
 

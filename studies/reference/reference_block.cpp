@@ -149,7 +149,8 @@ std::vector<std::int64_t> kept_levels(const ReferenceBlock& reference,
 namespace {
 
 /// What the finest level does not show of its error: the part that the reference has as well.
-std::string missing_remark(const ReferenceBlock& reference, const Rung& finest, bool is_smooth) {
+std::string missing_remark(const ReferenceBlock& reference, const Rung& finest, bool has_squares,
+                           bool is_smooth) {
     const double in_h =
         static_cast<double>(finest.elements) / static_cast<double>(reference.elements);
     const double in_dt = 1.0 / static_cast<double>(reference.steps_in(finest));
@@ -158,19 +159,25 @@ std::string missing_remark(const ReferenceBlock& reference, const Rung& finest, 
         return {};
     if (std::max(in_h, in_dt) <= seen)
         return {};
-    const auto part = [](const char* width, double ratio) {
+    const auto part = [](const char* width, double ratio, const auto& missing) {
         if (ratio >= 1.0)
             return fmt::format("all of the part in {}", width);
         return fmt::format("{:.2g} % of a first-order part in {} and {:.2g} % of a second-order "
                            "one",
-                           100.0 * ratio, width, 100.0 * ratio * ratio);
+                           100.0 * missing(ratio), width, 100.0 * missing(ratio * ratio));
     };
-    std::string parts = in_h > seen ? part("h", in_h) : "";
-    if (in_dt > seen)
-        parts += (parts.empty() ? "" : ", ") + part("dt", in_dt);
+    const auto parts = [&](const auto& missing) {
+        std::string text = in_h > seen ? part("h", in_h, missing) : "";
+        if (in_dt > seen)
+            text += (text.empty() ? "" : ", ") + part("dt", in_dt, missing);
+        return text;
+    };
+    const auto of_error = [](double ratio) { return ratio; };
+    const auto of_square = [](double ratio) { return ratio * (2.0 - ratio); }; // 1 − (1 − r)²
     return fmt::format("The reference has an error of its own, so that errors of a smooth solution "
-                       "are measured too small, most at s = {} (dt = {:g}): by up to {}. {}",
-                       finest.elements, finest.dt, parts,
+                       "are measured too small, most at s = {} (dt = {:g}): by up to {}{}. {}",
+                       finest.elements, finest.dt, parts(of_error),
+                       has_squares ? "; their squares by up to " + parts(of_square) : "",
                        is_smooth ? "richardson = true extrapolates that away."
                                  : "A finer one has less.");
 }
@@ -183,7 +190,8 @@ bool changes_contact(const RungResult& run) {
 } // namespace
 
 std::string reference_remark(const ReferenceBlock& reference, const std::vector<RungResult>& rungs,
-                             bool starts_with_jump) {
+                             const std::vector<Measure>& measures,
+                             const std::string& jump_at_start) {
     std::string named;
     std::size_t close = 0;
     for (const auto& run : rungs)
@@ -191,18 +199,16 @@ std::string reference_remark(const ReferenceBlock& reference, const std::vector<
             named += fmt::format("{}s = {} (dt = {:g})", close++ > 0 ? ", " : "", run.rung.elements,
                                  run.rung.dt);
     const bool changes = std::ranges::any_of(rungs, changes_contact);
-    if (reference.richardson && (changes || starts_with_jump))
+    if (reference.richardson && (changes || !jump_at_start.empty()))
         return fmt::format("The reference is extrapolated as that of a smooth solution, and {}: "
                            "what error of its own that leaves is not known, and one that stands "
                            "still may be the reference's.",
-                           changes
-                               ? "a contact begins or ends"
-                               : "theta0 is not theta_A at x = 0, so that the temperature jumps "
-                                 "at t = 0");
+                           changes ? "a contact begins or ends" : jump_at_start);
     if (close == 0)
-        return rungs.empty()
-                   ? ""
-                   : missing_remark(reference, rungs.back().rung, !changes && !starts_with_jump);
+        return rungs.empty() ? ""
+                             : missing_remark(reference, rungs.back().rung,
+                                              std::ranges::any_of(measures, &Measure::squared),
+                                              !changes && jump_at_start.empty());
     return (close == 1 ? "The level " : "The levels ") + named +
            (close == 1 ? " has an h or dt" : " have an h or dt") +
            " within a factor of two of the reference's: what is measured there lacks much of the "

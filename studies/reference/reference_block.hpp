@@ -40,12 +40,13 @@ struct ReferenceBlock {
 std::vector<std::int64_t> kept_levels(const ReferenceBlock& reference,
                                       const std::vector<Series>& measured);
 
-/// starts_with_jump: the solution is not smooth. A sentence about the rungs too close to the
-/// reference for their orders to mean anything, or else about the part of the finest error that the
-/// reference has as well; empty where that is small. Of an extrapolated one about a contact that
-/// begins or ends, or a jump.
+/// jump_at_start: why the solution is not smooth; empty: it may be. A sentence about the rungs too
+/// close to the reference for their orders to mean anything, or else about the part of the finest
+/// error that the reference has as well; empty where that is small. Of an extrapolated one about a
+/// contact that begins or ends, or a jump.
 std::string reference_remark(const ReferenceBlock& reference, const std::vector<RungResult>& rungs,
-                             bool starts_with_jump);
+                             const std::vector<Measure>& measures,
+                             const std::string& jump_at_start);
 
 /// Reads the block. measured: what will be measured against the reference. Throws InputError where
 /// the reference does not fit a rung, is coarser than one, or would fill more than 1 GiB.

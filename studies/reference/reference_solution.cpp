@@ -65,9 +65,7 @@ public:
         runs_ = &result.runs;
         if (!block_.richardson)
             return add_run(scene, data, 1, 1, 1.0);
-        const double in_h = 1.0 / (std::exp2(order_in_h) - 1.0);
-        const double in_dt = 1.0 / (std::exp2(scene.scheme.time.order) - 1.0);
-        // y + (y − y_2h) in_h + (y − y_2Δt) in_dt
+        const auto [in_h, in_dt] = extrapolation_of(scene);
         std::string failure = add_run(scene, data, 1, 1, 1.0 + in_h + in_dt);
         if (failure.empty())
             failure = add_run(scene, data, 2, 1, -in_h);
@@ -192,13 +190,20 @@ Field rest(SpaceTimeFunction function) {
     return field;
 }
 
-/// Fields that look a quantity up in the reference.
-ExactSolution looked_up(const std::shared_ptr<const ReferenceSolution>& reference, Index elements) {
+/// Fields that look a quantity up in the reference; zero where it is not kept.
+ExactSolution looked_up(const std::shared_ptr<const ReferenceSolution>& reference, Index elements,
+                        const Needs& kept = {true, true, true}) {
     ExactSolution exact;
     exact.elements = elements;
-    exact.theta = rest([reference](const ArrayXd& x, double t) { return reference->theta(t)(x); });
-    exact.theta_x = rest(
-        [reference](const ArrayXd& x, double t) { return reference->theta(t).derivative()(x); });
+    if (kept.temperature) {
+        exact.theta =
+            rest([reference](const ArrayXd& x, double t) { return reference->theta(t)(x); });
+        exact.theta_x = rest([reference](const ArrayXd& x, double t) {
+            return reference->theta(t).derivative()(x);
+        });
+    }
+    if (!kept.curvature)
+        return exact;
     exact.u_xx =
         rest([reference](const ArrayXd& x, double t) { return reference->curvature(t)(x); });
     exact.u_x = rest(
@@ -224,6 +229,14 @@ Amplitudes with_one_more(const ProblemData& data, std::function<double(double t)
 
 } // namespace
 
+Extrapolation extrapolation_of(const Scene& scene) {
+    if (!scene.reference->richardson)
+        return {};
+    const double in_h = 1.0 / (std::exp2(order_in_h) - 1.0);
+    const double in_dt = 1.0 / (std::exp2(scene.scheme.time.order) - 1.0);
+    return {in_h, in_dt};
+}
+
 ReferenceResult measure_against_reference(const Scene& scene, ProblemData& data,
                                           const Execution& execution) {
     const auto start = std::chrono::steady_clock::now();
@@ -248,7 +261,7 @@ ReferenceResult measure_against_reference(const Scene& scene, ProblemData& data,
     result.seconds = elapsed.count();
 
     if (result.failure.empty()) {
-        data.exact = looked_up(reference, block.elements);
+        data.exact = looked_up(reference, block.elements, needs);
         data.amplitudes =
             with_one_more(data, [reference](double t) { return reference->stress(t); });
     } else {

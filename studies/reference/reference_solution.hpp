@@ -26,7 +26,8 @@ namespace tvbeam {
 /// - observed orders of pairs do not. Near the reference they come out too high, and a remark of
 ///   the ladder says so;
 /// - an extrapolated reference has an error of higher order, which is neglected. It is of that
-///   order only where the solution is smooth in x and t: not across a change of contact.
+///   order only where the solution is smooth in x and t: not across a change of contact,
+///   nor from initial data that are not in balance.
 ///
 /// How the reference of a study came out.
 struct ReferenceResult {
@@ -35,6 +36,19 @@ struct ReferenceResult {
     std::vector<Rung> runs = {};    ///< made for it; up to the one that failed
     std::vector<double> times = {}; ///< at which it is known
 };
+
+/// How much of its coarser runs is taken off an extrapolated reference:
+/// y + (y − y_2h) in_h + (y − y_2Δt) in_dt.
+struct Extrapolation {
+    double in_h = 0.0;
+    double in_dt = 0.0;
+
+    /// The sum of the sizes of the three weights, by which rounding grows.
+    [[nodiscard]] double weights() const { return 1.0 + 2.0 * (in_h + in_dt); }
+};
+
+/// That of the scene's reference; of one that is not extrapolated 0.
+Extrapolation extrapolation_of(const Scene& scene);
 
 /// Reads [expect.reference]: elements and dt, one a run; times = [the first, the last]; a band for
 /// levels, how many times there are.

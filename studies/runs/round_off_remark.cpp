@@ -7,6 +7,7 @@
 #include "core/worse.hpp"
 #include "mms/forecast/expected_orders.hpp"
 #include "mms/text/input_error.hpp"
+#include "studies/reference/reference_solution.hpp"
 #include "studies/runs/beam_runs.hpp"
 #include "studies/scene/scene.hpp"
 
@@ -33,47 +34,60 @@ double norm_of(const Mesh& mesh, const Eigen::ArrayXd& values) {
                : largest;
 }
 
+/// Times of the series; a computed solution is known at those of its runs.
+std::vector<double> times_of(const ProblemData& data, const Series& series) {
+    constexpr std::int64_t most = 16;
+    const bool is_computed = data.exact->elements > 0;
+    std::int64_t steps = most;
+    if (is_computed)
+        steps = std::ranges::min_element(series.rungs, {}, &Rung::steps)->steps;
+    const std::int64_t count = std::min(steps, most);
+    std::vector<double> times;
+    for (std::int64_t n = is_computed ? 1 : 0; n <= count; ++n)
+        times.push_back(series.final_time * static_cast<double>(n * steps / count) /
+                        static_cast<double>(steps));
+    return times;
+}
+
 /// The norm of the exact solution, that of its contact stress apart, from its greatest values over
 /// some times.
-double size_of_exact(const ProblemData& data, const Norm& norm, double final_time) {
+double size_of_exact(const ProblemData& data, const Norm& norm, const Series& series) {
     const Mesh mesh = Mesh::uniform(16);
-    constexpr int times = 16;
     const auto fields = data.exact->fields();
     double sum = 0.0;
     for (const TimeNorm& part : norm.parts) {
         double greatest = 0.0;
-        for (int n = 0; n <= times; ++n) {
+        for (const double t : times_of(data, series)) {
             double size = 0.0;
             for (std::size_t k = 0; k < fields.size(); ++k)
                 if (part.quantities[k])
-                    size = std::hypot(size, norm_of(mesh, values(data, *fields[k], mesh.nodes,
-                                                                 final_time * n / times)));
+                    size = std::hypot(size, norm_of(mesh, values(data, *fields[k], mesh.nodes, t)));
             greatest = std::max(greatest, size);
         }
-        sum = std::hypot(sum, part.kind == TimeNorm::Kind::L2 ? std::sqrt(final_time) * greatest
-                                                              : greatest);
+        sum = std::hypot(sum, part.kind == TimeNorm::Kind::L2
+                                  ? std::sqrt(series.final_time) * greatest
+                                  : greatest);
     }
     return sum;
 }
 
 /// The greatest of a field over some times, in the norm of L².
-double greatest_of(const ProblemData& data, const Field& field, double final_time) {
+double greatest_of(const ProblemData& data, const Field& field, const Series& series) {
     const Mesh mesh = Mesh::uniform(16);
-    constexpr int times = 16;
     double greatest = 0.0;
-    for (int n = 0; n <= times; ++n)
-        greatest = std::max(greatest,
-                            norm_of(mesh, values(data, field, mesh.nodes, final_time * n / times)));
+    for (const double t : times_of(data, series))
+        greatest = std::max(greatest, norm_of(mesh, values(data, field, mesh.nodes, t)));
     return greatest;
 }
 
 /// The greatest contact stress over some times.
-double greatest_stress(const ProblemData& data, double final_time) {
-    return data.exact->stress ? data.amplitudes(Eigen::ArrayXd::LinSpaced(17, 0.0, final_time))
-                                    .row(*data.exact->stress)
-                                    .abs()
-                                    .maxCoeff()
-                              : 0.0;
+double greatest_stress(const ProblemData& data, const Series& series) {
+    if (!data.exact->stress)
+        return 0.0;
+    const std::vector<double> times = times_of(data, series);
+    const Eigen::Map<const Eigen::ArrayXd> all(times.data(),
+                                               static_cast<Eigen::Index>(times.size()));
+    return data.amplitudes(all).row(*data.exact->stress).abs().maxCoeff();
 }
 
 /// What rounding is measured by: the exact solution, and what is as large beside it that it comes
@@ -83,35 +97,56 @@ struct Scale {
     std::string words;
 };
 
-Scale scale_of(const Beam& beam, const ProblemData& data, const Norm& norm, double final_time) {
+Scale scale_of(const Beam& beam, const ProblemData& data, const Norm& norm, const Series& series) {
     const QuantitySet measured = quantities_of({norm});
     const auto has = [&](tvbeam::Quantity quantity) { return measured[index(quantity)]; };
     const bool sums_up = std::ranges::any_of(
         norm.parts, [](const TimeNorm& part) { return part.kind == TimeNorm::Kind::L2; });
-    const double duration = sums_up ? std::max(1.0, std::sqrt(final_time)) : 1.0;
+    const double duration = sums_up ? std::max(1.0, std::sqrt(series.final_time)) : 1.0;
     const bool is_of_heat = has(tvbeam::Quantity::theta) || has(tvbeam::Quantity::theta_x);
-    const double stress = duration * greatest_stress(data, final_time);
+    const double stress = duration * greatest_stress(data, series);
     const double own = has(tvbeam::Quantity::stress)
-                           ? std::hypot(size_of_exact(data, norm, final_time), stress)
-                           : size_of_exact(data, norm, final_time);
+                           ? std::hypot(size_of_exact(data, norm, series), stress)
+                           : size_of_exact(data, norm, series);
     double size = own;
     if (has(tvbeam::Quantity::stress) || !is_of_heat)
-        size = std::max({size, stress, duration * greatest_of(data, data.moment_load, final_time)});
+        size = std::max({size, stress, duration * greatest_of(data, data.moment_load, series)});
     if (has(tvbeam::Quantity::stress))
-        size = std::max(size, duration * greatest_of(data, data.exact->u_xx, final_time));
+        size = std::max(size, duration * greatest_of(data, data.exact->u_xx, series));
     if (is_of_heat)
         size = std::max(size, std::abs(beam.alpha) * duration *
-                                  greatest_of(data, data.exact->u_xx, final_time));
+                                  greatest_of(data, data.exact->u_xx, series));
     else
         size = std::max(size, std::abs(beam.alpha) * duration *
-                                  greatest_of(data, data.exact->theta, final_time));
+                                  greatest_of(data, data.exact->theta, series));
     if (size > own)
         return {size, fmt::format("of {:.2g}, which comes from terms of {:.2g}", own, size)};
     if (size > 0.0)
         return {size, fmt::format("of {:.2g}", size)};
-    const double sources = std::max(greatest_of(data, data.heat_source, final_time),
-                                    greatest_of(data, data.moment_load, final_time));
+    const double sources = std::max(greatest_of(data, data.heat_source, series),
+                                    greatest_of(data, data.moment_load, series));
     return {sources, fmt::format("of a solution of 0 with sources of {:.2g}", sources)};
+}
+
+/// What rounding may be of an error on the rung. It grows with what it is summed up over; a stress
+/// answers to rates.
+double rounding_on(const Rung& rung, const Beam& beam, const Norm& norm, double size) {
+    constexpr double elements_of_it = 16.0;
+    constexpr double steps_of_it = 8.0;
+    const bool is_of_stress = quantities_of({norm})[index(tvbeam::Quantity::stress)];
+    const auto elements = static_cast<double>(rung.elements);
+    const double steps = is_of_stress ? remembered_steps(beam.zeta, rung.dt, rung.steps) : 1.0;
+    return round_off * size *
+           std::max(std::max(1.0, elements / elements_of_it), steps / steps_of_it);
+}
+
+/// The same of the scene's reference, each of its runs with its weight.
+double rounding_of_reference(const Scene& scene, const Series& series, const Norm& norm,
+                             double size) {
+    const double dt = scene.reference->dt;
+    return extrapolation_of(scene).weights() *
+           rounding_on({scene.reference->elements, std::llround(series.final_time / dt), dt},
+                       scene.beam, norm, size);
 }
 
 bool measures_deflection_alone(const Norm& norm) {
@@ -158,7 +193,7 @@ std::string round_off_remark(const Beam& beam, const ProblemData& data, const Se
     if (scheme.algorithm != Algorithm::fixed_point || !data.exact || !norm ||
         !measures_deflection_alone(*norm))
         return {};
-    const double size = size_of_exact(data, *norm, series.final_time);
+    const double size = size_of_exact(data, *norm, series);
     for (const auto& rung : rungs) {
         if (rung.errors.empty())
             continue;
@@ -185,23 +220,17 @@ std::optional<RoundingErrors> rounding_errors(const Scene& scene, const ProblemD
     const auto norm = Norm::named(measure.root());
     if (!data.exact || !norm)
         return std::nullopt;
-    const Scale scale = scale_of(scene.beam, data, *norm, series.final_time);
+    const Scale scale = scale_of(scene.beam, data, *norm, series);
     double greatest = 0.0;
     double most = 0.0;
     bool is_below = true;
-    // It grows with what it is summed up over; a stress answers to rates.
-    constexpr double elements_of_it = 16.0;
-    constexpr double steps_of_it = 8.0;
-    const bool is_of_stress = quantities_of({*norm})[index(tvbeam::Quantity::stress)];
+    const double of_reference =
+        data.exact->elements > 0 ? rounding_of_reference(scene, series, *norm, scale.size) : 0.0;
     for (const auto& run : runs)
         if (!run.errors.empty()) {
             const double error = measure.root_of(run.errors[k]);
-            const auto elements = static_cast<double>(run.rung.elements);
-            const double steps =
-                is_of_stress ? remembered_steps(scene.beam.zeta, run.rung.dt, run.rung.steps) : 1.0;
             const double below =
-                round_off * scale.size *
-                std::max(std::max(1.0, elements / elements_of_it), steps / steps_of_it);
+                rounding_on(run.rung, scene.beam, *norm, scale.size) + of_reference;
             is_below = is_below && error <= below;
             greatest = worse(greatest, error);
             most = std::max(most, below);

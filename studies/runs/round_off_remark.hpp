@@ -25,7 +25,7 @@ std::string round_off_remark(const Beam& beam, const ProblemData& data, const Se
 /// sources where all of that is zero) and not all are 0: that they are rounding, where theory has
 /// no error of that norm (mms/expected_orders.hpp); else that they may be, where they do not fall
 /// from one to the next of `refined`, the runs that refine every width. None otherwise, and where
-/// no exact solution is known.
+/// no exact solution is known. A reference in its place adds its own rounding.
 std::optional<RoundingErrors> rounding_errors(const Scene& scene, const ProblemData& data,
                                               const Series& series,
                                               const std::vector<RungResult>& runs,

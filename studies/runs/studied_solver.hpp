@@ -43,8 +43,8 @@ struct StudiedSolver {
     /// Its runs are made with a deliberate defect.
     bool has_defect = false;
 
-    /// The temperature jumps to theta_A at t = 0: no solution is smooth there.
-    bool starts_with_jump = false;
+    /// Why the solution is not smooth at t = 0; empty: nothing says so.
+    std::string jump_at_start = {};
 };
 
 } // namespace tvbeam

@@ -227,6 +227,22 @@ BOOST_AUTO_TEST_CASE(what_the_reference_has_of_the_finest_error_is_said) {
                remark);
 }
 
+// Of a square 1 − (1 − r)² of it is missing where r of the error is.
+BOOST_AUTO_TEST_CASE(what_the_reference_has_of_the_finest_square_is_said) {
+    const std::string ladder = "[ladder]\nfinal_time = 1\nelements = [8, 16, 32]\n"
+                               "dt = [0.02, 0.01, 0.005]\n";
+    const std::string squares = "; their squares by up to 56 % of a first-order part in h and 21 % "
+                                "of a second-order one, 36 % of a first-order part in dt and 7.8 % "
+                                "of a second-order one. richardson";
+    for (const auto& [norm, is_square] :
+         {std::pair{"theta_L2L2_sq", true}, {"corollary", true}, {"theta_L2L2", false}}) {
+        const std::string remark =
+            ladder_of(free_beam + ladder + "norms = ['" + norm + "']\n" + reference(96, "1e-3"))
+                .reference_remark;
+        BOOST_TEST((remark.find(squares) != std::string::npos) == is_square, remark);
+    }
+}
+
 // Errors of Euler's steps alone: every level lacks the error in h, and no order does.
 BOOST_AUTO_TEST_CASE(a_width_that_no_rung_refines_brings_none_close_to_the_reference) {
     const std::string steps_alone = R"([ladder]
@@ -266,6 +282,67 @@ BOOST_AUTO_TEST_CASE(an_extrapolated_reference_of_a_jump_is_remarked) {
     // Nor is it recommended.
     BOOST_TEST(remark_of("theta_A = 1\n", false).ends_with("A finer one has less."));
     BOOST_TEST(remark_of("", false).ends_with("richardson = true extrapolates that away."));
+}
+
+// Without viscosity u_xx goes to −αθ − μ + λ(1 − x) at once. Of θ0 = 12 x (1 − x), α = 1/2 and a
+// body force of 8 that is −6 x (1 − x) − 4 (1 − x)² + λ(1 − x); with λ = 3 the tip is at −1/2.
+BOOST_AUTO_TEST_CASE(initial_data_that_are_not_in_balance_are_remarked_like_a_jump) {
+    struct Start {
+        std::string theta0, u0, force, beam;
+        std::string jump; ///< what is said of it; empty: nothing
+    };
+    const std::string at_once = "the temperature jump at t = 0";
+    const std::string soon = "relaxes within about 0.0004 from t = 0";
+    const std::string bent = "0.1*x^2*(3 - x)";
+    const std::string balanced = "x^4/2 - x^3"; // u_xx = −6 x (1 − x)
+    for (const auto& [theta0, u0, force, beam, jump] : std::vector<Start>{
+             {"sin(pi*x)", bent, "0", "alpha = 0.5\nzeta = 0\n", at_once},
+             {"sin(pi*x)", bent, "0", "alpha = 0.5\nzeta = 5e-4\n", soon},
+             {"sin(pi*x)", bent, "0", "alpha = 0.5\nzeta = 0.1\n", ""},
+             {"sin(pi*x)", bent, "0", "alpha = 0\nzeta = 0\n", ""}, // no step remembers u
+             {"12*x*(1 - x)", balanced, "0", "alpha = 0.5\nzeta = 0\n", ""},
+             {"12*x*(1 - x)", balanced, "0", "alpha = 0.5\nzeta = 5e-4\n", ""},
+             {"12*x*(1 - x)", balanced, "1", "alpha = 0.5\nzeta = 0\n", at_once},
+             {"12*x*(1 - x)", balanced, "sin(t)", "alpha = 0.5\nzeta = 0\n", ""},
+             // The tip is at −1/2, where it is free as without the stop, or pressed.
+             {"12*x*(1 - x)", balanced, "0", "alpha = 0.5\nzeta = 0\nstops = [-0.5, 1]\n", ""},
+             {"12*x*(1 - x)", balanced, "8", "alpha = 0.5\nzeta = 0\nstops = [-0.5, 1]\n", at_once},
+             {"12*x*(1 - x)", "(x^4 - x^3)/6 - x^2/2", "8",
+              "alpha = 0.5\nzeta = 0\nstops = [-0.5, 1]\n", ""}}) {
+        const std::string scene = "[data]\ntheta0 = '" + theta0 + "'\nu0 = '" + u0 +
+                                  "'\nbody_force = '" + force + "'\n[beam]\n" + beam +
+                                  "[ladder]\nfinal_time = 0.1\nelements = [4, 8]\n" +
+                                  "dt = [0.02, 0.01]\nnorms = ['theta_L2L2']\n";
+        const auto remark_of = [&](bool richardson) {
+            return ladder_of(scene + reference(32, "0.0025", richardson)).reference_remark;
+        };
+        BOOST_TEST_INFO(theta0 << ", " << u0 << ", " << force << ", " << beam);
+        if (jump.empty()) {
+            BOOST_TEST(remark_of(true).empty(), remark_of(true));
+            BOOST_TEST(remark_of(false).ends_with("richardson = true extrapolates that away."));
+        } else {
+            BOOST_TEST(remark_of(true).find(jump) != std::string::npos, remark_of(true));
+            BOOST_TEST(remark_of(false).ends_with("A finer one has less."));
+        }
+    }
+}
+
+// Of a beam without memory, whose tip answers to the load of its time alone: an extrapolated
+// reference adds its own rounding, with weights that are 11/3 together.
+BOOST_AUTO_TEST_CASE(rounding_against_a_reference_is_no_order) {
+    const std::string measured = "[data]\nbody_force = '100*cos(2*pi*t)'\n"
+                                 "u0 = '-0.05*x^2*(3 - x)'\n[beam]\nalpha = 0\nzeta = 0\n"
+                                 "stops = [-0.1, 0.1]\n[ladder]\nfinal_time = 1\n"
+                                 "elements = [4, 8, 16]\ndt = [0.1, 0.05, 0.02]\n"
+                                 "norms = ['u_LinfH2', 'sigma_L2']\n";
+    const LadderResult ladder = ladder_of(measured + reference(64, "0.005", true));
+    const LadderNorm& stress = ladder.norms[1];
+    BOOST_TEST(std::abs(*ladder.norms[0].orders[2] - 2.0) < 0.05);
+    BOOST_REQUIRE(stress.remarks.size() == 1u);
+    BOOST_TEST(stress.remarks[0].starts_with("sigma_L2: no error is larger than rounding may be"),
+               stress.remarks[0]);
+    for (const auto& row : stress.verdicts)
+        BOOST_TEST((row.verdict == Verdict::unresolved), row.reason);
 }
 
 BOOST_AUTO_TEST_CASE(the_stress_is_measured_against_the_reference_s) {
