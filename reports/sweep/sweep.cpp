@@ -448,7 +448,7 @@ std::vector<std::string> Sweep::overrides(const std::string& value) const {
 
 std::string Sweep::shown(std::size_t i) const {
     const auto text = override_text(values[i]);
-    return text && is_word(*text) && override_text(*text) == text ? *text : values[i];
+    return text && !text->empty() && override_text(*text) == text ? *text : values[i];
 }
 
 std::string Sweep::directory(std::size_t i) const {
