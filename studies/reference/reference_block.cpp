@@ -45,6 +45,27 @@ std::int64_t read_elements(TableReader& table, bool richardson,
     return elements;
 }
 
+/// Whether it is a whole number of steps of that length.
+bool divides(double unit, double dt) {
+    const double ratio = dt / unit;
+    return std::abs(ratio - std::round(ratio)) <= 1e-9 * ratio;
+}
+
+/// The greatest step up to `most` that divides every dt, where one of a few parts of the finest
+/// does.
+std::optional<double> greatest_divisor(const std::vector<Series>& measured, double most) {
+    std::vector<double> steps;
+    for (const auto& series : measured)
+        for (const auto& rung : series.rungs)
+            steps.push_back(rung.dt);
+    const double finest = std::ranges::min(steps);
+    constexpr double few = 100.0;
+    for (double parts = std::ceil(finest / most); parts <= few; parts += 1.0)
+        if (std::ranges::all_of(steps, [&](double dt) { return divides(finest / parts, dt); }))
+            return finest / parts;
+    return std::nullopt;
+}
+
 double read_reference_dt(TableReader& table, bool richardson, const std::vector<Series>& measured) {
     const auto given = table.number("dt");
     if (!given)
@@ -71,10 +92,13 @@ double read_reference_dt(TableReader& table, bool richardson, const std::vector<
             if (!(steps <= most_steps))
                 refuse(", which makes " + message_text(steps) +
                        " steps; at most 1e12 are possible");
-            if (std::abs(ratio - std::round(ratio)) > 1e-9 * ratio)
+            if (!divides(unit, rung.dt)) {
+                const auto better = greatest_divisor(measured, unit);
                 refuse(fmt::format(
-                    "{}divide the {} into a whole number of steps, not {}; one that does is {}",
-                    must, held, message_text(ratio), message_text(dt * ratio / std::ceil(ratio))));
+                    "{}divide the {} into a whole number of steps, not {}{}", must, held,
+                    message_text(ratio),
+                    better ? "; one that does is " + message_text(*better * dt / unit) : ""));
+            }
         }
     return dt;
 }

@@ -17,9 +17,12 @@
 #include <boost/test/data/test_case.hpp>
 #include <boost/test/unit_test.hpp>
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <ostream>
+#include <tuple>
 
 using namespace tvbeam;
 using Eigen::ArrayXd;
@@ -529,6 +532,32 @@ BOOST_DATA_TEST_CASE(a_wrong_block_is_told_at_its_place, data::make(wrong_blocks
                message << " must start with " << file << ":" << wrong.place);
     BOOST_TEST(message.find(wrong.message) != std::string::npos,
                message << " must say " << wrong.message);
+}
+
+// Also where a step divides the first dt and not the next.
+BOOST_AUTO_TEST_CASE(the_step_that_a_refusal_names_is_taken) {
+    for (const auto& [dt, given, named] : {std::tuple("0.1, 0.05", "0.04", "0.025"),
+                                           {"0.1, 0.02", "0.015", "0.01"},
+                                           {"0.2, 0.125", "0.03", "0.025"}}) {
+        const std::string ladder =
+            std::string("[ladder]\nfinal_time = 1\nelements = [4, 8]\ndt = [") + dt +
+            "]\nnorms = [\"theta_L2L2\"]\n";
+        for (const bool richardson : {false, true}) {
+            const auto part = [&](const std::string& step) {
+                return fmt::format("{:.12g}", std::stod(step) / (richardson ? 2.0 : 1.0));
+            };
+            BOOST_CHECK_EXCEPTION(
+                scene_of(free_beam + ladder + reference(8, part(given), richardson)), InputError,
+                [&](const InputError& error) {
+                    BOOST_TEST(
+                        std::string(error.what()).ends_with("one that does is " + part(named)),
+                        error.what());
+                    return true;
+                });
+            BOOST_CHECK_NO_THROW(
+                scene_of(free_beam + ladder + reference(8, part(named), richardson)));
+        }
+    }
 }
 
 BOOST_AUTO_TEST_CASE(richardson_needs_an_even_number_of_elements) {
