@@ -83,7 +83,10 @@ void add_limit(const ColumnAnalysis& column, std::vector<Block>& blocks) {
     for (const auto& [name, method] : {std::pair("GCI", &column.limit->gci),
                                        {"Celik et al.", &column.limit->celik},
                                        {"Eca and Hoekstra", &column.limit->eca_hoekstra}})
-        if (*method)
+        if (!*method && !method->silence.empty())
+            blocks.emplace_back(
+                Paragraph{fmt::format("beside it, {} says nothing: {}", name, method->silence)});
+        else if (*method)
             blocks.emplace_back(Paragraph{fmt::format(
                 "beside it, {}: limit {:.{}g}, finest value ± {}, order {}, model {}", name,
                 (*method)->limit, digits_within((*method)->limit, (*method)->uncertainty),

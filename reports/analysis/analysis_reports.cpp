@@ -30,13 +30,19 @@ Json json_of(const OrderInterval& interval) {
     return json;
 }
 
-Json json_of(const std::optional<MethodLimit>& method) {
+Json json_of(const MethodAnswer& method, const LimitEstimate& limit) {
+    const auto figure = [&](double MethodLimit::*of) {
+        return number_json(method ? std::optional((*method).*of) : std::nullopt);
+    };
+    Json json{{"limit", figure(&MethodLimit::limit)},
+              {"uncertainty", figure(&MethodLimit::uncertainty)},
+              {"order", figure(&MethodLimit::order)},
+              {"model", method ? Json(method->model) : Json()}};
     if (!method)
-        return nullptr;
-    return {{"limit", number_json(method->limit)},
-            {"uncertainty", number_json(method->uncertainty)},
-            {"order", number_json(method->order)},
-            {"model", method->model}};
+        json["status"] = method.silence.empty() ? limit.limit.status : method.silence;
+    else if (json["order"].is_null())
+        json["status"] = "its model has more than one order";
+    return json;
 }
 
 /// Between this row and the one before; none in rows that do not follow each other.
@@ -145,9 +151,11 @@ void add_analysis(Json& json, const DataAnalysis& analysis, const ColumnAnalysis
     if (column.limit) {
         json["limit"] = json_of(column.limit->limit);
         json["uncertainty"] = number_json(column.limit->uncertainty);
-        json["methods"] = {{"gci", json_of(column.limit->gci)},
-                           {"celik", json_of(column.limit->celik)},
-                           {"eca_hoekstra", json_of(column.limit->eca_hoekstra)}};
+        if (json["uncertainty"].is_null())
+            json["status"] = column.limit->limit.status;
+        json["methods"] = {{"gci", json_of(column.limit->gci, *column.limit)},
+                           {"celik", json_of(column.limit->celik, *column.limit)},
+                           {"eca_hoekstra", json_of(column.limit->eca_hoekstra, *column.limit)}};
     }
 }
 

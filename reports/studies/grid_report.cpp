@@ -85,6 +85,8 @@ Json json_of(const OrdersResult& orders, const OrdersBlock& block) {
                  {"p", interval_json(of.p)},
                  {"q", interval_json(of.q)},
                  {"uncertainty", number_json(of.uncertainty)}};
+        if (value["uncertainty"].is_null())
+            value["status"] = of.limit.status;
         for (const auto& rung : of.out_of_line)
             value["out_of_line"].push_back({{"elements", rung.elements}, {"dt", rung.dt}});
     }

@@ -139,8 +139,9 @@ private:
                         *inner, key,
                         {{named.first + (", " + key),
                           method && !finest_failed_ ? std::optional(*method.*figure) : std::nullopt,
-                          finest_failed_ ? "none: the finest row failed"
-                                         : "the method says nothing of these values"}});
+                          finest_failed_
+                              ? "none: the finest row failed"
+                              : "the method says nothing of these values: " + method.silence}});
                 };
                 number("limit", &MethodLimit::limit);
                 number("uncertainty", &MethodLimit::uncertainty);

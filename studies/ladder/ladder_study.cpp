@@ -151,7 +151,7 @@ void expect_found(TableReader& table, const std::string& key, const std::string&
 
 /// gci = { limit = [lo, hi], uncertainty = …, order = … }: what a method that has a name says.
 void expect_method(TableReader& table, const std::string& key, const std::string& name,
-                   std::size_t k, std::optional<MethodLimit> LimitEstimate::*method,
+                   std::size_t k, MethodAnswer LimitEstimate::*method,
                    std::vector<Expectation>& expectations) {
     auto inner = table.table(key);
     if (!inner)
@@ -160,17 +160,18 @@ void expect_method(TableReader& table, const std::string& key, const std::string
     for (const auto& [word, figure] : {std::pair("limit", &MethodLimit::limit),
                                        {"uncertainty", &MethodLimit::uncertainty},
                                        {"order", &MethodLimit::order}})
-        expect_band(*inner, word, expectations,
-                    [what = name + key + ", " + word, k, method,
-                     figure = figure](const StudyResult& result) {
-                        const auto& column = result.get<LadderResult>()->analysis->columns[k];
-                        const auto found =
-                            finest_failed(result) ? std::nullopt : (*column.limit).*method;
-                        return std::vector{Metric{
-                            what, found ? std::optional((*found).*figure) : std::nullopt,
-                            finest_failed(result) ? finest_run_failed
-                                                  : "the method says nothing of these values"}};
-                    });
+        expect_band(
+            *inner, word, expectations,
+            [what = name + key + ", " + word, k, method,
+             figure = figure](const StudyResult& result) {
+                const auto& column = result.get<LadderResult>()->analysis->columns[k];
+                const auto& found = (*column.limit).*method;
+                const bool no_finest = finest_failed(result);
+                return std::vector{Metric{
+                    what, found && !no_finest ? std::optional((*found).*figure) : std::nullopt,
+                    no_finest ? finest_run_failed
+                              : "the method says nothing of these values: " + found.silence}};
+            });
     finish_expecting(*inner, before, expectations);
 }
 

@@ -287,6 +287,7 @@ void set_same(LimitEstimate& result, const ValueLevels& levels, double half) {
     result.uncertainty = half;
     result.basis = std::to_string(levels.size()) + " levels that are the same";
     result.order.status = "the values stand still";
+    result.gci.silence = result.celik.silence = result.eca_hoekstra.silence = result.order.status;
 }
 
 LimitEstimate refused(LimitEstimate result, const std::string& reason) {

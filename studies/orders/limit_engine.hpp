@@ -62,9 +62,9 @@ struct LimitEstimate {
     double uncertainty =
         std::numeric_limits<double>::infinity(); ///< of the finest value, 95 %, half width
     std::string basis;                           ///< what it rests on: "5 levels, 21 fits"
-    std::optional<MethodLimit> gci;              ///< Roache 1994, 1997; above order 4 with factor 3
-    std::optional<MethodLimit> celik;            ///< Celik et al. 2008
-    std::optional<MethodLimit> eca_hoekstra;     ///< Eça and Hoekstra 2014
+    MethodAnswer gci;                            ///< Roache 1994, 1997; above order 4 with factor 3
+    MethodAnswer celik;                          ///< Celik et al. 2008
+    MethodAnswer eca_hoekstra;                   ///< Eça and Hoekstra 2014
     /// In units of the last digit printed, where these are coarse enough to widen the intervals.
     std::optional<double> finest_step;
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace tvbeam {
 
@@ -49,10 +50,22 @@ std::optional<double> order_of_finest(std::span<const ValueRow> levels) {
 /// Below this, steps stay the same but for rounding.
 constexpr double no_order = 1e-3;
 
-std::optional<MethodLimit> gci_of(std::span<const ValueRow> levels) {
+MethodAnswer silent(std::string why) {
+    MethodAnswer none;
+    none.silence = std::move(why);
+    return none;
+}
+
+constexpr const char* wants_three = "it takes three levels";
+
+MethodAnswer gci_of(std::span<const ValueRow> levels) {
+    if (levels.size() < 3)
+        return silent(wants_three);
     const auto order = order_of_finest(levels);
-    if (!order || *order < no_order)
-        return std::nullopt;
+    if (!order)
+        return silent("the three finest values oscillate, stand still or run apart");
+    if (*order < no_order)
+        return silent("the steps between the three finest values are all but the same");
     const auto& fine = levels[levels.size() - 1];
     const auto& medium = levels[levels.size() - 2];
     const double log_fine = std::log(medium.h / fine.h);
@@ -70,9 +83,9 @@ std::optional<MethodLimit> gci_of(std::span<const ValueRow> levels) {
                        "f0 + C h^p"};
 }
 
-std::optional<MethodLimit> celik_of(std::span<const ValueRow> levels) {
+MethodAnswer celik_of(std::span<const ValueRow> levels) {
     if (levels.size() < 3)
-        return std::nullopt;
+        return silent(wants_three);
     const auto& fine = levels[levels.size() - 1];
     const auto& medium = levels[levels.size() - 2];
     const auto& coarse = levels[levels.size() - 3];
@@ -81,7 +94,7 @@ std::optional<MethodLimit> celik_of(std::span<const ValueRow> levels) {
     const double e21 = medium.value - fine.value;
     const double e32 = coarse.value - medium.value;
     if (e21 == 0 || e32 == 0)
-        return std::nullopt;
+        return silent("two of the three finest values are the same");
     const double sign = e32 / e21 < 0 ? -1 : 1;
     const auto signed_order = [&](double p) {
         return (std::log(std::abs(e32 / e21)) +
@@ -101,12 +114,12 @@ std::optional<MethodLimit> celik_of(std::span<const ValueRow> levels) {
     const auto whole = solved(1.0);
     const auto order = whole ? whole : solved(0.5);
     if (!order)
-        return std::nullopt;
+        return silent("its equation for the order has no solution above 0");
     const double p = *order;
     // The procedure takes an absolute value: of steps that grow it finds the order that those of
     // the opposite sequence have.
     if (signed_order(p) < 0)
-        return std::nullopt;
+        return silent("the steps between the three finest values grow");
     const double gain = std::expm1(p * std::log(r21));
     return MethodLimit{fine.value - e21 / gain, 1.25 * std::abs(e21) / gain, p,
                        sign < 0 ? "oscillatory" : "f0 + C h^p"};
@@ -149,10 +162,10 @@ std::optional<Candidate> eca_hoekstra_fit(std::span<const ValueRow> levels,
 
 } // namespace
 
-std::optional<MethodLimit> eca_hoekstra_of(std::span<const ValueRow> levels) {
+MethodAnswer eca_hoekstra_of(std::span<const ValueRow> levels) {
     const std::size_t n = levels.size();
     if (n < 4)
-        return std::nullopt;
+        return silent("it takes four levels");
     const Eigen::VectorXd equal =
         Eigen::VectorXd::Constant(static_cast<Eigen::Index>(n), 1.0 / static_cast<double>(n));
     Eigen::VectorXd by_width(equal.size());
@@ -164,7 +177,7 @@ std::optional<MethodLimit> eca_hoekstra_of(std::span<const ValueRow> levels) {
     if (weighted && (!best || weighted->deviation < best->deviation))
         best = weighted;
     if (!best)
-        return std::nullopt;
+        return silent("none of its models fits");
     const auto [low, high] =
         std::minmax_element(levels.begin(), levels.end(),
                             [](const auto& l, const auto& r) { return l.value < r.value; });

@@ -18,16 +18,22 @@ struct MethodLimit {
     std::string model;
 };
 
+/// What a named method says, or why it says nothing.
+struct MethodAnswer : std::optional<MethodLimit> {
+    using std::optional<MethodLimit>::optional;
+    std::string silence; ///< empty: it was not asked
+};
+
 // Levels: coarse to fine, of different widths, finite.
 
 /// Of the three finest levels; none where they oscillate, stand still or run apart.
 std::optional<double> order_of_finest(std::span<const ValueRow> levels);
 
 /// The three finest levels; none either where their steps are all but the same.
-std::optional<MethodLimit> gci_of(std::span<const ValueRow> levels);
+MethodAnswer gci_of(std::span<const ValueRow> levels);
 /// The same levels, with the order of |ε_32 / ε_21| and its sign (their eq. 3): oscillation too.
-std::optional<MethodLimit> celik_of(std::span<const ValueRow> levels);
+MethodAnswer celik_of(std::span<const ValueRow> levels);
 /// Least squares, weighted by 1/h and not, of the four models of Eça and Hoekstra; four levels.
-std::optional<MethodLimit> eca_hoekstra_of(std::span<const ValueRow> levels);
+MethodAnswer eca_hoekstra_of(std::span<const ValueRow> levels);
 
 } // namespace tvbeam

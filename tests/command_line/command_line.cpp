@@ -431,6 +431,36 @@ BOOST_AUTO_TEST_CASE(a_table_is_recorded_into_what_is_there) {
     BOOST_TEST(call(directory, analyse + " --record /dev/null").exit == 0);
 }
 
+// Values that oscillate, which one method takes; and a grid, on which there is no one way of
+// refinement.
+BOOST_AUTO_TEST_CASE(what_an_analysis_cannot_say_of_a_value_is_null_with_a_status) {
+    const TemporaryDirectory directory;
+    const auto column = [&](const std::string& rows) {
+        const std::string file = directory.write("v.csv", rows);
+        return nlohmann::json::parse(
+                   call(directory, "analyse " + file + " --value v --json -").output)
+            .at("columns")
+            .at(0);
+    };
+    const std::string rows = "h,v\n0.1,1.0\n0.05,1.2\n0.025,1.1\n0.0125,1.3\n";
+    const auto along = column(rows);
+    BOOST_TEST(!along.contains("status"));
+    BOOST_TEST(!along.at("methods").at("eca_hoekstra").contains("status"));
+    for (const char* method : {"gci", "celik"}) {
+        BOOST_TEST(along.at("methods").at(method).at("limit").is_null());
+        BOOST_TEST(!along.at("methods").at(method).at("status").get<std::string>().empty());
+    }
+    const Called text = call(directory, "analyse " + directory.write("v.csv", rows) + " --value v");
+    BOOST_TEST(has(text.output, "beside it, GCI says nothing: the three finest values oscillate"),
+               text.output);
+    const auto grid = column("h,dt,v\n0.2,0.2,1.3\n0.1,0.2,1.2\n0.2,0.1,1.25\n0.1,0.1,1.15\n");
+    const std::string status = grid.at("limit").at("status");
+    BOOST_TEST(grid.at("uncertainty").is_null());
+    BOOST_TEST(grid.at("status") == status);
+    for (const auto& method : grid.at("methods"))
+        BOOST_TEST(method.at("status") == status);
+}
+
 // What a link points to is replaced, not the link.
 BOOST_AUTO_TEST_CASE(a_file_behind_a_link_is_written_and_the_link_stays) {
     const TemporaryDirectory directory;

@@ -48,6 +48,28 @@ BOOST_AUTO_TEST_CASE(the_grid_convergence_index_is_that_of_the_tutorial) {
     BOOST_TEST(holds(limit.limit, 0.97130));
 }
 
+// Where a method has no figures, it says why: of values that oscillate, one that takes signs.
+BOOST_AUTO_TEST_CASE(a_method_without_figures_says_why) {
+    const std::vector<ValueRow> oscillating{{8, 1.0}, {4, 1.2}, {2, 1.1}, {1, 1.3}};
+    const auto silence = [&](std::size_t first, const auto& method) {
+        return method(std::span(oscillating).subspan(first)).silence;
+    };
+    BOOST_TEST(silence(0, gci_of) == "the three finest values oscillate, stand still or run apart");
+    BOOST_TEST(silence(0, celik_of) == "the steps between the three finest values grow");
+    BOOST_TEST(silence(0, eca_hoekstra_of) == "");
+    BOOST_TEST(silence(1, eca_hoekstra_of) == "it takes four levels");
+    BOOST_TEST(silence(2, gci_of) == "it takes three levels");
+    BOOST_TEST(silence(2, celik_of) == "it takes three levels");
+    BOOST_TEST(celik_of(std::vector<ValueRow>{{4, 2}, {2, 1}, {1, 1}}).silence ==
+               "two of the three finest values are the same");
+    BOOST_TEST(gci_of(std::vector<ValueRow>{{4, 3}, {2, 2}, {1, 1}}).silence ==
+               "the steps between the three finest values are all but the same");
+    const auto same =
+        estimate_limit(std::vector<ValueRow>{{4, 1.5, 0.1}, {2, 1.5, 0.1}, {1, 1.5, 0.1}});
+    BOOST_TEST(same.limit.determined);
+    BOOST_TEST(same.gci.silence == "the values stand still");
+}
+
 // h^7 on three grids: the order of no common method, so that the index takes the factor of two
 // grids and the order 4. f_2 − f_1 = 127/128² of the coarse error.
 BOOST_AUTO_TEST_CASE(an_order_that_no_method_has_is_given_the_factor_of_two_grids) {
