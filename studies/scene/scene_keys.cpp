@@ -3,6 +3,7 @@
 #include "core/certify/stated_scheme.hpp"
 #include "core/time/time_scheme.hpp"
 #include "mms/equations/code.hpp"
+#include "studies/orders/order_tuning.hpp"
 
 #include <fmt/format.h>
 
@@ -136,9 +137,10 @@ Entries of_ladders_and_grids() {
          "add levels until the order is known, or a budget is spent: one of seconds and levels at "
          "least"},
         {"ladder.until.order", KeyType::number, "none",
-         "half of the 95 % interval that the order is to have, > 0"},
-        {"ladder.until.limit", KeyType::number, "none", "the same for the limit of a value"},
-        {"ladder.until.seconds", KeyType::number, "none", "that all runs may take"},
+         fmt::format("half of the 95 % interval that the order is to have, > {}",
+                     OrderTuning().narrowest)},
+        {"ladder.until.limit", KeyType::number, "none", "the same for the limit of a value, > 0"},
+        {"ladder.until.seconds", KeyType::number, "none", "that all runs may take, > 0"},
         {"ladder.until.levels", KeyType::integer, "none", "that the ladder may come to have"},
         {"orders", KeyType::table, "",
          "a grid, elements x dt, to which a h^p + b dt^q + ... is fitted"},
@@ -152,9 +154,10 @@ Entries of_ladders_and_grids() {
          "add meshes and steps until both orders are known, or a budget is spent: one of seconds "
          "and runs at least"},
         {"orders.until.order", KeyType::number, "none",
-         "half of the 95 % intervals that both orders are to have, > 0"},
-        {"orders.until.limit", KeyType::number, "none", "the same for the limit of a value"},
-        {"orders.until.seconds", KeyType::number, "none", "that all runs may take"},
+         fmt::format("half of the 95 % intervals that both orders are to have, > {}",
+                     OrderTuning().narrowest)},
+        {"orders.until.limit", KeyType::number, "none", "the same for the limit of a value, > 0"},
+        {"orders.until.seconds", KeyType::number, "none", "that all runs may take, > 0"},
         {"orders.until.runs", KeyType::integer, "none", "that the grid may come to have"},
         {"work_precision", KeyType::table, "",
          "the run times of schemes for the errors that they reach"},
@@ -251,7 +254,7 @@ Entries of_other_studies() {
         {"stress.sweep.NAME.points", KeyType::integer, "100", "how many cases sobol takes"},
         {"stress.sweep.NAME.steps", KeyType::integer, "20", "of a case, at most"},
         {"stress.sweep.NAME.work", KeyType::integer, "2000000",
-         "elements times steps of a case, at most"},
+         "elements times steps of a case, at most, but for its first two steps"},
         {"stress.contraction", KeyType::table, "none",
          "a map of the fixed point's contraction over alpha and dt"},
         {"stress.contraction.alpha", KeyType::table, required, "values in equal ratios"},

@@ -27,20 +27,17 @@ std::string name_of(RefiningEnd end) {
 
 Until read_until(TableReader table, const CountKey& count) {
     Until until;
-    const auto positive = [&](const char* key) {
+    const auto above = [&](double bound, const char* key, const char* why = ";") {
         const auto number = table.number(key);
-        if (number && !(*number > 0.0))
-            throw table.error(key, " is " + message_text(*number) + "; it must be > 0");
+        if (number && !(*number > bound))
+            throw table.error(key, " is " + message_text(*number) + why + " it must be > " +
+                                       message_text(bound));
         return number;
     };
-    until.order = positive("order");
-    until.limit = positive("limit");
-    until.seconds = positive("seconds");
+    until.order = above(OrderTuning().narrowest, "order", "; no interval is that narrow:");
+    until.limit = above(0.0, "limit");
+    until.seconds = above(0.0, "seconds");
     until.most = table.integer(count.name);
-    if (until.order && !(*until.order > OrderTuning().narrowest))
-        throw table.error("order", " is " + message_text(*until.order) +
-                                       "; no interval is that narrow: it must be > " +
-                                       message_text(OrderTuning().narrowest));
     if (until.most && *until.most < count.fewest)
         throw table.error(count.name, " is " + std::to_string(*until.most) +
                                           "; it must be >= " + std::to_string(count.fewest) +

@@ -447,6 +447,8 @@ std::ostream& operator<<(std::ostream& stream, const Refused& refused) {
 const std::vector<Refused> refused_ladders{
     {"elements = [4, 8]\nuntil = { order = 0.01, levels = 8 }\n",
      "scene.toml:8:19: ladder.until.order is 0.01; no interval is that narrow: it must be > 0.01"},
+    {"elements = [4, 8]\nuntil = { order = -1, levels = 8 }\n",
+     "scene.toml:8:19: ladder.until.order is -1; no interval is that narrow: it must be > 0.01"},
     {"elements = [4, 8]\nuntil = { order = 0.05, levels = 3 }\n",
      "scene.toml:8:34: ladder.until.levels is 3; it must be >= 4"},
     {"elements = [4, 8, 16, 32, 64]\nuntil = { order = 0.05, levels = 4 }\n",
