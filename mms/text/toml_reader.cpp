@@ -158,16 +158,20 @@ std::string advice_on(const std::string& description) {
     return {};
 }
 
+std::string reason_of(const toml::parse_error& error) {
+    std::string description(error.description()); // may show an end of line
+    boost::algorithm::replace_all(description, "\n", "\\n");
+    return "not TOML: " + description + advice_on(description);
+}
+
 toml::table parse(const std::string& text, const std::string& file) {
     DepthCheck(text, file).run();
     try {
         return toml::parse(text, file);
     } catch (const toml::parse_error& error) {
         const auto& begin = error.source().begin;
-        std::string description(error.description()); // may show an end of line
-        boost::algorithm::replace_all(description, "\n", "\\n");
         throw InputError({file, static_cast<int>(begin.line), static_cast<int>(begin.column)},
-                         "not TOML: " + description + advice_on(description));
+                         reason_of(error));
     }
 }
 
@@ -230,6 +234,24 @@ toml::node& element_of(toml::array& array, const std::string& key, const std::st
     return *array.get(index);
 }
 
+/// The value of an override, as `value`. What is not TOML is a bare word, as fixed-point, but for
+/// what begins as a list or can only be a number.
+toml::table value_table(const std::string& value, const Place& place) {
+    try {
+        return toml::parse("value = " + value, place.file);
+    } catch (const toml::parse_error& error) {
+        const std::string word = boost::algorithm::trim_copy(value);
+        const char* const end = word.data() + word.size();
+        double number = 0;
+        const auto read = std::from_chars(word.data(), end, number);
+        if (read.ptr == end && read.ec == std::errc::result_out_of_range)
+            throw InputError(place, "is beyond what a double holds");
+        if ((read.ptr == end && read.ec == std::errc()) || word.starts_with('['))
+            throw InputError(place, reason_of(error));
+        return parse("value = '" + value + "'", place.file);
+    }
+}
+
 } // namespace
 
 void override_key(TomlDocument& document, const std::string& assignment) {
@@ -241,19 +263,11 @@ void override_key(TomlDocument& document, const std::string& assignment) {
         parts_of(boost::algorithm::trim_copy(assignment.substr(0, equals)));
     if (parts.size() > static_cast<std::size_t>(deepest))
         throw InputError({"--set"}, "the key has more than " + std::to_string(deepest) + " parts");
-    const std::string value = assignment.substr(equals + 1);
+    if (std::find(parts.begin(), parts.end() - 1, "") != parts.end() - 1)
+        throw InputError(place, "the key has an empty part; name the block before each dot, as in "
+                                "beam.alpha");
 
-    toml::table parsed;
-    try {
-        parsed = toml::parse("value = " + value, place.file);
-    } catch (const toml::parse_error&) {
-        if (double number = 0;
-            std::from_chars(value.data(), value.data() + value.size(), number) ==
-            std::from_chars_result{value.data() + value.size(), std::errc::result_out_of_range})
-            throw InputError(place, "is beyond what a double holds");
-        // A bare word: --set scheme.algorithm=fixed-point.
-        parsed = parse("value = '" + value + "'", place.file);
-    }
+    toml::table parsed = value_table(assignment.substr(equals + 1), place);
     if (parsed.size() != 1) // `1\nother = 2` would set more than was named
         throw InputError(place, "an override sets one key to one value");
 

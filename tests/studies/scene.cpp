@@ -313,6 +313,13 @@ BOOST_AUTO_TEST_CASE(a_wrong_override_is_told_with_its_text) {
     says("=1", "an override reads key=value");
     says("beam.alpha=-1e400", "is beyond what a double holds");
     says("beam.=1", "ends in a dot");
+    says("beam..alpha=1", "the key has an empty part");
+    says(".beam=1", "the key has an empty part");
+    // A bare word is a text; a number or a list that is not TOML is none.
+    says("beam.alpha=99999999999999999999", "is not representable in 64 bits");
+    says("beam.alpha=.5", "not TOML");
+    says("ladder.elements=[99999999999999999999]", "is not representable in 64 bits");
+    says("ladder.elements=[4, 8", "not TOML");
     says("title.x=1", "'title' is a string, not a table");
     says("beam.zata=1", "unknown key 'beam.zata'; did you mean 'zeta'?");
     says("ladder.dt=0.1/q", "q");
