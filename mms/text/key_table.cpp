@@ -131,18 +131,24 @@ bool KeyEntry::is_plain() const {
 }
 
 const KeyTable::Node* KeyTable::Node::find(std::string_view key) const {
-    if (like != nullptr)
-        return like->find(key);
+    if (like != nullptr) {
+        const Node* same = like->find(key);
+        return same != this ? same : nullptr;
+    }
     const auto found = inner.find(key);
     return found != inner.end() ? &found->second : any.get();
 }
 
+bool KeyTable::Node::is_fixed(std::string_view key) const {
+    const Node* found = find(key);
+    return found != nullptr && found != (like != nullptr ? like : this)->any.get();
+}
+
 std::vector<std::string> KeyTable::Node::names() const {
-    if (like != nullptr)
-        return like->names();
     std::vector<std::string> names;
-    for (const auto& [name, node] : inner)
-        names.push_back(name);
+    for (const auto& [name, node] : (like != nullptr ? like : this)->inner)
+        if (&node != this)
+            names.push_back(name);
     return names;
 }
 

@@ -63,12 +63,15 @@ public:
         std::unique_ptr<Node> any = nullptr; ///< for names that the document chooses
         const Node* like = nullptr;
 
-        /// What a key in it is; null: there is none of that name.
+        /// What a key in it is; null: there is none of that name. A table with the keys of one that
+        /// holds it is not in itself.
         [[nodiscard]] const Node* find(std::string_view key) const;
         /// Whether the document may choose names for tables in it.
         [[nodiscard]] bool has_chosen_names() const {
             return (like != nullptr ? like : this)->any != nullptr;
         }
+        /// Whether it is a name that the document does not choose.
+        [[nodiscard]] bool is_fixed(std::string_view key) const;
         /// The names that are fixed.
         [[nodiscard]] std::vector<std::string> names() const;
     };

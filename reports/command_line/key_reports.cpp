@@ -115,8 +115,8 @@ Json table_schema(const KeyTable::Node& node, bool whole) {
     Json schema{{"type", "object"}};
     Json needed = Json::array();
     for (const auto& [name, inner] : keys.inner) {
-        if (inner.entry->path == "short" && !whole)
-            continue; // which is not in itself
+        if (&inner == &node)
+            continue; // it is not in itself
         schema["properties"][name] = node_schema(inner, whole && inner.entry->path != "short");
         if (inner.entry->otherwise == required)
             needed.push_back(name);
