@@ -105,7 +105,7 @@ std::map<std::string, DomainInterval> read_domain(TableReader& root) {
         domain[coordinate] = {};
     if (auto table = root.table("domain")) {
         for (const auto& coordinate : coordinate_names())
-            if (const auto band = table->band(coordinate))
+            if (const auto band = table->band(coordinate, ""))
                 domain[coordinate] = {band->lowest, band->highest};
         table->finish();
     }

@@ -568,7 +568,8 @@ std::optional<std::vector<double>> TableReader::numbers(std::string_view key, In
     return values;
 }
 
-TableReader::Band TableReader::checked_band(std::string_view key, const toml::node& node) const {
+TableReader::Band TableReader::checked_band(std::string_view key, const toml::node& node,
+                                            const std::string& why) const {
     if (const toml::table* inner = node.as_table(); inner != nullptr && !inner->empty())
         throw InputError(place_of(node),
                          fmt::format("{} must be a band [lowest, highest]; if a name with a dot in "
@@ -576,8 +577,7 @@ TableReader::Band TableReader::checked_band(std::string_view key, const toml::no
                                      full(key), key, inner->begin()->first.str()));
     const toml::array* pair = node.as_array();
     if (pair == nullptr || pair->size() != 2)
-        throw InputError(place_of(node),
-                         full(key) + " must be a band [lowest, highest]: a gate has two sides");
+        throw InputError(place_of(node), full(key) + " must be a band [lowest, highest]" + why);
     const Band band{checked_number(key, *pair->get(0), Infinity::refused),
                     checked_number(key, *pair->get(1), Infinity::refused)};
     if (!(band.lowest < band.highest))
@@ -586,9 +586,9 @@ TableReader::Band TableReader::checked_band(std::string_view key, const toml::no
     return band;
 }
 
-std::optional<TableReader::Band> TableReader::band(std::string_view key) {
+std::optional<TableReader::Band> TableReader::band(std::string_view key, const std::string& why) {
     const toml::node* node = find(key, KeyType::band);
-    return node == nullptr ? std::nullopt : std::optional(checked_band(key, *node));
+    return node == nullptr ? std::nullopt : std::optional(checked_band(key, *node, why));
 }
 
 std::optional<std::vector<TableReader::Band>> TableReader::bands(std::string_view key) {
@@ -597,10 +597,10 @@ std::optional<std::vector<TableReader::Band>> TableReader::bands(std::string_vie
         return std::nullopt;
     const toml::array* array = node->as_array();
     if (array == nullptr || array->empty() || !array->get(0)->is_array())
-        return std::vector<Band>{checked_band(key, *node)};
+        return std::vector<Band>{checked_band(key, *node, of_a_gate)};
     std::vector<Band> bands;
     for (const auto& element : *array)
-        bands.push_back(checked_band(key, element));
+        bands.push_back(checked_band(key, element, of_a_gate));
     return bands;
 }
 

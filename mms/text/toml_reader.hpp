@@ -76,7 +76,9 @@ public:
         double lowest;
         double highest;
     };
-    std::optional<Band> band(std::string_view key);
+    static constexpr const char* of_a_gate = ": a gate has two sides";
+    /// why: what a message says of the two numbers.
+    std::optional<Band> band(std::string_view key, const std::string& why = of_a_gate);
     /// One band, or an array of bands.
     std::optional<std::vector<Band>> bands(std::string_view key);
     /// One of the choices, as its index.
@@ -126,7 +128,8 @@ private:
     [[nodiscard]] InputError wrong_type(std::string_view key, const toml::node& node,
                                         const std::string& wanted) const;
     SourceText expression_in(std::string_view key, const toml::node& node) const;
-    Band checked_band(std::string_view key, const toml::node& node) const;
+    Band checked_band(std::string_view key, const toml::node& node, const std::string& why) const;
+    [[nodiscard]] InputError own_key(std::string_view key) const;
     double checked_number(std::string_view key, const toml::node& node, Infinity infinity) const;
 
     const TomlDocument* document_;

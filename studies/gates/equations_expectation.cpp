@@ -118,7 +118,9 @@ std::vector<CheckedExpectation> checked_system_of(const AskedSystem& asked,
 AskedSystem read_asked(TableReader& table, const Scene& scene) {
     const auto file = table.text("file");
     AskedSystem asked{.text = table.text("text")};
-    if (file.has_value() == asked.text.has_value())
+    if (file && asked.text)
+        throw table.error("", " has both `file` and `text`; remove one");
+    if (!file && !asked.text)
         throw table.error("", " must have a file of equations, or the text of one: give `file` or "
                               "`text`");
     const std::filesystem::path folder = std::filesystem::path(scene.file).parent_path();

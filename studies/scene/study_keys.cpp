@@ -57,6 +57,10 @@ std::string unknown_norm(const std::string& name, const SolverKeys& keys, bool i
         if (measure.is_value == is_value && measure.name == measure.root())
             roots.push_back(measure.name);
     }
+    const std::string unknown =
+        std::string("unknown ") + (is_value ? "value" : "norm") + " '" + name + "'";
+    if (roots.empty())
+        return unknown + "; [solver] names no " + (is_value ? "values" : "errors");
     std::vector<std::string> without;
     std::ranges::copy_if(roots, std::back_inserter(without),
                          [&](const std::string& root) { return !squares.contains(root); });
@@ -64,8 +68,7 @@ std::string unknown_norm(const std::string& name, const SolverKeys& keys, bool i
     if (!squares.empty())
         known += ", and their squares with _sq behind the name" +
                  (without.empty() ? "" : ", but of " + boost::algorithm::join(without, ", "));
-    return std::string("unknown ") + (is_value ? "value" : "norm") + " '" + name + "'" +
-           did_you_mean(name, roots) + "; known: " + known;
+    return unknown + did_you_mean(name, roots) + "; known: " + known;
 }
 
 /// The measures that a list names, behind those that are there.

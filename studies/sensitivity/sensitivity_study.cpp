@@ -11,7 +11,7 @@ namespace {
 
 SensitivityBlock read_sensitivity(TableReader& table) {
     SensitivityBlock block;
-    if (const auto range = table.band("range")) {
+    if (const auto range = table.band("range", " of factors > 0")) {
         block.smallest = range->lowest;
         block.largest = range->highest;
         if (!(block.smallest > 0.0))

@@ -96,7 +96,7 @@ BOOST_AUTO_TEST_CASE(what_expects_nothing_or_two_things_is_refused) {
     said(rod, "must expect that it is `refused`");
     said(rod + "says = ['x']\nrefused = ['x']", "must expect that it is `refused`");
     said("says = ['x']", "a file of equations, or the text of one");
-    said(rod + "file = 'heat-2d'\nsays = ['x']", "a file of equations, or the text of one");
+    said(rod + "file = 'heat-2d'\nsays = ['x']", "has both `file` and `text`; remove one");
     said(rod + "says = ['= ']", "must hold words of what is said");
     said("file = 'heat2d'\nsays = ['x']", "heat-2d");
     said(rod + "language = 'cobol'\nsays = ['x']", "cobol");

@@ -902,6 +902,8 @@ BOOST_AUTO_TEST_CASE(a_number_that_would_be_a_second_column_of_its_name_is_refus
                         message.find(what) != std::string::npos),
                        column << ": " << message);
     }
+    BOOST_TEST(refusal("values = { d = '(\\S+)' }\n", "norms = ['L2']\n")
+                   .ends_with("unknown norm 'L2'; [solver] names no errors"));
     // Those of times are in no ladder.
     BOOST_TEST(refusal("errors = { runs = '(\\S+)' }\n", "norms = ['runs']\n") == "");
     // Without the number that it would be said of, the ending is a part of the name.

@@ -191,6 +191,8 @@ BOOST_AUTO_TEST_CASE(a_block_that_cannot_be_is_refused_at_its_place) {
     begins(expect + "[sensitivity.defect.a]\n", "s.toml:18:1: a defect is empty");
     begins(expect + "[sensitivity]\nrange = [0, 1]\ndefect.a.u0 = 'u'\n",
            "s.toml:19:9: sensitivity.range must be");
+    begins(expect + "[sensitivity]\nrange = [1e-8]\ndefect.a.u0 = 'u'\n",
+           "s.toml:19:9: sensitivity.range must be a band [lowest, highest] of factors > 0");
     begins(expect + "[sensitivity.defect.a]\nu0 = 'u*y'\n", "s.toml:19:9: unknown symbol 'y'");
 }
 

@@ -249,8 +249,8 @@ Command add_run(CLI::App& app) {
              "write the result as JSON; -: to standard output, in place of the table");
     add_file(*run, "--csv", options->csv,
              "write the first of these that the scene has as CSV: ladder, grid of [orders], timed "
-             "rows, evolution, stress cases; -: to standard output, in place of the table. --out "
-             "writes them all");
+             "rows, evolution, stress cases, map of contraction, floors of round-off, sensitivity; "
+             "-: to standard output, in place of the table. --out writes them all");
     add_directory(*run, options->out,
                   "write to a directory what the scene's [report] block asks for; without one, "
                   "JSON, CSV, Markdown, LaTeX, plots and a page of HTML");
