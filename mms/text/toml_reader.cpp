@@ -352,9 +352,7 @@ const toml::node* TableReader::find(std::string_view key, KeyType type) {
     const bool differs =
         keys_ != nullptr && entry != nullptr && !may_be_read_as(entry->entry->type, type);
     if (differs && node != nullptr && type == KeyType::table) // by a name that the user gave
-        throw InputError(place(key), full(key) + " is a key of its own, " +
-                                         words_of(entry->entry->type) +
-                                         "; nothing can be called so here");
+        throw own_key(key);
     if (differs && node == nullptr && type == KeyType::table && keys_->has_chosen_names())
         return nullptr; // a name that the user gave, of which nothing is said
     if (differs || (keys_ != nullptr && entry == nullptr))
@@ -366,6 +364,21 @@ const toml::node* TableReader::find(std::string_view key, KeyType type) {
         asked.entry = entry != nullptr ? entry->entry->path : full(key);
     }
     return node;
+}
+
+InputError TableReader::own_key(std::string_view key) const {
+    return error(key, std::string(" is a key of its own, ") +
+                          words_of(keys_->find(key)->entry->type) +
+                          "; nothing can be called so here");
+}
+
+bool TableReader::owns(std::string_view key) const {
+    return keys_ != nullptr && keys_->is_fixed(key);
+}
+
+void TableReader::require_free(std::string_view name) const {
+    if (has(name) && owns(name))
+        throw own_key(name);
 }
 
 void TableReader::require_choices(std::string_view key,

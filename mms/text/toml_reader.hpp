@@ -99,6 +99,11 @@ public:
     [[nodiscard]] bool is_table(std::string_view key) const;
     [[nodiscard]] bool is_array_of_tables(std::string_view key) const;
 
+    /// Whether the table of keys has a key of that name here, so that nothing can be called so.
+    [[nodiscard]] bool owns(std::string_view key) const;
+    /// Refuses what the document calls so, where the table of keys has such a key.
+    void require_free(std::string_view name) const;
+
     /// Where a key's value stands, or its element; the table itself when the key is missing.
     [[nodiscard]] Place place(std::string_view key) const;
     [[nodiscard]] Place place(std::string_view key, std::size_t element) const;

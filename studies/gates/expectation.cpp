@@ -445,6 +445,12 @@ void finish_expecting(const TableReader& table, std::size_t before,
         throw table.error("", " expects nothing; give it a bound, or remove it");
 }
 
+void require_free_names(const TableReader& table, const std::vector<Measure>& measures) {
+    for (const auto& measure : measures)
+        if (table.is_table(measure.name))
+            table.require_free(measure.name);
+}
+
 void for_each_measure(TableReader& table, const std::vector<Measure>& measures,
                       std::vector<Expectation>& expectations,
                       const std::function<void(TableReader&, std::size_t k)>& read) {

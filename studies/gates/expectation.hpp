@@ -116,6 +116,9 @@ read_error_bands(TableReader& table, const ListedRows& rows,
 void expect_figures(TableReader& table, const std::string& study,
                     std::vector<Expectation>& expectations);
 
+/// Refuses the table of a measure that is called as a key of its own, before that key is read.
+void require_free_names(const TableReader& table, const std::vector<Measure>& measures);
+
 /// Reads a table for each measure that is there, by its name, with read(table, k).
 void for_each_measure(TableReader& table, const std::vector<Measure>& measures,
                       std::vector<Expectation>& expectations,

@@ -272,6 +272,7 @@ struct OrdersStudy final : KindOf<OrdersBlock, OrdersResult> {
 
     void expect(TableReader& table, const std::any& block,
                 std::vector<Expectation>& expectations) const override {
+        require_free_names(table, block_in(block).norms);
         if (block_in(block).until)
             expect_refined(table, name(), expectations, [](const StudyResult& result) {
                 return *result.get<OrdersResult>()->refined;

@@ -12,6 +12,9 @@ namespace {
 PublishedFigures read_printed(TableReader table, const LadderBlock& ladder, const Place& norms,
                               const SolverKeys& keys) {
     PublishedFigures printed;
+    for (const auto& measure : ladder.norms)
+        if (!table.is_string(measure.name))
+            table.require_free(measure.name);
     printed.source = table.text("source").value_or("published");
     printed.figures = read_by_measure(
         table, keys, ladder.norms, norms,

@@ -240,6 +240,7 @@ struct LadderStudy final : KindOf<LadderBlock, LadderResult> {
     void expect(TableReader& table, const std::any& block,
                 std::vector<Expectation>& expectations) const override {
         const Series series = series_of(block_in(block), {});
+        require_free_names(table, series.measures);
         if (block_in(block).until)
             expect_refined(table, name(), expectations, [](const StudyResult& result) {
                 return *result.get<LadderResult>()->refined;

@@ -213,6 +213,7 @@ std::map<std::string, std::vector<double>> read_by_measure(
     for (const auto& measure : wanted)
         if (named(known, measure.name) == nullptr)
             known.push_back(measure);
+    std::erase_if(known, [&](const Measure& measure) { return table.owns(measure.name); });
     std::string unwanted;
     for (const auto& measure : known)
         if (const auto list = table.numbers(measure.name)) {

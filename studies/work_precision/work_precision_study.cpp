@@ -46,11 +46,15 @@ struct WorkPrecisionStudy final : KindOf<WorkPrecisionBlock, WorkPrecisionResult
         const auto record = [](const StudyResult& result) -> const WorkPrecisionResult& {
             return *result.get<WorkPrecisionResult>();
         };
+        for (const auto& scheme : block_in(block).schemes)
+            if (table.is_table(scheme.name))
+                table.require_free(scheme.name);
         expect_sooner(table, block_in(block), record, expectations);
         const auto all = series_of(block_in(block));
         for (std::size_t i = 0; i < all.size(); ++i)
             if (auto scheme = table.table(block_in(block).schemes[i].name)) {
                 const std::size_t before = expectations.size();
+                require_free_names(*scheme, block_in(block).norms);
                 expect_counters(*scheme, all[i], expectations);
                 for_each_measure(*scheme, block_in(block).norms, expectations,
                                  [&](TableReader& norm, std::size_t k) {

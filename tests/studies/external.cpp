@@ -855,11 +855,13 @@ BOOST_AUTO_TEST_SUITE(names)
 
 namespace {
 
-std::string refusal(const std::string& sources, const std::string& lists) {
+std::string refusal(const std::string& sources, const std::string& lists,
+                    const std::string& study = "[ladder]\nelements = [2, 4]\n") {
     const TemporaryDirectory directory;
     try {
-        read_scene(directory.write("s.toml", "[solver]\ncommand = [\"true\"]\n" + sources +
-                                                 "[ladder]\nelements = [2, 4]\n" + lists));
+        read_scene(
+            directory.write("s.toml", "[solver]\ncommand = [\"true\"]\n" + sources + study + lists),
+            {}, {.expectations = true});
         return "";
     } catch (const InputError& error) {
         return error.what();
@@ -909,6 +911,47 @@ BOOST_AUTO_TEST_CASE(a_number_that_would_be_a_second_column_of_its_name_is_refus
     // Without the number that it would be said of, the ending is a part of the name.
     BOOST_TEST(refusal("errors = \"errors.json\"\n", "norms = ['L2_order', 'order', 'H1']\n") ==
                "");
+}
+
+// Each key of the table in which the number would have its own.
+BOOST_AUTO_TEST_CASE(a_number_that_is_called_as_a_key_is_told_so_where_it_would_be_read) {
+    const auto told = [](const std::string& message, const std::string& key) {
+        BOOST_TEST(message.find(key + " is a key of its own, ") != std::string::npos,
+                   key << ": " << message);
+    };
+    const auto errors = [](const std::string& name) {
+        return "errors = { " + name + " = '(\\S+)' }\n";
+    };
+    const std::string gate = "[1, 3]\n";
+    for (const std::string name : {"remarks", "counters", "open", "ended_by"})
+        for (const std::string until : {"", "until = { order = 0.1, levels = 4 }\n"})
+            told(refusal(errors(name), list_of("norms", {name}) + until + "[expect.ladder." + name +
+                                           "]\norder = " + gate),
+                 "expect.ladder." + name);
+    for (const std::string name : {"open", "ended_by"})
+        told(refusal(errors(name),
+                     list_of("norms", {name}) + "until = { order = 0.1, runs = 16 }\n" +
+                         "[expect.orders." + name + "]\np = " + gate,
+                     "[orders]\nelements = [2, 4]\ndt = [0.5, 0.25]\n"),
+             "expect.orders." + name);
+    const std::string timed = "[work_precision]\n";
+    const std::string scheme = "[[work_precision.scheme]]\nelements = [2, 4]\nname = ";
+    told(refusal(errors("L2"),
+                 list_of("norms", {"L2"}) + scheme +
+                     "'sooner'\n[expect.work_precision.sooner.L2]\norders = " + gate,
+                 timed),
+         "expect.work_precision.sooner");
+    told(refusal(errors("counters"),
+                 list_of("norms", {"counters"}) + scheme +
+                     "'a'\n[expect.work_precision.a.counters]\norders = " + gate,
+                 timed),
+         "expect.work_precision.a.counters");
+    // The other key of that name is read.
+    const std::string printed = list_of("norms", {"L2", "source"}) + "[ladder.printed]\n";
+    const std::string both = "errors = { L2 = 'a(\\S+)', source = 'b(\\S+)' }\n";
+    told(refusal(both, printed + "source = [1, 2]\n"), "ladder.printed.source");
+    BOOST_TEST(refusal(both, printed + "L2 = [1, 2]\n") == "");
+    BOOST_TEST(refusal(both, printed + "source = 'a table'\nL2 = [1, 2]\n") == "");
 }
 
 BOOST_AUTO_TEST_SUITE_END()
