@@ -45,7 +45,7 @@ std::string elsewhere(const std::string& name, const KeyTable& keys) {
 }
 
 InputError unknown_key(const TableReader& table, const std::string& key, const KeyTable::Node& node,
-                       const KeyTable& keys, const Place& made) {
+                       const KeyTable& keys) {
     const bool is_block = table.is_table(key);
     const auto known = node.names();
     std::string hint;
@@ -59,23 +59,21 @@ InputError unknown_key(const TableReader& table, const std::string& key, const K
     }
     if (hint.empty())
         hint = fmt::format("; known here: {}", fmt::join(known, ", "));
-    const Place place = table.place_of_key(key);
-    return {place.file.empty() ? made : place, (is_block ? "unknown block " : "unknown key ") +
-                                                   shown(table.full(key), is_block) + hint};
+    return {table.place_of_key(key), (is_block ? "unknown block " : "unknown key ") +
+                                         shown(table.full(key), is_block) + hint};
 }
 
-void require_known(TableReader table, const KeyTable::Node& node, const KeyTable& keys,
-                   const Place& made) {
+void require_known(TableReader table, const KeyTable::Node& node, const KeyTable& keys) {
     for (const auto& key : table.unread()) {
         const KeyTable::Node* inner = node.find(key);
         if (inner == nullptr)
-            throw unknown_key(table, key, node, keys, made);
+            throw unknown_key(table, key, node, keys);
         // Where a table should be and is none, its reader says so.
         if (inner->entry->type == KeyType::table && table.is_table(key))
-            require_known(*table.table(key), *inner, keys, made);
+            require_known(*table.table(key), *inner, keys);
         if (inner->entry->type == KeyType::tables && table.is_array_of_tables(key))
             for (const auto& element : table.tables(key))
-                require_known(element, *inner, keys, made);
+                require_known(element, *inner, keys);
     }
 }
 
@@ -179,8 +177,8 @@ KeyTable::KeyTable(std::vector<KeyEntry> entries) : entries_(std::move(entries))
             node_of(entry.path).like = &node_of(entry.like == "." ? "" : entry.like);
 }
 
-void require_known_keys(const TomlDocument& document, const KeyTable& keys, const Place& made) {
-    require_known(TableReader(document, document.table, ""), keys.root(), keys, made);
+void require_known_keys(const TomlDocument& document, const KeyTable& keys) {
+    require_known(TableReader(document, document.table, ""), keys.root(), keys);
 }
 
 } // namespace tvbeam

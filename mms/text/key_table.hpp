@@ -97,8 +97,7 @@ private:
 struct TomlDocument;
 
 /// Refuses a document with a key that is not in the table: throws InputError at the first, with
-/// the key that may have been meant, here or in another table. made: where a table comes from that
-/// stands in no file.
-void require_known_keys(const TomlDocument& document, const KeyTable& keys, const Place& made = {});
+/// the key that may have been meant, here or in another table.
+void require_known_keys(const TomlDocument& document, const KeyTable& keys);
 
 } // namespace tvbeam

@@ -275,8 +275,10 @@ void override_key(TomlDocument& document, const std::string& assignment) {
     for (std::size_t i = 0; i + 1 < parts.size(); ++i) {
         const std::string& key = parts[i];
         toml::node* node = table->get(key);
-        if (node == nullptr)
-            node = &table->insert_or_assign(key, toml::table{}).first->second;
+        if (node == nullptr) { // parsed, so that it has a place
+            toml::table made = toml::parse("value = {}", place.file);
+            node = &table->insert_or_assign(key, std::move(*made.get("value"))).first->second;
+        }
         if (toml::array* array = node->as_array(); array != nullptr && array->is_array_of_tables())
             node = &element_of(*array, key, parts[++i], place);
         table = node->as_table();
@@ -671,6 +673,9 @@ std::vector<std::string> TableReader::unread() const {
 void TableReader::finish() const {
     for (const auto& key : unread()) {
         const std::string hint = did_you_mean(key, known_);
+        if (owns(key))
+            throw InputError(place_of_key(key), full(key) + " does not apply here; it is for: " +
+                                                    keys_->find(key)->entry->meaning + hint);
         throw InputError(
             place_of_key(key),
             "unknown key '" + full(key) + "'" +

@@ -119,7 +119,8 @@ public:
     [[nodiscard]] InputError error(std::string_view key, const std::string& text,
                                    std::size_t element) const;
 
-    /// Refuses keys that no reader asked for, naming the nearest that one did.
+    /// Refuses keys that no reader asked for: of those in the table of keys it says what they are
+    /// for, of others the nearest that a reader asked for.
     void finish() const;
 
 private:

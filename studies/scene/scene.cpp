@@ -336,7 +336,7 @@ namespace {
 void override_keys(TomlDocument& document, const std::vector<std::string>& assignments) {
     for (const auto& assignment : assignments) {
         override_key(document, assignment);
-        require_known_keys(document, scene_keys(), {"--set " + assignment});
+        require_known_keys(document, scene_keys());
     }
 }
 

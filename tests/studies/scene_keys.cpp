@@ -96,18 +96,41 @@ const std::vector<Mistake> mistakes = {
     {beam + ladder + "[short.ladder]\nelemets = [4]\n",
      {},
      ":11:1: unknown key 'short.ladder.elemets'; did you mean 'elements'?"},
+    {beam + ladder + "[short.short.ladder]\nelements = [4]\n",
+     {},
+     ":10:8: unknown block [short.short]; did you mean [short]?"},
     {"theta = '0'\nu = '0'\n", {}, "is a solution, not a scene"},
+    // What there is, but not in this scene; with the place of what came by --set.
+    {beam + ladder + "values = ['drag']\n",
+     {},
+     ":10:1: ladder.values does not apply here; it is for: names of [solver.values]"},
+    {beam + ladder + "[expect.ladder]\nended_by = ['known']\n",
+     {},
+     ":11:1: expect.ladder.ended_by does not apply here; it is for: what ended a ladder with "
+     "`until`"},
+    {beam + ladder + "[expect.ladder.theta_L2L2]\norder = [1, 2]\n",
+     {},
+     ":11:1: expect.ladder.theta_L2L2.order does not apply here; it is for: the order along the "
+     "ladder, where it has [solver] or `until`; did you mean 'orders'?"},
+    {beam + ladder,
+     {"expect.ladder.theta_L2L2.gci.limit=[0,1]"},
+     "--set expect.ladder.theta_L2L2.gci.limit=[0,1]: expect.ladder.theta_L2L2.gci does not apply "
+     "here; it is for: what the grid convergence index says of a value"},
+    {beam + ladder,
+     {"expect.ladder.foo.orders=[1,2]"},
+     "--set expect.ladder.foo.orders=[1,2]: expect.ladder.foo expects something of what the study "
+     "does not measure"},
 };
 
 } // namespace
 
-BOOST_DATA_TEST_CASE(a_misspelt_key_is_named, data::make(mistakes)) {
+BOOST_DATA_TEST_CASE(a_key_that_cannot_be_is_named, data::make(mistakes)) {
     const TemporaryDirectory directory;
     const auto file = directory.path() / "scene.toml";
     std::ofstream(file) << sample.text;
     std::string message;
     try {
-        read_scene(file.string(), sample.overrides);
+        read_scene(file.string(), sample.overrides, {.expectations = true});
     } catch (const InputError& error) {
         message = error.what();
     }
