@@ -420,9 +420,8 @@ std::string why_not_of(const Norm& norm, const ExpectedOrders& expected,
     if (scheme.name == "sdirk2" && forecaster.is_hardly_viscous() && (of_u || !of_theta))
         return small_viscosity;
     if (scheme.name == "bdf2" && expected.first_step_lags && (of_u || !of_theta))
-        return "with zeta below T/100 the first step of BDF2, which is one of SDIRK2, may be most "
-               "of "
-               "the error";
+        return "with zeta below T/100 the first step of BDF2, which is one of SDIRK2, may be "
+               "most of the error";
     if (forecaster.jumps_at_first() && peak_of_theta)
         return "without viscosity the temperature jumps in the first step, where a maximum over "
                "time may stand";
@@ -449,7 +448,8 @@ std::vector<NormConstants> constants_of(const Squared& squared, const Forecaster
         const Norm norm = *Norm::named(name);
         const double root = norm.squared ? 0.5 : 1.0;
         NormConstants constants{name, {}, std::nullopt, std::nullopt};
-        constants.unknown = why_not_of(norm, expected, forecaster, scheme);
+        if (order->in_h.has_error() || order->euler.has_error())
+            constants.unknown = why_not_of(norm, expected, forecaster, scheme);
         if (!constants.unknown.empty()) {
             all.push_back(constants);
             continue;

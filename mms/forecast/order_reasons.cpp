@@ -66,6 +66,46 @@ void add_contact_reasons(const ExpectedOrders& known, const Beam& beam,
             "loses a part of the order to that; its orders scatter from row to row.");
 }
 
+/// Of what is quadratic in t, of stages that miss the ends, and of those that lag.
+void add_first_step_reasons(const ExpectedOrders& known, const Beam& beam,
+                            std::vector<std::string>& text) {
+    const bool coupled = beam.alpha != 0.0;
+    if (known.theta_is_quadratic || known.u_is_quadratic) {
+        const std::string what = coupled ? "theta and u_xx are of degree 2 at most in t"
+                                 : !known.u_is_quadratic     ? "theta is quadratic in t"
+                                 : !known.theta_is_quadratic ? "u_xx is quadratic in t"
+                                                             : "theta and u_xx are quadratic in t";
+        const std::string where = known.is_quadratic()       ? ""
+                                  : known.theta_is_quadratic ? " in theta"
+                                                             : " in u";
+        text.push_back(what + ": BDF2 has no error" + where +
+                       " but that of its first step, which SDIRK2 makes: order " +
+                       (known.first_step_lags    ? "3 in small steps."
+                        : known.stages_miss_ends ? "2.25 to 3."
+                                                 : "3."));
+    }
+    if (known.stages_miss_ends)
+        text.push_back(std::string(beam.zeta == 0.0 ? "zeta = 0" : "zeta is below T/100") +
+                       ", and u_xxtt is not zero at an end of the beam, where the temperature is "
+                       "fixed: stages of SDIRK2 leave a layer there, and theta_x has its order "
+                       "1.75 to 2 in dt" +
+                       (beam.zeta == 0.0 ? "." : ", 2 in steps far below zeta alone."));
+    if (known.stages_lag)
+        text.push_back("zeta is below T/100: in steps longer than that the stages of SDIRK2, of "
+                       "order 1, leave zeta*dt*u_xxtt in u" +
+                       std::string(coupled
+                                       ? ", and by the coupling in theta, which has 1 in dt, or "
+                                         "what theta brings to it, and 2 in steps far below "
+                                         "zeta alone."
+                                       : ", which has 1 in dt, and 2 in steps far below zeta "
+                                         "alone.") +
+                       (known.first_step_lags
+                            ? " So does the first step of BDF2, which SDIRK2 makes: 1 in maxima "
+                              "over time, 1.5 in L2 over time, and in small steps it falls like "
+                              "dt^3."
+                            : ""));
+}
+
 void add_switch_reasons(const ExpectedOrders& known, std::vector<std::string>& text) {
     const auto is_linear_beside = [&](const Switch& change) {
         return change.theta_t_jump > 0.0 ? known.theta_is_linear_in_pieces
@@ -127,38 +167,7 @@ std::vector<std::string> order_reasons(const ExpectedOrders& known, const Beam& 
                                            : "u_xx is linear in t, and alpha = 0: no scheme has a "
                                              "time error in u, and no order in dt is visible "
                                              "there.");
-    if (known.theta_is_quadratic || known.u_is_quadratic) {
-        const std::string what = coupled ? "theta and u_xx are of degree 2 at most in t"
-                                 : !known.u_is_quadratic     ? "theta is quadratic in t"
-                                 : !known.theta_is_quadratic ? "u_xx is quadratic in t"
-                                                             : "theta and u_xx are quadratic in t";
-        const std::string where = known.is_quadratic()       ? ""
-                                  : known.theta_is_quadratic ? " in theta"
-                                                             : " in u";
-        text.push_back(what + ": BDF2 has no error" + where +
-                       " but that of its first step, which SDIRK2 makes: order " +
-                       (known.first_step_lags    ? "3 in small steps."
-                        : known.stages_miss_ends ? "2.25 to 3."
-                                                 : "3."));
-    }
-    if (known.stages_miss_ends)
-        text.push_back(std::string(beam.zeta == 0.0 ? "zeta = 0" : "zeta is below T/100") +
-                       ", and u_xxtt is not zero at an end of the beam, where the temperature is "
-                       "fixed: stages of SDIRK2 leave a layer there, and theta_x has its order "
-                       "1.75 to 2 in dt" +
-                       (beam.zeta == 0.0 ? "." : ", 2 in steps far below zeta alone."));
-    if (known.stages_lag)
-        text.push_back("zeta is below T/100: in steps longer than that the stages of SDIRK2, of "
-                       "order 1, leave "
-                       "zeta*dt*u_xxtt in u" +
-                       std::string(coupled ? ", and by the coupling in theta" : "") +
-                       ", which has 1 in dt, or what theta brings to it, and 2 in steps far below "
-                       "zeta alone." +
-                       (known.first_step_lags
-                            ? " So does the first step of BDF2, which SDIRK2 makes: 1 in maxima "
-                              "over time, 1.5 "
-                              "in L2 over time, and in small steps it falls like dt^3."
-                            : ""));
+    add_first_step_reasons(known, beam, text);
     add_switch_reasons(known, text);
     for (const Cusp& cusp : known.cusps)
         for (const bool of_theta : {true, false}) {

@@ -101,11 +101,17 @@ std::vector<Tick> decimal_ticks(const AxisRange& range, const std::vector<int>& 
 }
 
 void make_logarithmic_readable(Axis& axis, const AxisRange& range) {
-    if (powers_of_ten(range).size() > 1)
+    if (powers_of_ten(range).size() > 1 || !(range.first <= range.second))
         return;
-    auto ticks = decimal_ticks(range, {1, 2, 5});
+    if (!axis.range) { // which is whole decades otherwise, without a number in most of them
+        constexpr double one_value = 1.0 + 1e-6;
+        const double ratio = range.second / range.first;
+        const double room = ratio > one_value ? std::pow(ratio, 0.05) : 2.0;
+        axis.range = {range.first / room, range.second * room};
+    }
+    auto ticks = decimal_ticks(*axis.range, {1, 2, 5});
     if (ticks.size() < 2)
-        if (auto even = linear_ticks(range); !even.empty())
+        if (auto even = linear_ticks(*axis.range); !even.empty())
             ticks = std::move(even);
     if (!ticks.empty())
         axis.ticks = std::move(ticks);
