@@ -478,6 +478,8 @@ BOOST_AUTO_TEST_CASE(little_viscosity_shows_the_order_of_the_stages) {
         }
         BOOST_TEST(words("x^2*(1 + x)*t", 0.0, zeta, u_LinfH2, sdirk2) == "-", zeta);
     }
+    // A second rate that has a pole at t = 0 is none that vanishes.
+    BOOST_TEST(words("x^2*(3 - x)*t^(3/2)", 0.3, 1e-4, u_LinfH2, bdf2) == "1 to 3");
     BOOST_TEST(words(quadratic, 0.7, 0.1, theta_L2L2, bdf2) == "3");
     BOOST_TEST(words(swing, 0.7, 0.1, theta_L2H1, sdirk2) == "2");
     BOOST_TEST(words(swing, 0.0, 0.1, u_LinfH2, sdirk2) == "2");
