@@ -59,9 +59,11 @@ std::optional<double> greatest_divisor(const std::vector<Series>& measured, doub
         for (const auto& rung : series.rungs)
             steps.push_back(rung.dt);
     const double finest = std::ranges::min(steps);
-    constexpr double few = 100.0;
-    for (double parts = std::ceil(finest / most); parts <= few; parts += 1.0)
-        if (std::ranges::all_of(steps, [&](double dt) { return divides(finest / parts, dt); }))
+    const double fewest = std::ceil(finest / most);
+    constexpr int few = 100;
+    for (int parts = 1; parts <= few; ++parts)
+        if (parts >= fewest &&
+            std::ranges::all_of(steps, [&](double dt) { return divides(finest / parts, dt); }))
             return finest / parts;
     return std::nullopt;
 }

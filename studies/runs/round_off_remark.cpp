@@ -43,9 +43,11 @@ std::vector<double> times_of(const ProblemData& data, const Series& series) {
         steps = std::ranges::min_element(series.rungs, {}, &Rung::steps)->steps;
     const std::int64_t count = std::min(steps, most);
     std::vector<double> times;
-    for (std::int64_t n = is_computed ? 1 : 0; n <= count; ++n)
-        times.push_back(series.final_time * static_cast<double>(n * steps / count) /
+    for (std::int64_t n = is_computed ? 1 : 0; n <= count; ++n) {
+        const std::int64_t level = n * steps / count; // rounded down
+        times.push_back(series.final_time * static_cast<double>(level) /
                         static_cast<double>(steps));
+    }
     return times;
 }
 

@@ -59,7 +59,7 @@ BOOST_DATA_TEST_CASE(a_run_that_is_asked_to_end_keeps_what_it_finished,
     const TemporaryDirectory directory;
     const std::string out = (directory.path() / "out").string();
     const Called cut = call(directory, ladder(directory, many) + " --out " + out,
-                            std::string("timeout -s ") + signal + " 1 ");
+                            std::string("timeout -s ") + signal + (short_tests ? " 3 " : " 1 "));
     BOOST_TEST(cut.exit == 124); // timeout's: it had to send the signal
     BOOST_TEST(has(cut.errors, "interrupted; the result holds what was finished; --resume"),
                cut.errors);
