@@ -42,28 +42,25 @@ public:
 
     std::vector<TermUse> terms() {
         using Phase = DerivedPhase;
-        const auto field = [](ex Phase::*part) -> Formula {
-            return [part](const Phase& phase) { return phase.*part; };
+        const auto part = [](ex Phase::*member) -> Formula {
+            return [member](const Phase& phase) { return phase.*member; };
         };
         // The one that derive leaves out where ζ = 0.
         const auto u_xxxt = [](const Phase& phase) {
             return derivative(phase.u_xxt, model_symbols().x);
         };
-        const std::vector<Size> sizes = inside(
-            {field(&Phase::theta_t), field(&Phase::theta_xx), field(&Phase::u_xxt),
-             field(&Phase::heat_source), field(&Phase::body_force), field(&Phase::sigma),
-             field(&Phase::u_xxx), u_xxxt, field(&Phase::theta_x), field(&Phase::couple_load)});
-        auto next = sizes.begin();
-        add("(1)", "theta_t", *next++, "theta is steady");
-        add("(1)", "theta_xx", *next++, "theta is linear in x");
-        add_product("(1)", "alpha", beam_.alpha, "u_xxt", *next++);
-        add("(1)", "a heat source f", *next++, "f is zero");
-        add("(2)", "a body force q", *next++, "sigma does not depend on x");
-        add("(3)", "sigma", *next++, "sigma is zero");
-        add("(3)", "u_xxx", *next++, "u is quadratic in x");
-        add_product("(3)", "zeta", beam_.zeta, "u_xxxt", *next++);
-        add_product("(3)", "alpha", beam_.alpha, "theta_x", *next++);
-        add("(3)", "a load G", *next++, "G is zero");
+        add_inside({
+            {"(1)", "theta_t", part(&Phase::theta_t), "theta is steady"},
+            {"(1)", "theta_xx", part(&Phase::theta_xx), "theta is linear in x"},
+            {"(1)", "u_xxt", part(&Phase::u_xxt), "u_xxt is zero", "alpha", beam_.alpha},
+            {"(1)", "a heat source f", part(&Phase::heat_source), "f is zero"},
+            {"(2)", "a body force q", part(&Phase::body_force), "sigma does not depend on x"},
+            {"(3)", "sigma", part(&Phase::sigma), "sigma is zero"},
+            {"(3)", "u_xxx", part(&Phase::u_xxx), "u is quadratic in x"},
+            {"(3)", "u_xxxt", u_xxxt, "u_xxxt is zero", "zeta", beam_.zeta},
+            {"(3)", "theta_x", part(&Phase::theta_x), "theta_x is zero", "alpha", beam_.alpha},
+            {"(3)", "a load G", part(&Phase::couple_load), "G is zero"},
+        });
         add_contact();
         add("(9)", "an end moment m", end_moment(), "m is zero");
         add("(10)", "an end temperature theta_A", {std::abs(beam_.theta_A)}, "theta_A = 0");
@@ -80,12 +77,6 @@ private:
              const std::string& why_not) {
         const std::string seen = size.is_zero ? "" : ", as far as was seen";
         terms_.push_back({equation, term, size.largest, size.largest > 0.0 ? "" : why_not + seen});
-    }
-
-    void add_product(const std::string& equation, const std::string& factor, double value,
-                     const std::string& other, const Size& size) {
-        add(equation, factor + "*" + other, {value * size.largest, value == 0.0 || size.is_zero},
-            value == 0.0 ? factor + " = 0" : other + " is zero");
     }
 
     /// A formula that vanishes identically is zero, whatever rounding makes of it.
@@ -109,27 +100,46 @@ private:
 
     using Formula = std::function<ex(const DerivedPhase&)>;
 
-    /// Of fields inside the beam. Each is looked at where another is largest, too: a layer that is
-    /// met in one of them is seen in all.
-    [[nodiscard]] std::vector<Size> inside(const std::vector<Formula>& formulas) const {
-        std::vector<Size> sizes(formulas.size());
+    /// A term inside the beam, and the parameter that it is multiplied by.
+    struct Field {
+        std::string equation, name;
+        Formula formula;
+        std::string why_not;
+        std::string factor = {}; ///< empty: none
+        double value = 1.0;
+    };
+
+    void add_inside(const std::vector<Field>& fields) {
+        const std::vector<Size> sizes = sizes_of(fields);
+        for (std::size_t k = 0; k < fields.size(); ++k) {
+            const Field& field = fields[k];
+            const bool is_off = field.value == 0.0;
+            add(field.equation, field.factor.empty() ? field.name : field.factor + "*" + field.name,
+                {field.value * sizes[k].largest, is_off || sizes[k].is_zero},
+                is_off ? field.factor + " = 0" : field.why_not);
+        }
+    }
+
+    /// Each is looked at where another is largest, too: a layer that is met in one of them is seen
+    /// in all.
+    [[nodiscard]] std::vector<Size> sizes_of(const std::vector<Field>& fields) const {
+        std::vector<Size> sizes(fields.size());
         for (std::size_t i = 0; i < times_.size(); ++i) {
             std::vector<std::optional<Tape>> tapes;
             std::vector<double> x;
             std::vector<double> t;
-            for (const Formula& formula : formulas) {
-                tapes.push_back(tape_unless_zero(formula(derived_.derived[i])));
-                if (!tapes.back())
-                    continue;
-                const LargestPoint found =
-                    largest_point(values_of(*tapes.back()), along_beam, times_[i]);
+            for (const Field& field : fields) {
+                tapes.push_back(tape_unless_zero(field.formula(derived_.derived[i])));
+                const auto found =
+                    tapes.back() ? largest_point(values_of(*tapes.back()), along_beam, times_[i])
+                                 : LargestPoint();
                 if (found.size > 0.0) {
                     x.push_back(found.x);
                     t.push_back(found.t);
                 }
             }
             const auto count = static_cast<Eigen::Index>(x.size());
-            for (std::size_t k = 0; k < formulas.size(); ++k) {
+            for (std::size_t k = 0; k < fields.size(); ++k) {
                 if (!tapes[k])
                     continue;
                 sizes[k].is_zero = false;

@@ -66,7 +66,8 @@ std::vector<bool> numbers_in(const Program& program) {
 }
 
 /// Steps that get a name: those that are read more than once and worth one (compilers find pi*y/2
-/// again by themselves), and numbers of functions where the compiler would refuse exp(-800.0).
+/// again by themselves), and numbers of functions that over- or underflow, where the compiler would
+/// refuse exp(-800.0).
 std::vector<int> named_steps(const Program& program, const Dialect& dialect) {
     constexpr double worth_a_name = 4.0; // operands: of two operations
     const auto& steps = program.steps();
@@ -83,7 +84,8 @@ std::vector<int> named_steps(const Program& program, const Dialect& dialect) {
     std::vector<bool> named(steps.size(), false);
     if (dialect.refuses_numbers)
         for (const auto& step : steps)
-            if (step.operation == Operation::function)
+            if (step.operation == Operation::function &&
+                (step.text == "exp" || step.text == "sinh" || step.text == "cosh"))
                 named[static_cast<std::size_t>(step.left)] =
                     numbers[static_cast<std::size_t>(step.left)];
     for (std::size_t i = 0; i < steps.size(); ++i)

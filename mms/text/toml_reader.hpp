@@ -5,6 +5,7 @@
 #include "mms/text/key_table.hpp"
 #include "mms/text/number_text.hpp"
 #include "mms/text/source_text.hpp"
+#include "mms/text/toml_document.hpp"
 
 #include <toml++/toml.h>
 
@@ -15,30 +16,6 @@
 #include <vector>
 
 namespace tvbeam {
-
-/// A TOML document with the text it was read from, which places in strings need.
-struct TomlDocument {
-    std::string file;
-    std::string text;
-    toml::table table;
-    LineIndex lines = {};
-    AskedKeys* asked = nullptr; ///< where its readers note it; null: nowhere
-};
-
-/// Reads a file, its text alone, or a text that is said to be one. Throws InputError when it is
-/// missing, too large or not TOML.
-TomlDocument read_toml(const std::string& file);
-std::string toml_text(const std::string& file);
-TomlDocument parse_toml(std::string text, const std::string& file);
-
-/// Replaces or adds the key `a.b.c` of the document; `assignment` is "a.b.c=value" with a TOML
-/// value, or a text that is taken as a string when it is not one. A part in quotes may hold dots.
-/// Where a.b is an array of tables, the key behind it is the number of one, from 0. Throws
-/// InputError when it has no '=' or no key, or when a.b is not a table.
-void override_key(TomlDocument& document, const std::string& assignment);
-
-/// Takes the table at `key` away and puts its values in place of those of the same path.
-void merge_block(TomlDocument& document, std::string_view key);
 
 /// A number that was given, as messages print it: 12 significant digits.
 inline std::string message_text(double value) {

@@ -1,7 +1,7 @@
 #include "reports/sweep/sweep.hpp"
 
 #include "mms/text/input_error.hpp"
-#include "mms/text/override_value.hpp"
+#include "mms/text/toml_document.hpp"
 #include "reports/document/json_text.hpp"
 #include "reports/document/result_document.hpp"
 #include "reports/formats/json_report.hpp"
@@ -320,13 +320,6 @@ std::vector<std::string> overrides_of(const Sweep& sweep) {
     return sweep.overrides(fmt::format("{}", fmt::join(sweep.values, ",")));
 }
 
-std::vector<std::string> shown_values(const Sweep& sweep) {
-    std::vector<std::string> all;
-    for (std::size_t i = 0; i < sweep.values.size(); ++i)
-        all.push_back(sweep.shown(i));
-    return all;
-}
-
 std::string sweep_json(const Sweep& sweep, const std::vector<StudyResult>& results) {
     using Json = nlohmann::ordered_json;
     Json json{{"schema", sweep_schema}, {"key", sweep.key}};
@@ -535,7 +528,7 @@ Reported reported(const Sweep& sweep, const std::vector<StudyResult>& results) {
     all.document.title = results.empty() ? sweep.key : results.front().scene.title;
     if (has_defect(results))
         all.document.title = std::string(defect_words) + ": " + all.document.title;
-    all.document.head = {sweep.key + " = " + values_text(shown_values(sweep))};
+    all.document.head = {sweep.key + " = " + values_text(sweep.values)};
     for (auto& caution : cautions(sweep, results))
         all.document.head.push_back(std::move(caution));
     if (!results.empty())
