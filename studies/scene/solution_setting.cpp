@@ -18,7 +18,9 @@ namespace {
 
 bool is_scene_file(const std::filesystem::path& file) {
     const auto table = read_toml(file.string()).table;
-    return table.contains("beam") || table.contains("solver");
+    return table.contains("beam") || table.contains("solver") ||
+           std::ranges::any_of(study_kinds(),
+                               [&](const auto& kind) { return table.contains(kind->name()); });
 }
 
 SolutionSetting setting_of(const Scene& scene) {
