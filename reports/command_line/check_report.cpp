@@ -6,6 +6,7 @@
 
 #include <fmt/color.h>
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cstdlib>
@@ -62,6 +63,21 @@ std::string check_markdown(const std::vector<CheckedScene>& scenes) {
                                 one.expected, markdown_text(one.found));
     }
     return table + "\n" + (violations.empty() ? "" : violations + "\n");
+}
+
+nlohmann::ordered_json check_json(const CheckedScene& scene) {
+    nlohmann::ordered_json json{{"passed", scene.passed()},
+                                {"expectations", scene.expectations.size()},
+                                {"violations", nlohmann::ordered_json::array()}};
+    if (!scene.error.empty())
+        json["error"] = scene.error;
+    for (const auto& one : scene.expectations)
+        if (!one.holds)
+            json["violations"].push_back({{"what", one.what},
+                                          {"expected", one.expected},
+                                          {"found", one.found},
+                                          {"place", place_text(one.place)}});
+    return json;
 }
 
 void add_to_step_summary(const std::string& markdown) {

@@ -2,6 +2,8 @@
 
 #include "reports/formats/junit_report.hpp"
 
+#include <nlohmann/json_fwd.hpp>
+
 #include <string>
 #include <vector>
 
@@ -13,6 +15,9 @@ std::string check_report(const CheckedScene& scene, bool coloured = false);
 
 /// Checked scenes as Markdown: a table, and a list of the violations.
 std::string check_markdown(const std::vector<CheckedScene>& scenes);
+
+/// The block "check" of a result as JSON: whether the scene passed, and what it violates.
+nlohmann::ordered_json check_json(const CheckedScene& scene);
 
 /// Appends Markdown to the file that $GITHUB_STEP_SUMMARY names; nothing where it is not set.
 /// Throws OutputError where it cannot be written; an empty text only asks.

@@ -38,6 +38,38 @@ BOOST_AUTO_TEST_CASE(check_fails_with_one_and_a_line_for_each_violation) {
     BOOST_TEST(has(directory.read("j.xml"), "<failure message=\"expected 1.9 to 2.1"));
 }
 
+BOOST_AUTO_TEST_CASE(the_result_of_a_checked_scene_says_what_it_violates) {
+    const TemporaryDirectory directory;
+    const Called called = call(
+        directory, "check heated-end --json - --set 'expect.ladder.theta_L2H1.orders=[1.9,2.1]'");
+    BOOST_TEST(called.exit == 1);
+    const auto result = nlohmann::json::parse(called.output);
+    std::size_t outside = 0;
+    for (const auto& level : result["ladder"]["rungs"])
+        if (const auto& order = level["orders"]["theta_L2H1"]; !order.is_null())
+            outside += order.get<double>() < 1.9 || order.get<double>() > 2.1 ? 1 : 0;
+    BOOST_TEST_REQUIRE(outside > 0);
+    const auto& check = result["check"];
+    BOOST_TEST(!check["passed"].get<bool>());
+    BOOST_TEST(check["violations"].size() == outside, check);
+    BOOST_TEST(check["expectations"].get<std::size_t>() > outside);
+    BOOST_TEST(has(check["violations"][0]["what"].get<std::string>(), "theta_L2H1"));
+    BOOST_TEST(check["violations"][0]["expected"] == "1.9 to 2.1");
+
+    const Called passed = call(directory, "check heated-end --json -");
+    BOOST_TEST(passed.exit == 0);
+    BOOST_TEST(nlohmann::json::parse(passed.output)["check"]["passed"].get<bool>());
+    const Called failed = call(directory, "check heated-end --json - --set beam.alpha=1e200");
+    BOOST_TEST(failed.exit == 3);
+    const auto why = nlohmann::json::parse(failed.output)["check"];
+    BOOST_TEST(!why["passed"].get<bool>());
+    BOOST_TEST(why["error"].is_string());
+
+    for (const auto* words : {"heated-end free-oscillation --json -",
+                              "heated-end --json - --junit -", "heated-end --json - --record -"})
+        BOOST_TEST(call(directory, "check " + std::string(words)).exit == 2, words);
+}
+
 BOOST_AUTO_TEST_CASE(check_of_a_run_that_fails_exits_with_three) {
     const TemporaryDirectory directory;
     const Called called = call(directory, "check heated-end --set beam.alpha=1e200");

@@ -297,12 +297,16 @@ BOOST_AUTO_TEST_CASE(json_keeps_to_its_schema) {
           {"timed", "run table1-work-precision" + timed},
           {"stress", "run stress-contact" + few},
           {"evolution", "run figure1 --set evolution.every=50"},
+          {"checked", "check heated-end --short --set 'expect.ladder.theta_L2H1.orders=[1.9,2.1]'"},
           {"map", "run fixed-point-limits --set stress.contraction.elements=4"},
           {"reference", "run figure1-ladder --set reference.elements=16 --set reference.dt=0.01 "
                         "--set ladder.elements=[2,4] --set ladder.dt=[0.1,0.05]"}}) {
         const std::string file = (directory.path() / (name + ".json")).string();
         const Called called = call(directory, arguments + " --json " + file);
-        BOOST_TEST(called.exit == (name == "failed" ? 3 : 0), name << called.errors);
+        BOOST_TEST(called.exit == (name == "failed"    ? 3
+                                   : name == "checked" ? 1
+                                                       : 0),
+                   name << called.errors);
         instances += " -i " + file;
     }
     const std::string validate = "python3 -W ignore -m jsonschema " TVBEAM_SCHEMA;

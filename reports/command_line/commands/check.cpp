@@ -8,11 +8,14 @@
 #include "reports/command_line/commands/shared_options.hpp"
 #include "reports/command_line/commands/shown_run.hpp"
 #include "reports/command_line/end_requests.hpp"
+#include "reports/document/json_text.hpp"
 #include "reports/files/baseline.hpp"
+#include "reports/formats/json_report.hpp"
 #include "reports/formats/report_format.hpp"
 #include "reports/sweep/sweep.hpp"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <chrono>
@@ -34,6 +37,7 @@ struct CheckOptions {
     std::vector<std::string> scenes;
     std::vector<std::string> overrides;
     bool short_form = false;
+    std::string json;
     std::string junit;
     std::string record;
     bool whole = false;
@@ -91,10 +95,15 @@ void require_checkable(const std::vector<Scene>& scenes, const CheckOptions& opt
                 {scene.file},
                 "has no [expect] block, so there is nothing to check; add one, or record a "
                 "baseline with --record");
+    if (!options.json.empty() && scenes.size() > 1)
+        throw InputError({"--json"}, "takes the result of one scene; name one, or give --junit, "
+                                     "which takes what is found of all");
     std::set<std::string> recorded;
+    require_no_input("--json", options.json, {options.baseline});
     require_no_input("--junit", options.junit, {options.baseline});
     for (const auto& scene : scenes) {
         require_runnable(scene);
+        require_no_input("--json", options.json, files_of(scene));
         require_no_input("--junit", options.junit, files_of(scene));
         require_no_input("--record", options.record, files_of(scene));
         if (is_compared)
@@ -109,7 +118,7 @@ class SceneChecks {
 public:
     SceneChecks(const CheckOptions& options, const std::vector<Scene>& scenes,
                 const std::optional<Baseline>& baseline)
-        : options_(options), scenes_(scenes), baseline_(baseline),
+        : options_(options), scenes_(scenes), baseline_(baseline), json_(destination(options.json)),
           junit_(destination(options.junit)), record_(options.record) {
         for (const auto& scene : scenes)
             if (!options.whole)
@@ -126,11 +135,13 @@ public:
     }
 
     void write() {
+        if (json_.wanted())
+            json_.write(json_text(result_));
         if (junit_.wanted())
             junit_.write(junit_report(checked_));
         if (record_.wanted() && !interrupted_) {
             record_.write(entries_);
-            if (!record_.standard_output() && !junit_.standard_output() && !options_.quiet)
+            if (!is_piped() && !options_.quiet)
                 show(recorded_report(entries_, options_.record));
         }
         add_to_step_summary(check_markdown(checked_));
@@ -167,6 +178,10 @@ private:
         one.seconds = elapsed(); // what is expected may take its time, too
         if (!interrupted_)
             show_checked(one);
+        if (json_.wanted()) {
+            result_ = result_json(result);
+            result_["check"] = check_json(one);
+        }
         const std::scoped_lock lock(mutex_);
         checked_.push_back(one);
         return !interrupted_;
@@ -187,9 +202,13 @@ private:
 
     void show_checked(const CheckedScene& one) {
         const bool only_recorded = record_.wanted() && one.passed() && one.expectations.empty();
-        if (!junit_.standard_output() && !record_.standard_output() && !only_recorded &&
-            !(options_.quiet && one.passed()))
+        if (!is_piped() && !only_recorded && !(options_.quiet && one.passed()))
             show(check_report(one, coloured()));
+    }
+
+    /// Whether what is written, and not what is shown, goes to standard output.
+    [[nodiscard]] bool is_piped() const {
+        return json_.standard_output() || junit_.standard_output() || record_.standard_output();
     }
 
     /// Files do not depend on what standard output takes.
@@ -198,7 +217,7 @@ private:
             if (!lost_)
                 write_standard_output(text);
         } catch (const OutputError&) {
-            if (!junit_.wanted() && !record_.wanted())
+            if (!json_.wanted() && !junit_.wanted() && !record_.wanted())
                 throw;
             lost_ = std::current_exception();
         }
@@ -222,8 +241,10 @@ private:
     const CheckOptions& options_;
     const std::vector<Scene>& scenes_;
     const std::optional<Baseline>& baseline_;
+    Destination json_;
     Destination junit_;
     Record record_;
+    nlohmann::ordered_json result_;      ///< of the one scene, with what is found of it
     std::vector<BaselineEntry> entries_; ///< to be recorded
     std::vector<CheckedScene> checked_;
     std::mutex mutex_; ///< of checked_
@@ -256,6 +277,8 @@ Command add_check(CLI::App& app) {
     add_overrides(*check, options->overrides, "override a key in every scene (again and again)");
     check->add_flag("--short", options->short_form,
                     "with the scenes' [short] blocks: the form for CI");
+    add_file(*check, "--json", options->json,
+             "write the result of one scene as JSON, with a block \"check\": what it violates");
     add_file(*check, "--junit", options->junit, "write JUnit XML");
     add_file(*check, "--record", options->record, "write a baseline of every error found");
     check
@@ -267,6 +290,8 @@ Command add_check(CLI::App& app) {
     add_really_long(*check, options->really_long);
     add_jobs(*check, options->jobs);
     return {check, [options] {
+                require_apart("--json", options->json, "--junit", options->junit);
+                require_apart("--json", options->json, "--record", options->record);
                 require_apart("--junit", options->junit, "--record", options->record);
                 return check_command(*options);
             }};
