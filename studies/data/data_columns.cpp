@@ -134,8 +134,11 @@ void choose_widths(const ColumnNames& names, const DataChoice& choice, DataFile&
         data.widths.push_back({name, {}});
         uses.push_back(use);
     }
-    const auto step =
-        choice.step ? std::optional(names.need(*choice.step, "--step")) : names.find("dt");
+    auto step = names.find("dt");
+    if (choice.step)
+        step = names.need(*choice.step, "--step");
+    else if (step && names.blank.contains(*step))
+        step.reset();
     if (step && std::none_of(uses.begin(), uses.end(),
                              [&](const ColumnUse& use) { return use.column == *step; })) {
         const std::string name = choice.step.value_or("dt");

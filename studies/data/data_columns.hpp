@@ -8,6 +8,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,8 @@ namespace tvbeam {
 struct ColumnNames {
     std::vector<std::string> all;
     Place place; ///< of their line
+    /// Where the first record has nothing: dt of what has no steps in time.
+    std::set<std::size_t> blank = {};
 
     /// As it is written, or else in other cases of letters. Throws InputError where two are meant.
     [[nodiscard]] std::optional<std::size_t> find(const std::string& name) const;

@@ -253,6 +253,29 @@ Head head_of(Lines& lines) {
                                     "h,dt,error");
 }
 
+/// The fields of a line; false: it is empty, a comment, or the rule below the names.
+bool split_record(const Lines& lines, const Head& head, std::vector<TextField>& fields) {
+    const auto line = trimmed(lines.line());
+    if (line.empty() || line.starts_with('#') || line.starts_with('%') ||
+        (head.separator == '|' && is_rule(line)))
+        return false;
+    split(lines, head.separator == ' ' ? line : lines.line(), head.separator, fields);
+    return true;
+}
+
+/// The columns in which the first record has nothing.
+std::set<std::size_t> blank_columns(Lines lines, const Head& head) {
+    std::vector<TextField> fields;
+    std::set<std::size_t> blank;
+    bool more = head.numbers_follow || lines.next();
+    while (more && !split_record(lines, head, fields))
+        more = lines.next();
+    for (std::size_t i = 0; more && i < fields.size(); ++i)
+        if (fields[i].text.empty())
+            blank.insert(i);
+    return blank;
+}
+
 /// The first number with a decimal point and the first with a decimal comma: a file that has both
 /// has a comma for thousands, and nobody can tell where.
 class DecimalMark {
@@ -412,18 +435,15 @@ DataFile read_data(const std::string& file, const DataChoice& choice) {
         throw InputError({data.name}, "is JSON; a table is asked for, whose first line names the "
                                       "columns, e.g. h,dt,error, and each other is a record");
     const Head head = head_of(lines);
-    const ColumnNames names{head.names, head.place};
+    const ColumnNames names{head.names, head.place, blank_columns(lines, head)};
     std::vector<ColumnUse> uses = choose_columns(names, choice, data);
     auto conditions = conditions_of(names, choice.where);
     auto unread = unread_columns(names, uses, conditions);
     DecimalMark mark;
     std::vector<TextField> fields;
     for (bool more = head.numbers_follow || lines.next(); more; more = lines.next()) {
-        const auto line = trimmed(lines.line());
-        if (line.empty() || line.starts_with('#') || line.starts_with('%') ||
-            (head.separator == '|' && is_rule(line)))
+        if (!split_record(lines, head, fields))
             continue;
-        split(lines, head.separator == ' ' ? line : lines.line(), head.separator, fields);
         if (fields.size() != head.names.size())
             throw InputError(lines.place(1), "has " + std::to_string(fields.size()) +
                                                  (fields.size() == 1 ? " field" : " fields") +
