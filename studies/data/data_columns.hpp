@@ -18,7 +18,7 @@ namespace tvbeam {
 struct ColumnNames {
     std::vector<std::string> all;
     Place place; ///< of their line
-    /// Where the first record has nothing: dt of what has no steps in time.
+    /// Those in which no record has anything: dt of what has no steps in time.
     std::set<std::size_t> blank = {};
 
     /// As it is written, or else in other cases of letters. Throws InputError where two are meant.

@@ -263,16 +263,18 @@ bool split_record(const Lines& lines, const Head& head, std::vector<TextField>& 
     return true;
 }
 
-/// The columns in which the first record has nothing.
+/// The columns in which no record has anything.
 std::set<std::size_t> blank_columns(Lines lines, const Head& head) {
-    std::vector<TextField> fields;
     std::set<std::size_t> blank;
-    bool more = head.numbers_follow || lines.next();
-    while (more && !split_record(lines, head, fields))
-        more = lines.next();
-    for (std::size_t i = 0; more && i < fields.size(); ++i)
-        if (fields[i].text.empty())
-            blank.insert(i);
+    for (std::size_t i = 0; i < head.names.size(); ++i)
+        blank.insert(i);
+    std::vector<TextField> fields;
+    for (bool more = head.numbers_follow || lines.next(); more && !blank.empty();
+         more = lines.next())
+        if (split_record(lines, head, fields))
+            std::erase_if(blank, [&](std::size_t i) {
+                return i >= fields.size() || !fields[i].text.empty();
+            });
     return blank;
 }
 
