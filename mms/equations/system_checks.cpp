@@ -60,29 +60,37 @@ public:
 private:
     void say(const Place& place, const std::string& text) { remarks_.push_back({place, text}); }
 
+    [[nodiscard]] std::map<std::string, Rounded> rounded_names_at(const DomainPoint& point) const {
+        std::map<std::string, Rounded> names;
+        for (const auto& [name, value] : names_at(derived_, point))
+            names[name] = value;
+        return names;
+    }
+
     [[nodiscard]] std::vector<Rounded> values_of(const Program& program) const {
         std::vector<Rounded> result;
-        for (const auto& point : points_) {
-            std::map<std::string, Rounded> names;
-            for (const auto& [name, value] : names_at(derived_, point))
-                names[name] = value;
-            result.push_back(program.evaluate(names).front());
-        }
+        for (const auto& point : points_)
+            result.push_back(program.evaluate(rounded_names_at(point)).front());
         return result;
     }
 
-    /// " is zero everywhere", of a formula that has no other value at any point; a spike between
-    /// the points may be what the algebra does not see.
-    [[nodiscard]] std::string zero_words(const ex& formula) const {
-        bool is_proven = false;
+    [[nodiscard]] bool is_proven_zero(const ex& formula) const {
         try {
-            is_proven = is_identically_zero(derived_.fields.exact(formula));
+            return is_identically_zero(derived_.fields.exact(formula));
         } catch (const AlgebraError&) {
-            is_proven = false; // too large to be looked through
+            return false; // too large to be looked through
         }
-        return is_proven ? " is zero everywhere"
-                         : " is zero, to rounding, at all " + std::to_string(point_count) +
-                               " points that were looked at";
+    }
+
+    /// Where the algebra does not see it; a spike between the points may be what the values hide.
+    static std::string where_looked() {
+        return ", to rounding, at all " + std::to_string(point_count) +
+               " points that were looked at";
+    }
+
+    /// " is zero everywhere", of a formula that has no other value at any point.
+    [[nodiscard]] std::string zero_words(const ex& formula) const {
+        return is_proven_zero(formula) ? " is zero everywhere" : " is zero" + where_looked();
     }
 
     /// Where the algebra does not see it, the values do.
@@ -129,9 +137,13 @@ private:
         return true;
     }
 
+    [[nodiscard]] bool has_kinked(const ex& formula) const {
+        return std::ranges::any_of(derived_.fields.occurring_in(formula),
+                                   [&](const EquationField* field) { return is_kinked(*field); });
+    }
+
     void look_for_zero(const DerivedFunction& source) {
-        if (std::ranges::any_of(derived_.fields.occurring_in(source.formula),
-                                [&](const EquationField* field) { return is_kinked(*field); }))
+        if (has_kinked(source.formula))
             return;
         if (is_zero(source.formula, source))
             say(source.source, source.name + zero_words(source.formula) +
@@ -158,20 +170,75 @@ private:
         }
     }
 
+    /// d/dp of a formula, through what the exact solution has of p, too.
+    [[nodiscard]] ex derivative_by(const DerivedParameter& parameter, const ex& formula) const {
+        ex result = plain_derivative(formula, parameter.symbol);
+        for (const EquationField* field : derived_.fields.occurring_in(formula))
+            result = checked_sum(result,
+                                 checked_product(plain_derivative(formula, field->symbol),
+                                                 plain_derivative(field->exact, parameter.symbol)));
+        return result;
+    }
+
+    /// Whether it has an effect on a function, as far as is known: its derivative is not zero. That
+    /// is looked at beside its value, too: (k - 1)^2 does not depend on k at k = 1 alone.
+    [[nodiscard]] bool has_effect(const DerivedParameter& parameter,
+                                  const DerivedFunction& function) const {
+        constexpr double beside = 1.0 / 16.0;
+        try {
+            const ex slope = derivative_by(parameter, function.formula);
+            if (slope.is_zero())
+                return false;
+            if (has_kinked(slope))
+                return true;
+            const Program program = program_of({slope}, derived_.fields);
+            const double step = parameter.value == 0.0 ? beside : beside * parameter.value;
+            for (const bool is_moved : {false, true})
+                for (const auto& point : points_) {
+                    auto names = rounded_names_at(point);
+                    if (is_moved)
+                        names[parameter.name] = parameter.value + step;
+                    const Rounded value = program.evaluate(names).front();
+                    const bool has_value = !is_moved || std::isfinite(value.value);
+                    if (has_value && !value.may_be_zero())
+                        return true;
+                }
+            return false;
+        } catch (const AlgebraError&) {
+            return true; // too large to be looked through
+        }
+    }
+
+    /// In which function a parameter without effect stands for nothing.
+    [[nodiscard]] std::string idle_words(const DerivedParameter& parameter) const {
+        for (const auto& function : derived_.functions)
+            if (const ex slope = derivative_by(parameter, function.formula); !slope.is_zero())
+                return ": " + function.name + " is the same for all values of it" +
+                       (is_proven_zero(slope) ? "" : where_looked()) +
+                       ", and what it multiplies there is not tested";
+        return "";
+    }
+
     void look_for_idle_parameters() {
         std::vector<ex> formulas;
         for (const auto& function : derived_.functions)
             formulas.push_back(function.formula);
         const Program all = located_program(formulas, derived_.fields, derived_.functions.front());
-        for (std::size_t i = 0; i < derived_.parameters.size(); ++i)
-            if (const auto& [name, symbol, exact, value, is_number] = derived_.parameters[i];
-                is_number)
-                say(derived_.system.parameters[i].place,
-                    "parameter " + name + " stands in whole exponents, and " + number_text(value) +
-                        " for it everywhere");
-            else if (!all.uses(name))
-                say(derived_.system.parameters[i].place,
-                    "parameter " + name + " has no effect on anything that is derived");
+        for (std::size_t i = 0; i < derived_.parameters.size(); ++i) {
+            const DerivedParameter& parameter = derived_.parameters[i];
+            const Place& place = derived_.system.parameters[i].place;
+            if (parameter.is_number)
+                say(place, "parameter " + parameter.name + " stands in whole exponents, and " +
+                               number_text(parameter.value) + " for it everywhere");
+            else if (const bool is_used = all.uses(parameter.name);
+                     !is_used ||
+                     std::ranges::none_of(derived_.functions, [&](const DerivedFunction& function) {
+                         return has_effect(parameter, function);
+                     }))
+                say(place, "parameter " + parameter.name +
+                               " has no effect on anything that is derived" +
+                               (is_used ? idle_words(parameter) : ""));
+        }
     }
 
     /// What the exact values have is not said of their derivatives again, unless these have worse,

@@ -102,6 +102,39 @@ BOOST_AUTO_TEST_CASE(a_parameter_without_effect_is_named) {
     BOOST_TEST(said == "my.toml:6:1: parameter q has no effect on anything that is derived");
 }
 
+// div v = 0 in the plane, and u is harmonic: their coefficients stand for nothing.
+BOOST_AUTO_TEST_CASE(a_parameter_of_a_sum_that_vanishes_is_named) {
+    const std::string named = "parameter k has no effect on anything that is derived: f is the "
+                              "same for all values of it, and what it multiplies there is not "
+                              "tested";
+    const std::string k = "[parameters]\nk = 2\n";
+    const std::string harmonic = "t*sin(pi*x)*cosh(pi*y)";
+    BOOST_TEST(remark_of(harmonic, "diff(u, t) - k*laplace(u)", k) == "my.toml:6:1: " + named);
+    BOOST_TEST(remark_of(harmonic, "diff(u, t) - sin(1 + k*laplace(u))", k).ends_with(named));
+    BOOST_TEST(
+        remark_of("t*x*y", "diff(u, t) - u + k*(diff(u, x)*diff(u, y) - u*t)", k).ends_with(named));
+    DerivedSystem elastic = derive_system(parse_equation_system(
+        "[parameters]\nlambda = 2\nmu = 1\n[unknowns]\n"
+        "v = ['sin(x)*cos(y)', '-cos(x)*sin(y)']\n[definitions]\n"
+        "s = '2*mu*sym(grad(v)) + lambda*div(v)*identity'\n[equations]\nf = '-div(s)'\n",
+        "my.toml"));
+    const auto remarks = checked_system(elastic);
+    BOOST_REQUIRE(remarks.size() == 1U);
+    BOOST_TEST(remarks[0].text.starts_with("parameter lambda has no effect on anything"));
+}
+
+BOOST_AUTO_TEST_CASE(a_parameter_that_something_depends_on_is_not_named) {
+    for (const auto& [unknown, equation] :
+         {std::pair<std::string, std::string>{"sin(x)*exp(-k*t)", "diff(u, t) + k*u"},
+          {"sin(x)*exp(-t)", "diff(u, t) - (k - 2)^2*diff(u, x, 2)"},
+          {"sin(x)*exp(-t)", "diff(u, t) - cos(k - 2)*diff(u, x, 2)"},
+          {"sin(x)*exp(-t)*1e-9", "diff(u, t) - 1e-9*k*diff(u, x, 2)"},
+          {"sin(x)*exp(-t)", "diff(u, t) - diff(u, x, 2)*(1 + k*1e-12)"}}) {
+        const std::string said = remark_of(unknown, equation, "[parameters]\nk = 2\n");
+        BOOST_TEST(said.find("no effect") == std::string::npos, said);
+    }
+}
+
 // sqrt(x) has a kink at 0, which its time derivative has as well; its slope 1/(2 sqrt(x)) has
 // worse.
 BOOST_AUTO_TEST_CASE(a_kink_is_said_once_and_the_pole_of_its_derivative_too) {
