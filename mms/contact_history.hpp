@@ -34,6 +34,7 @@ struct ContactHistory {
     std::optional<double> pressed_until; ///< the end of the last phase with a force; none: no force
     /// The first time at which the tip is on a stop without a force while none begins or ends.
     std::optional<double> touch;
+    std::optional<double> rests_until; ///< where it stays there from then on, in all of its phase
     /// About where the tip first comes to a stop, or leaves it, within a phase that has a force:
     /// no onset tells of that contact.
     std::optional<double> within;

@@ -340,7 +340,9 @@ std::string why_not(const ExpectedOrders& expected, const DerivedSolution& deriv
     if (expected.is_in_stops)
         return "the tip passes penalised stops";
     if (expected.contact.touch)
-        return "the tip touches a stop at t = " + number_text(*expected.contact.touch);
+        return expected.contact.rests_until
+                   ? "the tip rests on a stop without a force"
+                   : "the tip touches a stop at t = " + number_text(*expected.contact.touch);
     if (expected.contact.within)
         return "a contact begins or ends within a phase, about t = " +
                number_text(*expected.contact.within, 3);

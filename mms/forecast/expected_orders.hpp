@@ -91,7 +91,8 @@ struct ExpectedOrders {
 ///   or θ̃ is linear, too: what is left is a part of the time error that changes with h. Where u_xx,
 ///   or u_xxx alone, jumps within an element, u has 1/2, or 3/2, in H², one more in H¹ and two more
 ///   in L² at most. Where u_xxx goes to its value at an end of the beam like s^β, β < 1/2, u_xxxx
-///   is not square-integrable, and u has 3/2 + β to 2 in H².
+///   is not square-integrable, and u has 3/2 + β to 2 in H²; with β = 1/2 the error is of
+///   h² √ln(1/h).
 /// - in dt: that of the scheme; none where what is differenced is linear in time, for every scheme
 ///   is exact then: θ̃ and u_xx in the heat equation, where α = 0 θ̃ alone; in the beam equation
 ///   u_xx, and where ζ = 0 nothing. The coupling passes the errors on. Where θ̃_t or u_xxt jumps at

@@ -28,7 +28,10 @@ void add_contact_reasons(const ExpectedOrders& known, const Beam& beam,
         return;
     }
     if (known.contact.touch)
-        text.push_back("at t = " + number_text(*known.contact.touch) +
+        text.push_back((known.contact.rests_until
+                            ? "from t = " + number_text(*known.contact.touch) + " to " +
+                                  number_text(*known.contact.rests_until)
+                            : "at t = " + number_text(*known.contact.touch)) +
                        " the tip is on a stop without a force. What is computed may press there, "
                        "or stay clear of it: the order of sigma_L2 is not known.");
     else if (known.contact.within)
@@ -148,7 +151,12 @@ std::vector<std::string> order_reasons(const ExpectedOrders& known, const Beam& 
                             ? " The formula of G lacks a delta function there, which the moments "
                               "that runs take have."
                             : ""));
-    if (known.rough_end)
+    if (known.rough_end && known.rough_end->power == RoughEnd::highest_power)
+        text.push_back(words_of(*known.rough_end) +
+                       ", s the distance: u_xxxx is just not square-integrable, and errors of u "
+                       "have a factor sqrt(ln(1/h)): the order in h of u_xx goes to 2 from below, "
+                       "slowly, and late where the rest of u is large.");
+    else if (known.rough_end)
         text.push_back(fmt::format(
             "{}, s the distance: u_xxxx is not square-integrable, and the order in h of u_xx goes "
             "to {:.3g}, late where the rest of u is large.",

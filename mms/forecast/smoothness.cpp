@@ -181,7 +181,7 @@ std::optional<Kink> find_kink(const DerivedSolution& derived, double final_time)
 std::optional<RoughEnd> find_rough_end(const DerivedSolution& derived, double final_time) {
     const PiecewiseTape tape(
         derived, [](const DerivedPhase& phase) { return std::vector<ex>{phase.u_xxx}; });
-    constexpr double square_integrable = 0.5; // of the slope s^(β − 1), from this β on
+    constexpr double measured = 5e-3; // β is known so well beside what is smooth
     std::optional<RoughEnd> roughest;
     for (std::size_t i = 0; i < phases_until(derived, final_time); ++i) {
         const PhaseExpressions& phase = derived.phases[i];
@@ -197,12 +197,14 @@ std::optional<RoughEnd> find_rough_end(const DerivedSolution& derived, double fi
                 };
                 const double size = at(sample_points(0.0, 1.0)).abs().maxCoeff();
                 const double value = at(ArrayXd::Constant(1, x))(0);
-                const double power = power_below_one(
+                double power = power_below_one(
                     [&](double s) {
                         return std::abs(at(ArrayXd::Constant(1, std::abs(x - s)))(0) - value);
                     },
                     1.0, size);
-                if (power < square_integrable && !(roughest && roughest->power <= power))
+                if (std::abs(power - RoughEnd::highest_power) < measured)
+                    power = RoughEnd::highest_power;
+                if (power <= RoughEnd::highest_power && !(roughest && roughest->power <= power))
                     roughest = RoughEnd{x, power};
             }
     }

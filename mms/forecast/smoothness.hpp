@@ -35,8 +35,10 @@ struct Kink {
 };
 
 /// An end of the beam at which u_xxx has a value and a slope that is not square-integrable: it goes
-/// there like s^β, with s the distance and 0 < β < 1/2.
+/// there like s^β, with s the distance and 0 < β ≤ 1/2: of s^(β − 1) the square is not integrable,
+/// at the limit by a logarithm.
 struct RoughEnd {
+    static constexpr double highest_power = 0.5;
     double x = 0.0;
     double power = 0.0; ///< β, the least of all times looked at
 };

@@ -378,6 +378,35 @@ BOOST_AUTO_TEST_CASE(a_rough_end_lowers_the_order_in_h) {
         }
 }
 
+// u_xxxx ~ s^(−1/2): the square of it has the integral ln(1/h) from h on, and the element at the
+// end misses u_xx by h² sqrt(ln(1/h)), of which no multiple of h² is an error's size.
+BOOST_AUTO_TEST_CASE(a_rough_end_at_the_limit_lowers_the_order_by_a_logarithm) {
+    for (const std::string rough :
+         {"x^(7/2)", "(1 - x)^3.5 - 1 + 3.5*x", "x^(7/2) + x^2*sin(9*x)"}) {
+        const Problem problem{
+            parse_solution("theta = 't*sin(pi*x)'\nu = '0.05*sin(t)*(" + rough + ")'\n",
+                           "rough.toml"),
+            {0.0, 0.15, 0.0, {}},
+            1.0};
+        const ExpectedOrders expected =
+            expected_orders({problem.solution, problem.beam, problem.final_time});
+        BOOST_REQUIRE(expected.rough_end.has_value());
+        BOOST_TEST(expected.rough_end->power == 0.5);
+        const Forecast in_h =
+            std::ranges::find(expected.orders, "u_LinfH2semi", &ExpectedOrder::norm)->in_h;
+        BOOST_TEST(in_h.least == 2.0);
+        BOOST_TEST(std::ranges::any_of(expected.reasons, [](const std::string& reason) {
+            return reason.find("sqrt(ln(1/h))") != std::string::npos;
+        }));
+    }
+    // A third of a percent beyond it the square is integrable.
+    BOOST_TEST(!expected_orders(
+                    {parse_solution("theta = 't*sin(pi*x)'\nu = 'sin(t)*x^3.52'\n", "smooth.toml"),
+                     {0.0, 0.15, 0.0, {}},
+                     1.0})
+                    .rough_end);
+}
+
 // A layer has a finite slope, however thin it is: nothing of it is a cusp.
 BOOST_AUTO_TEST_CASE(a_thin_layer_is_no_cusp) {
     for (const std::string rate : {"1e10", "1e12", "2e12", "4e12", "1e13", "1e15"})
