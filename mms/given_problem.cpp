@@ -296,7 +296,7 @@ Field moment_of(const std::vector<ex>& q, double final_time, ProblemBuilder& bui
 class GivenTexts {
 public:
     GivenTexts(const Names& names, double final_time)
-        : constants_(names.constants), points_(sample_points(0.0, final_time, true)) {}
+        : constants_(names.constants), points_(points_to_compare(0.0, final_time, true)) {}
 
     [[nodiscard]] const SamplePoints& points() const { return points_; }
 

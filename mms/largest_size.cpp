@@ -50,13 +50,15 @@ Points scattered(const CloseLook& x, const CloseLook& t) {
     for (const double at_t : times_of(t))
         for (const double at_x : points_of(x))
             points.add(at_x, at_t);
-    // The fractional parts of the multiples of the golden ratio stay apart from one another.
+    // The fractional parts of the multiples of the golden ratio stay apart from one another; times
+    // at so much of the way between two are no zeros of a sine.
     constexpr int count = 2048;
     constexpr double golden_ratio = 0.6180339887498949;
     for (int k = 0; k < count; ++k) {
-        const double multiple = (k + 0.5) * golden_ratio;
+        const double place = k + golden_ratio;
+        const double multiple = place * golden_ratio;
         points.add(x.begin + (multiple - std::floor(multiple)) * (x.end - x.begin),
-                   t.begin + (k + 0.5) / count * (t.end - t.begin));
+                   t.begin + place / count * (t.end - t.begin));
     }
     return points;
 }

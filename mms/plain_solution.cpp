@@ -81,7 +81,7 @@ PlainSolution::Samples PlainSolution::sampled(const PhaseExpressions& phase, boo
                                               double final_time) const {
     // Where a phase begins, the one before still holds.
     const SamplePoints points =
-        sample_points(phase.begin_value, std::min(phase.end_value, final_time), first);
+        points_to_compare(phase.begin_value, std::min(phase.end_value, final_time), first);
     const Index size = points.x.size();
     Samples samples{points.x, points.t, {}};
     Names names = constants_;

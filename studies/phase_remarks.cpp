@@ -2,6 +2,7 @@
 
 #include "core/space/quadrature.hpp"
 #include "core/time/time_levels.hpp"
+#include "mms/sample_points.hpp"
 #include "mms/text/error_text.hpp"
 #include "mms/text/toml_reader.hpp"
 #include "studies/evolution/evolution_block.hpp"
@@ -23,7 +24,7 @@ using Eigen::ArrayXd;
 namespace {
 
 constexpr double tolerance = 1e-9; ///< of a jump, relative to what jumps, in all the time before
-constexpr int looks = 8;           ///< at that time
+constexpr Eigen::Index looks = 9;  ///< at that time
 constexpr std::size_t most_listed = 5;
 
 using Decreasing = std::set<double, std::greater<>>;
@@ -40,7 +41,7 @@ bool touches(const ProblemData& data, double begin, double end) {
     if (!data.exact || !data.exact->stress)
         return false;
     constexpr Eigen::Index samples = 1001;
-    const ArrayXd times = ArrayXd::LinSpaced(samples, begin, end);
+    const ArrayXd times = sample_points(begin, end, samples);
     return (data.amplitudes(times).row(*data.exact->stress) != 0.0).any();
 }
 
@@ -52,8 +53,8 @@ RateJump rate_jump(const ProblemData& data, double end) {
         const ArrayXd left = of(end);
         const ArrayXd right = of(after);
         double size = right.abs().maxCoeff();
-        for (int k = 0; k <= looks; ++k) // what vanishes there leaves its rounding
-            size = std::max(size, of(end * k / looks).abs().maxCoeff());
+        for (const double t : sample_points(0.0, end, looks)) // what vanishes there leaves rounding
+            size = std::max(size, of(t).abs().maxCoeff());
         const ArrayXd difference = right - left;
         return difference.abs().maxCoeff() > tolerance * size ? difference
                                                               : ArrayXd::Zero(x.size());

@@ -76,7 +76,7 @@ private:
 
     [[nodiscard]] ArrayXd times(std::size_t i, Index count) const {
         const PhaseExpressions& phase = derived_.phases[i];
-        return ArrayXd::LinSpaced(count, phase.begin_value, std::min(phase.end_value, final_time_));
+        return sample_points(phase.begin_value, std::min(phase.end_value, final_time_), count);
     }
 
     // Finite values.

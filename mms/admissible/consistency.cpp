@@ -265,8 +265,9 @@ private:
     std::int64_t steps_, stride_;
 };
 
-double root_mean_square(const ArrayXd& values) {
-    return scaled_norm(values, [](const ArrayXd& one) { return std::sqrt(one.square().mean()); });
+double norm(const GaussRule& rule, const ArrayXd& values) {
+    return scaled_norm(
+        values, [&](const ArrayXd& one) { return std::sqrt((rule.weights * one.square()).sum()); });
 }
 
 } // namespace
@@ -328,7 +329,7 @@ TimeResiduals::TimeResiduals(const AdmissibleSolution& solution, std::vector<std
                        ? 0
                        : derivatives_until_zero(solution.derived(), final_time_,
                                                 [](const auto& phase) { return phase.u_xx; })),
-      x_(sample_points(0.0, 1.0)) {
+      rule_(GaussRule::of(grid_points)) {
     for (const std::int64_t count : steps_) {
         const bool among_finer = std::ranges::any_of(steps_, [&](std::int64_t finer) {
             return finer > count && has_levels_of(finer, count);
@@ -338,7 +339,8 @@ TimeResiduals::TimeResiduals(const AdmissibleSolution& solution, std::vector<std
         auto& levels = levels_[count];
         for (std::int64_t n = 0; n <= count; ++n)
             levels.emplace_back(
-                exact_->at(x_, level_time(final_time_, static_cast<double>(n), count)).transpose());
+                exact_->at(rule_.points, level_time(final_time_, static_cast<double>(n), count))
+                    .transpose());
     }
 }
 
@@ -355,12 +357,12 @@ std::vector<Residual> TimeResiduals::of(const std::string& scheme) const {
         const double dt = final_time_ / static_cast<double>(count);
         const auto known = std::ranges::find_if(
             levels_, [&](const auto& one) { return has_levels_of(one.first, count); });
-        const Steps exact(*exact_, x_, known->second, final_time_, count);
+        const Steps exact(*exact_, rule_.points, known->second, final_time_, count);
         for (std::int64_t n = 1 + method.history; n <= count; ++n) {
             const Eigen::ArrayXXd defect = exact.defect(method, n);
-            residual.heat = std::max(residual.heat,
-                                     root_mean_square(defect.col(0) - beam_.alpha * defect.col(1)));
-            residual.beam = std::max(residual.beam, beam_.zeta * root_mean_square(defect.col(1)));
+            residual.heat =
+                std::max(residual.heat, norm(rule_, defect.col(0) - beam_.alpha * defect.col(1)));
+            residual.beam = std::max(residual.beam, beam_.zeta * norm(rule_, defect.col(1)));
             const ArrayXd sizes = exact.at(n).abs().colwise().maxCoeff();
             size.heat = std::max(size.heat, (sizes(theta) + beam_.alpha * sizes(u_xx)) / dt);
             size.beam = std::max(size.beam, beam_.zeta * sizes(u_xx) / dt);

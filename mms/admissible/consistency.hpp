@@ -1,6 +1,7 @@
 #pragma once
 
 #include "core/space/linear_elements.hpp"
+#include "core/space/quadrature.hpp"
 #include "mms/admissible/admissibility.hpp"
 
 #include <array>
@@ -53,10 +54,10 @@ std::vector<Residual> space_residuals(const AdmissibleSolution& solution, Therma
 ///     e_i = Δt y_t(t_i)/leading_i + Σ_j weights_ij e_j,     τ = leading/Δt (e_last − (y_n −
 ///     y_{n−1})),
 ///
-/// the largest over all steps but those that the scheme leaves to its starter. They vanish where
-/// θ̃ − α u_xx and ζ u_xx are polynomials in t, of no higher degree than the scheme's order. The
-/// exact values are found once for all schemes, and those of a refinement among those of a finer
-/// one, halved.
+/// the largest L² norm over all steps but those that the scheme leaves to its starter. They vanish
+/// where θ̃ − α u_xx and ζ u_xx are polynomials in t, of no higher degree than the scheme's order.
+/// The exact values are found once for all schemes, and those of a refinement among those of a
+/// finer one, halved.
 class TimeResiduals {
 public:
     TimeResiduals(const AdmissibleSolution& solution, std::vector<std::int64_t> steps);
@@ -72,7 +73,7 @@ private:
     std::unique_ptr<const PiecewiseTape> exact_; ///< θ̃, u_xx and their rates
     /// The least number of derivatives in t by which θ̃ − α u_xx, and ζ u_xx, vanish in every phase.
     int heat_degree_, beam_degree_;
-    Eigen::ArrayXd x_;
+    GaussRule rule_; ///< of the norm over x
     /// exact_ at the levels of a number of steps; shape of each: points × 4.
     std::map<std::int64_t, std::vector<Eigen::ArrayXXd>> levels_;
 };

@@ -7,7 +7,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 namespace tvbeam {
@@ -29,6 +31,16 @@ double tip_tolerance(const Stops& stops, const std::vector<ContactPhase>& phases
         size = std::max(size, phase.ends(phase.times).row(0).abs().maxCoeff());
     return std::min(relative_tolerance * u_scale,
                     std::max(relative_tolerance * size, roundings * u_scale));
+}
+
+/// The places of sizes, the greatest first: of all that break a rule it is the one to be said.
+std::vector<Index> by_size(const ArrayXd& sizes) {
+    std::vector<Index> order(static_cast<std::size_t>(sizes.size()));
+    std::iota(order.begin(), order.end(), 0);
+    // One that is not a number is greater than all.
+    const ArrayXd known = sizes.isNaN().select(std::numeric_limits<double>::infinity(), sizes);
+    std::ranges::stable_sort(order, std::greater{}, [&](Index k) { return known(k); });
+    return order;
 }
 
 /// Of a stress with the wrong sign at t, from its sign_change.
@@ -141,15 +153,14 @@ bool ContactRules::is_rounding_of_law(double tip, double stress) const {
 
 void ContactRules::require_law(const ContactPhase& phase) const {
     const Eigen::ArrayXXd values = phase.ends(phase.times);
-    for (Index k = 0; k < phase.times.size(); ++k) {
+    ArrayXd distances(phase.times.size());
+    for (Index k = 0; k < phase.times.size(); ++k)
+        distances(k) = law_distance(values(0, k), values(1, k));
+    for (const Index k : by_size(distances)) {
         const double tip = values(0, k);
         const double stress = values(1, k);
-        if (law_distance(tip, stress) <= law_tolerance_) {
-            // However small ε is, the law has no force away from a stop, and none that pulls.
-            if (phase.sigma && !is_rounding_of_law(tip, stress))
-                require_stress(phase, phase.times(k), tip, stress);
-            continue;
-        }
+        if (distances(k) <= law_tolerance_)
+            break;
         const bool above = tip > stops_.upper;
         const bool below = tip < stops_.lower;
         const double law = contact_stress(stops_, tip, 0.0);
@@ -164,16 +175,21 @@ void ContactRules::require_law(const ContactPhase& phase) const {
                              number_text_beside(law, stress) +
                              ": leave sigma out, and it is what the law makes of u(1,t)");
     }
+    // However small ε is, the law has no force away from a stop, and none that pulls.
+    if (phase.sigma)
+        for (const Index k : by_size(values.row(1).abs()))
+            if (!is_rounding_of_law(values(0, k), values(1, k)))
+                require_stress(phase, phase.times(k), values(0, k), values(1, k));
 }
 
 void ContactRules::require_rigid(std::size_t index) const {
     const ContactPhase& phase = phases_[index];
     const Eigen::ArrayXXd values = phase.ends(phase.times);
-    for (Index k = 0; k < phase.times.size(); ++k) {
+    for (Index k = 0; k < phase.times.size(); ++k)
         require_between_stops(phase, phase.times(k), values(0, k));
-        if (phase.sigma)
+    if (phase.sigma)
+        for (const Index k : by_size(values.row(1).abs()))
             require_stress(phase, phase.times(k), values(0, k), values(1, k));
-    }
 }
 
 void ContactRules::require_between_stops(const ContactPhase& phase, double t, double tip) const {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <numeric>
 #include <optional>
 #include <string>
@@ -182,12 +183,15 @@ double largest_on_grid(const SpaceTimeFunction& g, const ArrayXd& times, double 
 
 void require_value(const ArrayXd& differences, const ArrayXd& times, double value, double tolerance,
                    const Place& place, const std::string& what, const std::string& rule) {
-    const auto broken = std::find_if(differences.begin(), differences.end(),
-                                     [tolerance](double d) { return !(std::abs(d) <= tolerance); });
-    if (broken != differences.end())
-        throw InputError(place, what + " is " + number_text_beside(value + *broken, value) +
-                                    " at t = " + number_text(times(broken - differences.begin())) +
-                                    "; it must be " + rule);
+    Index greatest = 0;
+    // One that is not a number is greater than all.
+    const double size = differences.isNaN()
+                            .select(std::numeric_limits<double>::infinity(), differences.abs())
+                            .maxCoeff(&greatest);
+    if (!(size <= tolerance))
+        throw InputError(place,
+                         what + " is " + number_text_beside(value + differences(greatest), value) +
+                             " at t = " + number_text(times(greatest)) + "; it must be " + rule);
 }
 
 std::string jump_text(const std::string& what, double jump, double t, double x) {

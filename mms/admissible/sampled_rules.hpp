@@ -26,7 +26,7 @@ double largest_on_grid(const SpaceTimeFunction& g, const Eigen::ArrayXd& times, 
                        const std::string& exists = "it and its derivatives exist");
 
 /// That a function of time is `value`: its differences from it, one a time, are within the
-/// tolerance. rule: what it must be, and the repair.
+/// tolerance; the greatest is said. rule: what it must be, and the repair.
 void require_value(const Eigen::ArrayXd& differences, const Eigen::ArrayXd& times, double value,
                    double tolerance, const Place& place, const std::string& what,
                    const std::string& rule);

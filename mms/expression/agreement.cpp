@@ -40,7 +40,7 @@ Number written(double value) {
     return {decimal_value, std::abs(decimal_value)};
 }
 
-SamplePoints sample_points(double begin, double end, bool with_begin) {
+SamplePoints points_to_compare(double begin, double end, bool with_begin) {
     // The fractional parts of multiples of these fill the unit square evenly: 1/p and 1/p² for the
     // root p of p³ = p + 1.
     constexpr double step_x = 0.7548776662466927;

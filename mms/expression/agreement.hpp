@@ -33,7 +33,7 @@ struct SamplePoints {
 
 /// Points that no user chose: both ends of the beam and two quasi-random points inside, at the end
 /// of an interval of time, at two quasi-random times in it and, if asked for, at its beginning.
-SamplePoints sample_points(double begin, double end, bool with_begin);
+SamplePoints points_to_compare(double begin, double end, bool with_begin);
 inline constexpr Eigen::Index points_a_time = 4; ///< x = 0, x = 1, two inside
 
 /// The first point at which what was computed in doubles is not what the text says: where it is

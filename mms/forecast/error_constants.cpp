@@ -10,6 +10,7 @@
 #include "mms/expression/symbols.hpp"
 #include "mms/expression/tape_compiler.hpp"
 #include "mms/forecast/driven_beam.hpp"
+#include "mms/sample_points.hpp"
 #include "mms/text/number_text.hpp"
 
 #include <algorithm>
@@ -100,10 +101,11 @@ public:
     /// coupled: bending has an error of the order of that of heat.
     Forecaster(const Tape& tape, const Beam& beam, bool held, bool coupled, double final_time)
         : tape_(tape), beam_(beam), held_(held), coupled_(coupled), final_time_(final_time) {
-        // The fractional parts of the multiples of the golden ratio stay apart from one another.
+        // The fractional parts of the multiples of the golden ratio stay apart from one another;
+        // times at so much of the way between two are no zeros of a sine.
         constexpr Index count = 2048;
         constexpr double golden_ratio = 0.6180339887498949;
-        const ArrayXd places = ArrayXd::LinSpaced(count, 0.5, count - 0.5);
+        const ArrayXd places = ArrayXd::LinSpaced(count, golden_ratio, count - 1 + golden_ratio);
         const ArrayXd multiples = places * golden_ratio;
         peaks_ = sizes(tape_.evaluate(multiples - multiples.floor(), places * (final_time / count)),
                        0.0);
@@ -143,13 +145,12 @@ public:
     /// large. One without a value at a point is seen there.
     [[nodiscard]] ArrayXb missed_peaks(Index modes, Index steps) const {
         constexpr double far = 1.5;
-        constexpr Index across = 33; // lines through the points in the other coordinate
         const ArrayXd x = GaussRule::of(2 * modes).points;
         const ArrayXd t = ArrayXd::LinSpaced(steps + 1, 0.0, final_time_);
         ArrayXd seen = ArrayXd::Zero(peaks_.size());
-        for (const double time : ArrayXd::LinSpaced(across, 0.0, final_time_))
+        for (const double time : sample_points(0.0, final_time_))
             seen = seen.max(sizes(at(x, time), infinity));
-        for (const double place : ArrayXd::LinSpaced(across, 0.0, 1.0))
+        for (const double place : sample_points(0.0, 1.0))
             seen =
                 seen.max(sizes(tape_.evaluate(ArrayXd::Constant(1, place), t) / unit_, infinity));
         return peaks_ > far * seen;

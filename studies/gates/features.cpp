@@ -3,6 +3,7 @@
 #include "core/norms/norms.hpp"
 #include "mms/expression/algebra.hpp"
 #include "mms/expression/expression_parser.hpp"
+#include "mms/sample_points.hpp"
 #include "studies/evolution/evolution.hpp"
 #include "studies/grid/orders_block.hpp"
 #include "studies/ladder/ladder_block.hpp"
@@ -198,22 +199,27 @@ std::size_t contact_level(const Setting& setting) {
     return stops.epsilon > 0.0 ? 4 : both ? 2 : 3;
 }
 
-/// Polynomials of a degree below 8 have no eighth difference.
-bool is_polynomial(const Eigen::ArrayXd& values) {
+/// Polynomials of a degree below 8 have no eighth divided difference. Times k! and the mean
+/// distance to the power k it is the kth difference where points are equally distant.
+bool is_polynomial(const Eigen::ArrayXd& x, const Eigen::ArrayXd& values) {
+    const auto mean_distance = (x(x.size() - 1) - x(0)) / static_cast<double>(x.size() - 1);
     Eigen::ArrayXd differences = values;
-    for (int k = 0; k < 8; ++k)
+    for (Eigen::Index k = 1; k <= 8; ++k) {
+        const Eigen::Index left = differences.size() - 1;
+        const Eigen::ArrayXd apart = (x.tail(left) - x.head(left)) / mean_distance;
         differences =
-            (differences.tail(differences.size() - 1) - differences.head(differences.size() - 1))
+            (static_cast<double>(k) * (differences.tail(left) - differences.head(left)) / apart)
                 .eval();
+    }
     return differences.abs().maxCoeff() <= 1e-10 * values.abs().maxCoeff();
 }
 
 std::size_t body_force_level(const Setting& setting) {
     if (setting.data.body_force.is_zero())
         return 0;
-    const Eigen::ArrayXd x = Eigen::ArrayXd::LinSpaced(10, 0.0, 1.0);
+    const Eigen::ArrayXd x = sample_points(0.0, 1.0, 11);
     const double t = setting.scene.longest_time() / std::sqrt(2.0);
-    return is_polynomial(values(setting.data, setting.data.body_force, x, t)) ? 1 : 2;
+    return is_polynomial(x, values(setting.data, setting.data.body_force, x, t)) ? 1 : 2;
 }
 
 const std::vector<Factor>& factors() {

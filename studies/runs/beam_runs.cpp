@@ -4,6 +4,7 @@
 #include "core/run.hpp"
 #include "core/space/linear_elements.hpp"
 #include "core/space/resolution.hpp"
+#include "mms/sample_points.hpp"
 #include "studies/runs/round_off_remark.hpp"
 #include "studies/scene/scene.hpp"
 #include "studies/text/number_text.hpp"
@@ -111,7 +112,7 @@ std::string jump_at_start(const Scene& scene, const ProblemData& data) {
     const auto theta = [&](const ArrayXd& at) { return values(data, data.theta_initial, at, 0.0); };
     const auto w = [&](const ArrayXd& at) { return values(data, data.curvature_initial, at, 0.0); };
     const auto load = [&](const ArrayXd& at) { return values(data, data.moment_load, at, 0.0); };
-    const ArrayXd x = ArrayXd::LinSpaced(33, 0.0, 1.0);
+    const ArrayXd x = sample_points(0.0, 1.0);
     const double hottest = theta(x).abs().maxCoeff();
     if (std::abs(theta(x)(0) - beam.theta_A) > rounding * std::max(hottest, std::abs(beam.theta_A)))
         return "theta0 is not theta_A at x = 0, so that the temperature jumps at t = 0";

@@ -262,16 +262,16 @@ BOOST_AUTO_TEST_CASE(an_admissible_solution_is_not_refused) {
 BOOST_AUTO_TEST_CASE(end_values_are_checked_as_for_a_text) {
     const auto lifted = [](const auto& x, const auto& t) { return x * x * t / 100.0 + 1e-3 * t; };
     contains(refusal({"mine", sine, lifted, none}),
-             {"mine: (5): u(0,t) is 7.8125e-06 at t = 0.0078125; it must be 0", "x^2"});
+             {"mine: (5): u(0,t) is 0.002 at t = 2; it must be 0", "x^2"});
     const auto turned = [](const auto& x, const auto& t) { return x * t / 100.0; };
     contains(refusal({"mine", sine, turned, none}),
-             {"mine: (5): u_x(0,t) is", "at t = 0.0078125; it must be 0"});
+             {"mine: (5): u_x(0,t) is 0.02 at t = 2; it must be 0"});
     const auto warm = [](const auto& x, const auto&) { return cos(pi * x / 2.0); };
     contains(refusal({"mine", warm, small, none}),
              {"mine: (10): theta(0,t) is 1 at t = 0; it must be 0 = theta_A"});
     const auto warm_tip = [](const auto& x, const auto& t) { return t * x; };
     contains(refusal({"mine", warm_tip, small, none}),
-             {"mine: (10): theta(1,t) is 0.0078125 at t = 0.0078125; it must be 0"});
+             {"mine: (10): theta(1,t) is 2 at t = 2; it must be 0"});
     Beam heated = between_stops;
     heated.theta_A = 0.5;
     contains(refusal({"mine", sine, small, none}, heated),
@@ -281,18 +281,17 @@ BOOST_AUTO_TEST_CASE(end_values_are_checked_as_for_a_text) {
 BOOST_AUTO_TEST_CASE(the_stops_and_the_sign_of_the_stress_are_checked_as_for_a_text) {
     const auto large = [](const auto& x, const auto& t) { return x * x * t; };
     contains(refusal({"mine", sine, large, none}),
-             {"mine: (6): u(1,t) is 0.101562 at t = 0.101562; it must be at most g2 = 0.1",
+             {"mine: (6): u(1,t) is 0.109971 at t = 0.109971; it must be at most g2 = 0.1",
               "it is greatest, 2, at t = 2 as far as was seen: multiply u by 0.05"});
     const auto rising = [](const auto& t) { return t - 1.0; };
     contains(refusal({"mine", sine, small, rising}),
              {"mine: (7): sigma(1,t) is -1 at t = 0", "must be 0 strictly between the stops"});
     const auto pulling = [](const auto& t) { return t <= 1.0 ? 0.0 * t : t - 1.0; };
-    contains(
-        refusal({"mine", sine, pressed, pulling}),
-        {"mine: (8): sigma(1,t) is 0.0078125 at t = 1.00781", "it must be at most 0", "its sign"});
+    contains(refusal({"mine", sine, pressed, pulling}),
+             {"mine: (8): sigma(1,t) is 1 at t = 2", "it must be at most 0", "its sign"});
     const auto pushing = [](const auto& t) { return -t; };
     contains(refusal({"mine", sine, small, pushing}, Beam{.zeta = 0.1}),
-             {"mine: (7): sigma(1,t) is -0.0078125", "as the beam has no stops"});
+             {"mine: (7): sigma(1,t) is -2 at t = 2", "as the beam has no stops"});
 }
 
 BOOST_AUTO_TEST_CASE(what_is_not_finite_is_refused_with_its_point) {
@@ -315,7 +314,7 @@ BOOST_AUTO_TEST_CASE(a_jump_between_phases_is_found_with_its_time) {
         return sin(pi * x) * (t <= 0.123 ? 1.0 + t : 1.2 - t);
     };
     contains(refusal({"mine", falling, small, none}),
-             {"mine: (1): theta jumps by -0.04", "at t = 0.123, x = 0.54"});
+             {"mine: (1): theta jumps by -0.04", "at t = 0.123, x = 0.599"});
     // A kink and a layer in time, be it thin, are no jumps.
     const auto kinked = [](const auto& x, const auto& t) {
         return x * x * (t <= 1.0 ? t : 2.0 - t) / 100.0;
