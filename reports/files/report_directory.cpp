@@ -114,11 +114,13 @@ std::string ReportDirectory::write(const Reported& result) {
     for (const auto& file : earlier)
         if (!written.contains(file) && !result.directories.contains(*file.begin()))
             std::filesystem::remove(path_ / file, ignored);
-    return drawn.failure.empty() ? ""
-                                 : drawn.failure +
-                                       "; the pictures are left out, their scripts "
-                                       "and data are in '" +
-                                       (path_ / "plots").string() + "'";
+    if (drawn.failure.empty())
+        return "";
+    const bool are_described =
+        std::ranges::any_of(written, [](const auto& name) { return name.starts_with("plots/"); });
+    return drawn.failure + "; the pictures are left out" +
+           (are_described ? ", their scripts and data are in '" + (path_ / "plots").string() + "'"
+                          : "");
 }
 
 } // namespace tvbeam

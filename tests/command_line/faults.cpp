@@ -84,6 +84,23 @@ BOOST_AUTO_TEST_CASE(what_gnuplot_complains_of_is_said) {
                called.errors);
 }
 
+// Of a page alone no scripts are written.
+BOOST_AUTO_TEST_CASE(scripts_of_pictures_are_named_where_there_are_some) {
+    const TemporaryDirectory directory;
+    std::filesystem::create_directory(directory.path() / "bin");
+    std::filesystem::permissions(directory.write("bin/gnuplot", "#!/bin/sh\nexit 1\n"),
+                                 std::filesystem::perms::owner_all);
+    const std::string run = "run " + directory.write("scene.toml", scene("")) + " --quiet --out " +
+                            (directory.path() / "r").string();
+    const std::string ending = "PATH=" + (directory.path() / "bin").string() + ":$PATH ";
+    const Called page = call(directory, run + " --set \"report.files=['html']\"", ending);
+    BOOST_TEST(has(page.errors, "the pictures are left out\n"), page.errors);
+    BOOST_TEST(!std::filesystem::exists(directory.path() / "r/plots"));
+    const Called both = call(directory, run, ending);
+    BOOST_TEST(has(both.errors, "their scripts and data are in '"), both.errors);
+    BOOST_TEST(std::filesystem::exists(directory.path() / "r/plots/convergence.gp"));
+}
+
 // Its pictures are drawn by the same command, which goes on from the runs that are kept.
 BOOST_AUTO_TEST_CASE(a_run_that_is_asked_to_end_while_it_draws_was_interrupted) {
     const TemporaryDirectory directory;

@@ -185,6 +185,25 @@ BOOST_AUTO_TEST_CASE(a_run_that_ends_leaves_nothing_unfinished) {
     BOOST_TEST(has(without.errors, "--out"), without.errors);
 }
 
+BOOST_AUTO_TEST_CASE(an_evolution_that_was_interrupted_is_not_taken_for_one_that_ended) {
+    const TemporaryDirectory directory;
+    const std::string out = " --quiet --out " + (directory.path() / "out").string();
+    const std::string steps = " --set evolution.final_time=1000 --set evolution.elements=320"
+                              " --set evolution.every=1000";
+    call(directory, "run figure1" + steps + out, "timeout -s INT 2 ");
+    const auto json = nlohmann::json::parse(directory.read("out/result.json"));
+    BOOST_REQUIRE(json.at("interrupted") == true);
+    const std::string again =
+        "run figure1 --set evolution.final_time=1 --set evolution.period=0.5 --resume --out " +
+        (directory.path() / "out").string();
+    const Called resumed = call(directory, again);
+    BOOST_TEST(has(resumed.errors, "nothing was kept to go on with: "), resumed.errors);
+    BOOST_TEST(has(resumed.errors, "of a run that was interrupted; it is made again"),
+               resumed.errors);
+    const Called ended = call(directory, again);
+    BOOST_TEST(has(ended.errors, "of a run that ended; it is made again"), ended.errors);
+}
+
 // Two writers in one directory would tear each other's results.
 BOOST_AUTO_TEST_CASE(a_directory_that_another_run_writes_to_is_refused) {
     const TemporaryDirectory directory;

@@ -15,7 +15,10 @@
 #include "reports/formats/report_format.hpp"
 #include "reports/sweep/sweep.hpp"
 
+#include <nlohmann/json.hpp>
+
 #include <filesystem>
+#include <fstream>
 #include <memory>
 #include <optional>
 #include <string>
@@ -38,6 +41,14 @@ struct RunOptions {
     bool really_long = false;
     int jobs = 1;
 };
+
+/// Whether a result says so of itself.
+bool is_interrupted(const std::filesystem::path& result) {
+    std::ifstream stream(result);
+    const auto json = nlohmann::json::parse(stream, nullptr, false);
+    const auto found = json.find("interrupted");
+    return json.is_object() && found != json.end() && *found == true;
+}
 
 /// The finished runs in the directory of --out: of an attempt that was cut short, or those of an
 /// external solver.
@@ -74,8 +85,11 @@ public:
         std::error_code error;
         if (resume && work_->found() == 0 && torn.empty() &&
             std::filesystem::exists(out_ / "result.json", error))
-            return "nothing is left to go on with: " + out_.string() +
-                   " holds the results of a run that ended; it is made again";
+            return is_interrupted(out_ / "result.json")
+                       ? "nothing was kept to go on with: " + out_.string() +
+                             " holds the results of a run that was interrupted; it is made again"
+                       : "nothing is left to go on with: " + out_.string() +
+                             " holds the results of a run that ended; it is made again";
         return !resume ? ""
                        : "goes on with " + std::to_string(work_->found()) + " finished runs" + torn;
     }
