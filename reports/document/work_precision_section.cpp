@@ -160,19 +160,9 @@ Table costs_table(const NormCosts& costs, const WorkPrecisionBlock& block) {
     return {"Seconds to reach an error of " + costs.norm.name + ", by scheme.", key, groups};
 }
 
-/// Of a scheme whose time to reach an error is of a row above it: that it counts, and why.
-std::string nearly_reached(const WorkPrecisionResult& result, const WorkPrecisionBlock& block,
-                           std::size_t scheme, std::size_t norm, double error) {
-    for (const RungResult& run : result.schemes[scheme].runs)
-        if (!run.errors.empty() && run.errors.at(norm) <= error)
-            return "";
-    return fmt::format("; {} comes within {:g} % of it, no nearer", block.schemes[scheme].name,
-                       100.0 * same_error);
-}
-
-/// nearly: nearly_reached of both.
+/// caveats: those of both.
 Finding comparison(const SchemeComparison& pair, const ReachedError& error,
-                   const WorkPrecisionBlock& block, const std::string& nearly) {
+                   const WorkPrecisionBlock& block, const std::string& caveats) {
     const std::string& faster = block.schemes[pair.faster].name;
     const std::string& slower = block.schemes[pair.slower].name;
     const bool once = error.times[pair.faster]->runs == 1 || error.times[pair.slower]->runs == 1;
@@ -195,7 +185,7 @@ Finding comparison(const SchemeComparison& pair, const ReachedError& error,
                                !once && pair.times.lowest > 1.0 ? "but for less than a fifth"
                                                                 : "as far as can be told",
                                ratio, spread)) +
-                nearly,
+                caveats,
             4};
 }
 
@@ -238,6 +228,31 @@ std::string hindrance(const RungResult& run, const std::optional<Timing>& timing
     return !timing ? "one was not timed" : !has_time(timing) ? "in one the clock shows 0 s" : "";
 }
 
+/// Of a scheme that has a time to reach an error, what it does not say: that it is of a finest row
+/// above the error, and that finer rows have none.
+std::string caveat(const SchemeRuns& scheme, const std::string& name, std::size_t norm,
+                   double error) {
+    const auto& runs = scheme.runs;
+    std::size_t end = runs.size(); // of the rows up to the finest that can be compared
+    while (end > 1 && !hindrance(runs[end - 1], scheme.timings[end - 1], norm).empty())
+        --end;
+    const auto reaches = [&](const RungResult& run) {
+        return !run.errors.empty() && run.errors.at(norm) <= error;
+    };
+    std::string text;
+    if (!reaches(runs[end - 1]))
+        text = std::ranges::any_of(runs, reaches)
+                   ? fmt::format("; {} ends above it, by {:g} % at most", name, 100.0 * same_error)
+                   : fmt::format("; {} comes within {:g} % of it, no nearer", name,
+                                 100.0 * same_error);
+    for (; end < runs.size(); ++end)
+        if (runs[end].status == RungStatus::failed ||
+            (!runs[end].errors.empty() && std::isinf(runs[end].errors.at(norm))))
+            return text + fmt::format("; of the finer rows of {} {}", name,
+                                      hindrance(runs[end], scheme.timings[end], norm));
+    return text;
+}
+
 /// Why a scheme has no time to reach an error, behind its name.
 std::string without_time(const SchemeRuns& scheme, std::size_t norm, double error) {
     const auto& runs = scheme.runs;
@@ -273,8 +288,8 @@ std::vector<Block> comparisons(const ReachedError& error, const WorkPrecisionRes
                                std::size_t norm, const WorkPrecisionBlock& block) {
     std::vector<Block> findings{Finding{
         fmt::format("To reach {} = {}:", result.norms[norm].norm.name, shortest(error.error))}};
-    const auto nearly = [&](std::size_t scheme) {
-        return nearly_reached(result, block, scheme, norm, error.error);
+    const auto of = [&](std::size_t scheme) {
+        return caveat(result.schemes[scheme], block.schemes[scheme].name, norm, error.error);
     };
     constexpr std::size_t most_pairs = 15;
     const bool all = error.comparisons.size() <= most_pairs;
@@ -282,13 +297,13 @@ std::vector<Block> comparisons(const ReachedError& error, const WorkPrecisionRes
     for (const auto& pair : error.comparisons)
         if (all || pair.faster == fastest || pair.slower == fastest)
             findings.emplace_back(
-                comparison(pair, error, block, nearly(pair.faster) + nearly(pair.slower)));
+                comparison(pair, error, block, of(pair.faster) + of(pair.slower)));
     if (!all)
         findings.emplace_back(Finding{"the table has the others' times", 4});
     for (std::size_t k = 0; k < block.schemes.size(); ++k)
         if (error.times[k] && error.comparisons.empty())
             findings.emplace_back(
-                Finding{block.schemes[k].name + " alone has a time to reach it" + nearly(k), 4});
+                Finding{block.schemes[k].name + " alone has a time to reach it" + of(k), 4});
     std::vector<std::string> without;
     for (std::size_t k = 0; k < block.schemes.size(); ++k)
         if (!error.times[k])

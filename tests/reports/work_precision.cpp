@@ -11,7 +11,9 @@
 #include <boost/test/unit_test.hpp>
 
 #include <algorithm>
+#include <limits>
 #include <optional>
+#include <regex>
 #include <sstream>
 
 using namespace tvbeam;
@@ -189,6 +191,29 @@ BOOST_AUTO_TEST_CASE(a_scheme_that_stays_above_an_error_is_not_said_to_reach_it)
     BOOST_TEST(has(text, "sd is 4.0 times faster than euler"), text);
     BOOST_TEST(has(text, "; euler comes within 1 %\n    of it, no nearer"), text);
     BOOST_TEST(!has(text, "sd comes within"), text);
+}
+
+// By its coarser row, which is below it, the error is not reached either.
+BOOST_AUTO_TEST_CASE(a_scheme_whose_errors_rise_above_an_error_again_is_not_said_to_reach_it) {
+    Study rises = study({"theta_L2L2"});
+    rises.add("euler", {{4e-3, 1e-3}, {5e-4, 2e-3}, {1.0077e-3, 5e-3}});
+    rises.add("sd", {{4e-3, 5e-4}, {5e-4, 2e-3}});
+    rises.block.targets["theta_L2L2"] = {1e-3};
+    const std::string text = rises.text();
+    BOOST_TEST(has(text, "; euler ends above it, by\n    1 % at most"), text);
+    BOOST_TEST(!has(text, "sd ends"), text);
+}
+
+BOOST_AUTO_TEST_CASE(a_scheme_that_fails_on_finer_rows_is_said_to_beside_its_time) {
+    Study fails = study({"theta_L2L2"});
+    fails.add("fails", {{1e-1, 1.0}, {1e-3, 2.0}, {std::nullopt, 4.0}});
+    fails.add("blows", {{1e-1, 1.0}, {1e-3, 9.0}, {std::numeric_limits<double>::infinity(), 12.0}});
+    fails.add("sd", {{1e-1, 1.0}, {1e-3, 5.0}, {1e-4, 10.0}});
+    fails.block.targets["theta_L2L2"] = {1e-2};
+    const std::string text = std::regex_replace(fails.text(), std::regex("\\s+"), " ");
+    BOOST_TEST(has(text, "; of the finer rows of fails one has failed"), text);
+    BOOST_TEST(has(text, "; of the finer rows of blows one has the error inf"), text);
+    BOOST_TEST(!has(text, "finer rows of sd"), text);
 }
 
 BOOST_AUTO_TEST_CASE(of_many_the_fastest_is_compared_with_each) {
