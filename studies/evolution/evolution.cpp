@@ -71,11 +71,12 @@ std::vector<PeriodChange> changes_of(const std::vector<double>& t,
 }
 
 /// Of the initial deflection, relative: the moment form's is a sum, the Hermite form solves for it.
-double tip_round_off(const Scheme& scheme, std::int64_t elements) {
+double tip_round_off(const Scheme& scheme, const Mesh& mesh) {
     const double of_sum = 1e-12;
     return scheme.algorithm == Algorithm::direct
                ? of_sum
-               : std::max(of_sum, hermite_solve_round_off(elements));
+               : std::max(of_sum,
+                          hermite_solve_round_off(mesh.elements(), mesh.lengths.minCoeff()));
 }
 
 } // namespace
@@ -161,7 +162,7 @@ EvolutionResult run_evolution(const Scene& scene, const EvolutionBlock& block,
                 contact->add(t, solver.tip_displacement(), solver.contact_stress());
             else
                 contact.emplace(scene.beam.stops, solver.tip_displacement(),
-                                tip_round_off(scene.scheme, block.rung.elements));
+                                tip_round_off(scene.scheme, mesh));
         }
         if (step++ % block.every != 0)
             return;

@@ -174,7 +174,7 @@ StudiedSolver beam_runs(const Scene& scene, const ProblemData& data, const Probl
     };
     const auto remark = [&scene, &data](const Series& series, const std::vector<RungResult>& runs,
                                         std::size_t k) {
-        return round_off_remark(scene.beam, data, series, runs, k);
+        return round_off_remark(scene.beam, scene.mesh, data, series, runs, k);
     };
     const auto rounding = [&scene,
                            &measured](const Series& series, const std::vector<RungResult>& runs,

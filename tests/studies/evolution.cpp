@@ -711,4 +711,24 @@ BOOST_AUTO_TEST_CASE(a_reference_without_a_ladder_is_refused) {
                       InputError);
 }
 
+// The round-off of U⁰ grows with the shortest element. The tip leaves g2 at once, or is pressed on
+// it by the load from t = 0 on.
+BOOST_AUTO_TEST_CASE(a_start_on_a_stop_is_one_on_a_mesh_with_a_short_element) {
+    const auto run = [](const std::string& nodes, const std::string& beam,
+                        const std::string& force) {
+        return evolution_of("[data]\ntheta0 = '0'\nu0 = '0.1*x^2'\nbody_force = '" + force +
+                            "'\n[beam]\nalpha = 0\nzeta = 0.1\nstops = [-0.02, 0.1]\n" + beam +
+                            "[scheme]\nalgorithm = 'fixed-point'\n[mesh]\nnodes = " + nodes +
+                            "\n[evolution]\nfinal_time = 1\nelements = 6\ndt = 0.1\n"
+                            "probes = ['u@1']\n");
+    };
+    const std::string yields = "contact = { law = 'penalty', epsilon = 1e-3 }\n";
+    const EvolutionResult left = run("[0, 0.5, 0.501, 1]", yields, "0");
+    BOOST_TEST(left.events.empty());
+    BOOST_TEST(left.beyond_stops == 0.0);
+    const EvolutionResult held = run("[0, 0.5, 0.51, 1]", "", "-20");
+    BOOST_REQUIRE(!held.events.empty());
+    BOOST_TEST(held.events[0].t == 0.0);
+}
+
 BOOST_AUTO_TEST_SUITE_END()
