@@ -149,10 +149,17 @@ std::vector<Cell> cells_of(const StudyResult& result) {
         add_orders(*orders, cells);
     if (const auto* race = result.get<WorkPrecisionResult>())
         add_race(*race, *result.scene.get<WorkPrecisionBlock>(), cells);
-    for (const auto& [kind, record] : result.records.entries())
+    for (const auto& [kind, record] : result.records.entries()) {
+        const Ending ending = kind->ending(record);
         for (const auto& [name, figure] : kind->figures(record))
             // Defects have names of the user's, which could be those of other figures.
-            cells.push_back({kind->judges_expectations() ? kind->name() : "", name, figure, false});
+            cells.push_back({.group = kind->judges_expectations() ? kind->name() : "",
+                             .heading = name,
+                             .value = ending.failed && std::isnan(figure) ? std::nullopt
+                                                                          : std::optional(figure),
+                             .without = name_of(ending.interrupted ? RungStatus::interrupted
+                                                                   : RungStatus::failed)});
+    }
     return cells;
 }
 

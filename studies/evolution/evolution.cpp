@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 namespace tvbeam {
@@ -130,7 +131,7 @@ std::map<std::string, double> EvolutionResult::figures() const {
                                                    periods.back().changes.end(), 0.0, worse);
     int onsets = 0;
     int releases = 0;
-    for (const auto& event : events) {
+    for (const auto& event : run.status == RungStatus::ok ? events : std::vector<ContactEvent>()) {
         const bool is_onset = event.kind == ContactEvent::Kind::onset;
         const std::string which = std::to_string(++(is_onset ? onsets : releases));
         figures[(is_onset ? "onset." : "release.") + which] = event.t;
@@ -138,6 +139,9 @@ std::map<std::string, double> EvolutionResult::figures() const {
     }
     figures["onsets"] = onsets;
     figures["releases"] = releases;
+    if (run.status != RungStatus::ok) // of a part of the time
+        for (auto& [name, figure] : figures)
+            figure = std::numeric_limits<double>::quiet_NaN();
     return figures;
 }
 

@@ -49,7 +49,8 @@ struct EvolutionResult {
     /// What [expect.evolution] may hold bands for: PROBE.least, .greatest, .first, .last,
     /// .mean, .error, .period_change (of the last period); samples (how many), beyond_stops,
     /// period_change (the greatest of all probes); onsets, releases (how many), onset.1,
-    /// release.1, … (when), beyond.1, … (ContactEvent::beyond of each contact).
+    /// release.1, … (when), beyond.1, … (ContactEvent::beyond of each contact). Of a run that did
+    /// not end they are no numbers, and those of events not there.
     [[nodiscard]] std::map<std::string, double> figures() const;
 };
 

@@ -731,4 +731,18 @@ BOOST_AUTO_TEST_CASE(a_start_on_a_stop_is_one_on_a_mesh_with_a_short_element) {
     BOOST_TEST(held.events[0].t == 0.0);
 }
 
+// The fixed point does not come to rest in its first step.
+BOOST_AUTO_TEST_CASE(a_run_that_failed_has_no_figures_of_the_part_that_it_made) {
+    const EvolutionResult failed =
+        evolution_of("[data]\ntheta0 = 'sin(pi*x)'\nu0 = '0'\n[beam]\nalpha = 1.5\n"
+                     "zeta = 0.01\nstops = [-0.1, 0.1]\n[scheme]\nalgorithm = 'fixed-point'\n"
+                     "[evolution]\nfinal_time = 1\nelements = 8\ndt = 0.1\nprobes = ['u@1']\n");
+    BOOST_REQUIRE((failed.run.status == RungStatus::failed));
+    const auto figures = failed.figures();
+    BOOST_TEST(figures.count("u@1.last") == 1U);
+    BOOST_TEST(figures.count("onsets") == 1U);
+    for (const auto& [name, figure] : figures)
+        BOOST_TEST(std::isnan(figure), name << " = " << figure);
+}
+
 BOOST_AUTO_TEST_SUITE_END()
