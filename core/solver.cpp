@@ -33,6 +33,7 @@ std::string Solver::step(const StepSources& sources) {
         std::string reason = solve(c, sources.times(column), amplitudes);
         if (!reason.empty())
             return reason;
+        counters_.contact_changes += pressed_.changes(stress_) ? 1 : 0;
         if (observer_)
             observer_({&scheme, i, c, sources.times(column), amplitudes});
         if (i + 1 < stages)

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/contact/contact.hpp"
 #include "core/space/linear_elements.hpp"
 #include "core/time/time_levels.hpp"
 #include "core/time/time_scheme.hpp"
@@ -26,6 +27,8 @@ struct Counters {
         0; ///< sources evaluated on arrays of points: those that do not separate
     std::int64_t tip_evaluations = 0;        ///< tests of the tip against the stops; no stops: none
     std::int64_t contact_steps = 0;          ///< steps that end on a stop
+    std::int64_t contact_changes = 0;        ///< solves with the tip on another stop, or on one or
+                                             ///< none where it was not so in the solve before
     std::int64_t fixed_point_iterations = 0; ///< the paper's algorithm only
     std::int64_t norm_evaluations = 0;       ///< spatial error norms integrated
     std::int64_t integration_cells = 0;      ///< that the elements are cut into for quadrature
@@ -103,6 +106,7 @@ protected:
 private:
     TimeScheme time_;
     double dt_;
+    PressedStop pressed_;
     std::function<void(const Solve&)> observer_;
     Eigen::VectorXd before_;     // y^{n−1}; empty where no stage reads an increment
     Eigen::MatrixXd increments_; // one column each, in the order of Stage::weights

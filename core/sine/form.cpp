@@ -275,6 +275,8 @@ bool SineForm::march_block(std::int64_t steps) {
     in_contact_ = block_.stress(solves - 1) != 0.0;
     for (std::int64_t n = 1; n <= steps; ++n)
         counters_.contact_steps += block_.stress(n * stages() - 1) != 0.0 ? 1 : 0;
+    for (const double stress : block_.stress.head(solves))
+        counters_.contact_changes += pressed_.changes(stress) ? 1 : 0;
     add_errors(steps);
     // What is not finite once stays so: the end of the block shows it.
     return finite && next_weights_.allFinite() && std::isfinite(block_.stress.sum());

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/contact/contact.hpp"
 #include "core/problem.hpp"
 #include "core/run.hpp"
 #include "core/scheme.hpp"
@@ -125,6 +126,7 @@ private:
     std::vector<Eigen::Index> moving_; // weights that are not zero for ever
     Block block_;
     bool in_contact_ = false;
+    PressedStop pressed_;
     Counters counters_;
 };
 

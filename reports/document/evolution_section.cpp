@@ -89,14 +89,18 @@ void add_contact(Section& section, const EvolutionResult& result, const TimeScal
     if (!whole && result.events.empty())
         return;
     section.blocks.emplace_back(BlankLine{});
-    if (result.events.empty())
+    if (result.presses_within_steps())
+        section.blocks.emplace_back(
+            Finding{"The tip presses on a stop within steps alone, at the end of none: smaller "
+                    "steps show when."});
+    else if (result.events.empty())
         section.blocks.emplace_back(Finding{"The tip never presses on a stop."});
     else
         section.blocks.emplace_back(event_table(result.events, times, stops.epsilon > 0.0));
     if (result.events.size() > shown_events)
         section.blocks.emplace_back(Paragraph{fmt::format("of {} events the first and the last {}",
                                                           result.events.size(), shown_events / 2)});
-    if (whole)
+    if (whole && !result.presses_within_steps())
         section.blocks.emplace_back(
             Finding{result.beyond_stops > 0.0
                         ? "The tip penetrates a stop by " + rounded_up(result.beyond_stops, 1) +

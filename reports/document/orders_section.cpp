@@ -133,6 +133,16 @@ std::string label_of(const Measure& measure) {
     return root + (measure.squared && root == measure.name ? "^(1/2)" : "");
 }
 
+/// On what they are measured against, and why they are no more.
+std::vector<std::string> sentences_on_runs(const OrdersResult& orders, const OrdersBlock& block) {
+    std::vector<std::string> sentences;
+    if (!orders.reference_remark.empty())
+        sentences.push_back(orders.reference_remark);
+    if (orders.refined)
+        sentences.push_back(ending_text(*orders.refined, *block.until, size_text(orders.runs)));
+    return sentences;
+}
+
 } // namespace
 
 Table fit_table(const std::vector<std::pair<std::string, const TwoTermFit*>>& fits,
@@ -225,10 +235,9 @@ Section orders_section(const OrdersResult& orders, const OrdersBlock& block) {
                         constant->theorem, scientific(constant->least, 2),
                         scientific(constant->greatest, 2), scientific(constant->finest, 2))});
     }
-    if (orders.refined) {
+    for (const auto& sentence : sentences_on_runs(orders, block)) {
         blocks.emplace_back(BlankLine{});
-        blocks.emplace_back(
-            Finding{ending_text(*orders.refined, *block.until, size_text(orders.runs))});
+        blocks.emplace_back(Finding{sentence});
     }
     if (!notes.empty()) {
         blocks.emplace_back(BlankLine{});

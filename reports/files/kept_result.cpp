@@ -97,6 +97,8 @@ nlohmann::ordered_json kept(const RungResult& result) {
               {"uncertainties", std::move(uncertainties)}};
     if (result.wall_clock)
         json["wall_clock"] = *result.wall_clock;
+    if (result.has_kink)
+        json["has_kink"] = true;
     for (const auto& digits : result.printed)
         json["printed"].push_back(kept(digits));
     return json;
@@ -132,6 +134,7 @@ RungResult kept_run(const nlohmann::ordered_json& json, const Rung& rung,
     result.seconds = seconds(json);
     if (json.contains("wall_clock"))
         result.wall_clock = number(json["wall_clock"], "wall_clock");
+    result.has_kink = json.value("has_kink", Json()) == true;
     const Json& counts = member(json, "counters");
     require(counts.is_object(), "counters have no names");
     for (const auto& [name, value] : counts.items())

@@ -48,6 +48,8 @@ Json json_of(const EvolutionResult& result) {
     if (!exact.empty())
         json["exact"] = std::move(exact);
     json["events"] = std::move(events);
+    if (result.presses_within_steps())
+        json["presses_within_steps"] = true;
     json["beyond_stops"] = result.beyond_stops;
     if (!result.periods.empty())
         json["periods"] = std::move(periods);

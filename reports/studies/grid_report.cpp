@@ -90,6 +90,8 @@ Json json_of(const OrdersResult& orders, const OrdersBlock& block) {
         for (const auto& rung : of.out_of_line)
             value["out_of_line"].push_back({{"elements", rung.elements}, {"dt", rung.dt}});
     }
+    if (!orders.reference_remark.empty())
+        json["remarks"] = {orders.reference_remark};
     if (orders.refined)
         add_ending(json, *orders.refined);
     if (orders.corollary)

@@ -303,6 +303,9 @@ std::vector<std::string> cautions(const StudyResult& result) {
     if (const auto* ladder = result.get<LadderResult>();
         ladder != nullptr && !ladder->reference_remark.empty())
         all.push_back(ladder->reference_remark);
+    if (const auto* orders = result.get<OrdersResult>();
+        orders != nullptr && !orders->reference_remark.empty())
+        all.push_back(orders->reference_remark);
     if (const auto* race = result.get<WorkPrecisionResult>();
         race != nullptr && !race->busy_remark.empty())
         all.push_back(race->busy_remark);

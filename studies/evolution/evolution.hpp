@@ -46,6 +46,9 @@ struct EvolutionResult {
     double beyond_stops = 0.0;         ///< ContactEvents::beyond_stops
     std::vector<PeriodChange> periods; ///< from the second one on
 
+    /// The tip is on a stop in a stage of a step, and at no step's end.
+    [[nodiscard]] bool presses_within_steps() const { return events.empty() && run.has_kink; }
+
     /// What [expect.evolution] may hold bands for: PROBE.least, .greatest, .first, .last,
     /// .mean, .error, .period_change (of the last period); samples (how many), beyond_stops,
     /// period_change (the greatest of all probes); onsets, releases (how many), onset.1,

@@ -35,6 +35,7 @@ struct OrdersResult {
     /// If a measure that a theorem bounds was asked for and some run has an error.
     std::optional<TheoremConstants> corollary;
     std::optional<Refined> refined = {}; ///< why no further; with `until`
+    std::string reference_remark = {};   ///< grid_reference_remark(); empty without a reference
 
     /// The fit of a norm, or of the root of a squared one; null where the grid does not determine
     /// both orders, and so predicts nothing.

@@ -3,7 +3,7 @@
 #include "mms/text/toml_reader.hpp"
 #include "studies/scene/study_keys.hpp"
 
-#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -105,6 +105,13 @@ double read_reference_dt(TableReader& table, bool richardson, const std::vector<
     return dt;
 }
 
+/// Whether no run refines a width: what every one lacks is in no order.
+bool same_in_all(auto width, const std::vector<RungResult>& rungs) {
+    return rungs.size() > 1 && std::ranges::all_of(rungs, [&](const RungResult& other) {
+               return other.rung.*width == rungs.front().rung.*width;
+           });
+}
+
 /// Temperature and curvature on every element at every kept level.
 void require_memory(const TableReader& table, const ReferenceBlock& reference,
                     const std::vector<Series>& measured) {
@@ -138,14 +145,9 @@ bool ReferenceBlock::is(const Rung& rung) const {
 }
 
 bool ReferenceBlock::is_close_to(const Rung& rung, const std::vector<RungResult>& rungs) const {
-    // What every rung lacks is in no order.
-    const auto same_in_all = [&](auto width) {
-        return rungs.size() > 1 && std::ranges::all_of(rungs, [&](const RungResult& other) {
-                   return other.rung.*width == rungs.front().rung.*width;
-               });
-    };
-    return !richardson && ((2 * rung.elements >= elements && !same_in_all(&Rung::elements)) ||
-                           (steps_in(rung) <= 2 && !same_in_all(&Rung::dt)));
+    return !richardson &&
+           ((2 * rung.elements >= elements && !same_in_all(&Rung::elements, rungs)) ||
+            (steps_in(rung) <= 2 && !same_in_all(&Rung::dt, rungs)));
 }
 
 std::optional<Refinement> ReferenceBlock::widths() const {
@@ -208,9 +210,15 @@ std::string missing_remark(const ReferenceBlock& reference, const Rung& finest, 
                                  : "A finer one has less.");
 }
 
-bool changes_contact(const RungResult& run) {
-    const std::int64_t pressed = run.count("contact_steps");
-    return pressed > 0 && pressed < run.count("steps");
+/// That an extrapolated reference is of a solution that is not smooth; or empty.
+std::string extrapolation_remark(const ReferenceBlock& reference, bool changes_contact,
+                                 const std::string& jump_at_start) {
+    if (!reference.richardson || (!changes_contact && jump_at_start.empty()))
+        return {};
+    return fmt::format("The reference is extrapolated as that of a smooth solution, and {}: "
+                       "what error of its own that leaves is not known, and one that stands "
+                       "still may be the reference's.",
+                       changes_contact ? "a contact begins or ends" : jump_at_start);
 }
 
 } // namespace
@@ -224,12 +232,10 @@ std::string reference_remark(const ReferenceBlock& reference, const std::vector<
         if (reference.is_close_to(run.rung, rungs))
             named += fmt::format("{}s = {} (dt = {:g})", close++ > 0 ? ", " : "", run.rung.elements,
                                  run.rung.dt);
-    const bool changes = std::ranges::any_of(rungs, changes_contact);
-    if (reference.richardson && (changes || !jump_at_start.empty()))
-        return fmt::format("The reference is extrapolated as that of a smooth solution, and {}: "
-                           "what error of its own that leaves is not known, and one that stands "
-                           "still may be the reference's.",
-                           changes ? "a contact begins or ends" : jump_at_start);
+    const bool changes = std::ranges::any_of(rungs, &RungResult::has_kink);
+    if (const auto remark = extrapolation_remark(reference, changes, jump_at_start);
+        !remark.empty())
+        return remark;
     if (close == 0)
         return rungs.empty() ? ""
                              : missing_remark(reference, rungs.back().rung,
@@ -239,6 +245,36 @@ std::string reference_remark(const ReferenceBlock& reference, const std::vector<
            (close == 1 ? " has an h or dt" : " have an h or dt") +
            " within a factor of two of the reference's: what is measured there lacks much of the "
            "error, and orders that it enters come out too high.";
+}
+
+std::string grid_reference_remark(const ReferenceBlock& reference,
+                                  const std::vector<RungResult>& runs,
+                                  const std::string& jump_at_start) {
+    if (reference.richardson)
+        return extrapolation_remark(reference, std::ranges::any_of(runs, &RungResult::has_kink),
+                                    jump_at_start);
+    std::vector<std::string> close; // meshes and steps, each once
+    const auto add = [&](const std::string& width) {
+        if (std::ranges::find(close, width) == close.end())
+            close.push_back(width);
+    };
+    for (const auto& run : runs)
+        if (2 * run.rung.elements >= reference.elements && !same_in_all(&Rung::elements, runs))
+            add(fmt::format("s = {}", run.rung.elements));
+    for (const auto& run : runs)
+        if (reference.steps_in(run.rung) <= 2 && !same_in_all(&Rung::dt, runs))
+            add(fmt::format("dt = {:g}", run.rung.dt));
+    const bool is_one =
+        std::ranges::any_of(runs, [&](const RungResult& run) { return reference.is(run.rung); });
+    std::string remark;
+    if (!close.empty())
+        remark = fmt::format("The runs with {} have an h or dt within a factor of two of the "
+                             "reference's: what is measured there lacks much of the error, which "
+                             "the model has to add.",
+                             fmt::join(close, ", "));
+    if (is_one)
+        remark += " One of them is the reference itself, and its error 0 shows nothing.";
+    return remark;
 }
 
 ReferenceBlock read_reference(TableReader& table, const std::vector<Series>& measured) {

@@ -48,6 +48,12 @@ std::string reference_remark(const ReferenceBlock& reference, const std::vector<
                              const std::vector<Measure>& measures,
                              const std::string& jump_at_start);
 
+/// Of a grid, whose fit takes the reference's own error into account: about an extrapolated one the
+/// same; of another the runs that show little as they are so close to it. Empty: nothing of both.
+std::string grid_reference_remark(const ReferenceBlock& reference,
+                                  const std::vector<RungResult>& runs,
+                                  const std::string& jump_at_start);
+
 /// Reads the block. measured: what will be measured against the reference. Throws InputError where
 /// the reference does not fit a rung, is coarser than one, or would fill more than 1 GiB.
 ReferenceBlock read_reference(TableReader& table, const std::vector<Series>& measured);

@@ -91,8 +91,14 @@ std::vector<Norm> norms_of(const std::vector<Measure>& measures) {
 }
 
 RungResult rung_result(const Rung& rung, const RunResult& run, double seconds) {
-    return {rung,       status_of(run.status), run.reason, seconds, counts_of(run.counters),
-            run.errors, run.uncertainties};
+    return {rung,
+            status_of(run.status),
+            run.reason,
+            seconds,
+            counts_of(run.counters),
+            run.errors,
+            run.uncertainties,
+            run.counters.contact_changes > 0};
 }
 
 namespace {
@@ -147,11 +153,25 @@ std::string jump_at_start(const Scene& scene, const ProblemData& data) {
                : "";
 }
 
+/// Whether the tip is between the stops at t = 0: a run that is pressed in every step has met one.
+bool starts_off_the_stops(const Scene& scene, const ProblemData& data) {
+    if (!scene.beam.stops.exist() || !data.resolution)
+        return false;
+    const auto w = [&](const Eigen::ArrayXd& at) {
+        return values(data, data.curvature_initial, at, 0.0);
+    };
+    const double tip = hat_loads(data.resolution->on(Mesh::uniform(1)), w)(0);
+    constexpr double rounding = 1e-9;
+    const double most = rounding * w(Eigen::ArrayXd::LinSpaced(33, 0.0, 1.0)).abs().maxCoeff();
+    return scene.beam.stops.lower + most < tip && tip < scene.beam.stops.upper - most;
+}
+
 } // namespace
 
 StudiedSolver beam_runs(const Scene& scene, const ProblemData& data, const ProblemData& measured,
                         const Defects& defects) {
-    const auto run = [&scene, &measured, &defects](const RunTask& task) {
+    const bool starts_off = starts_off_the_stops(scene, data);
+    const auto run = [&scene, &measured, &defects, starts_off](const RunTask& task) {
         const ProblemData with_defect =
             defects.none() ? ProblemData{} : defects.added_to(measured, task.rung);
         const auto start = std::chrono::steady_clock::now();
@@ -165,6 +185,7 @@ StudiedSolver beam_runs(const Scene& scene, const ProblemData& data, const Probl
                                           defects.none() ? measured : with_defect);
         const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
         RungResult result = rung_result(task.rung, run, elapsed.count());
+        result.has_kink = result.has_kink || (starts_off && run.counters.contact_steps > 0);
         // What the norms show of the reference against itself is the rounding of its evaluation.
         if (scene.reference && scene.reference->is(task.rung) && defects.none()) {
             std::fill(result.errors.begin(), result.errors.end(), 0.0);

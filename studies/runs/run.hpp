@@ -85,6 +85,8 @@ struct RungResult {
     /// The part of each error that its solver knows to be uncertain, e.g. by its quadrature; empty:
     /// none of any.
     std::vector<double> uncertainties = {};
+    /// Its solver met a kink of the solution in time, as where a contact begins or ends.
+    bool has_kink = false;
     /// How finely each was printed, where a program wrote them; empty: they are the doubles found.
     std::vector<PrintedDigits> printed = {};
     PrintedDigits printed_seconds = {}; ///< none where they are not by a clock of the program's own

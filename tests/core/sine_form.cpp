@@ -150,6 +150,7 @@ BOOST_DATA_TEST_CASE(errors_are_those_of_the_nodal_form,
         BOOST_TEST(std::abs(form.errors()[k] - nodal.errors[k]) <= 1e-12 + 1e-10 * nodal.errors[k],
                    norms[k].name << " " << form.errors()[k] << " " << nodal.errors[k]);
     BOOST_TEST(form.counters().contact_steps == nodal.counters.contact_steps);
+    BOOST_TEST(form.counters().contact_changes == nodal.counters.contact_changes);
 }
 
 // A strong coupling for a short time: the curvature's modes are large, and cancel in the errors up
@@ -240,6 +241,7 @@ BOOST_DATA_TEST_CASE(contact_is_that_of_the_nodal_form_through_onsets_and_releas
     BOOST_TEST(nodal.counters.contact_steps > 100);
     BOOST_TEST(nodal.counters.contact_steps < 470);
     BOOST_TEST(sine.counters.contact_steps == nodal.counters.contact_steps);
+    BOOST_TEST(sine.counters.contact_changes == nodal.counters.contact_changes);
     BOOST_TEST(sine.counters.sine_steps == sine.counters.steps);
     BOOST_TEST(nodal.counters.sine_steps == 0);
     for (std::size_t k = 0; k < norms.size(); ++k)

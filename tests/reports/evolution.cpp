@@ -1,6 +1,7 @@
 // What is said of an evolution, alone and in a sweep.
 
 #include "studies/evolution/evolution.hpp"
+#include "reports/document/evolution_section.hpp"
 #include "reports/document/text_document.hpp"
 #include "reports/files/baseline.hpp"
 #include "reports/sweep/sweep.hpp"
@@ -30,6 +31,27 @@ const std::string fixed_point =
     "elements = 8\ndt = 0.1\nprobes = ['u@1']\n";
 
 } // namespace
+
+BOOST_AUTO_TEST_CASE(that_a_tip_never_presses_is_not_said_of_one_that_does_in_a_stage) {
+    const TemporaryDirectory directory;
+    const auto said = [&](const std::string& stops) {
+        const Scene scene = read_scene(directory.write(
+            "scene.toml", "[data]\ntheta0 = '0'\nu0 = '0'\n"
+                          "body_force = '-60*exp(-((t - 0.52929)/0.01)^2)'\n[beam]\nalpha = 0\n"
+                          "zeta = 0.01\nstops = " +
+                              stops +
+                              "\n[scheme]\ntime = 'sdirk2'\n[evolution]\nfinal_time = 1\n"
+                              "elements = 4\ndt = 0.1\nprobes = ['u@1']\n"));
+        const StudyResult result = run_study(scene);
+        Document document;
+        document.sections = {evolution_section(*result.get<EvolutionResult>(), scene)};
+        return text_document(document);
+    };
+    const std::string met = said("[-0.02, 0.1]");
+    BOOST_TEST(has(met, "The tip presses on a stop within steps alone"), met);
+    BOOST_TEST(!has(met, "never"), met);
+    BOOST_TEST(has(said("[-20, 20]"), "The tip never presses on a stop."));
+}
 
 BOOST_AUTO_TEST_CASE(a_run_that_failed_has_no_figures_in_a_sweep_and_in_a_record) {
     const TemporaryDirectory directory;

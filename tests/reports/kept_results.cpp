@@ -87,6 +87,10 @@ BOOST_AUTO_TEST_CASE(a_run_comes_back_bit_for_bit) {
     BOOST_TEST(kept_value.errors == value.errors, boost::test_tools::per_element());
     BOOST_TEST(kept_value.printed.at(0).significant == 2);
     BOOST_TEST(kept_value.printed.at(0).last_place == -2);
+    BOOST_TEST(!kept_value.has_kink);
+    value.has_kink = true;
+    BOOST_TEST(kept_run(Json::parse(kept(value).dump()), rung, {{.name = "lift", .is_value = true}})
+                   .has_kink);
     RungResult failed = run();
     failed.status = RungStatus::failed;
     failed.reason = "not finite";

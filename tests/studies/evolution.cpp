@@ -711,6 +711,25 @@ BOOST_AUTO_TEST_CASE(a_reference_without_a_ladder_is_refused) {
                       InputError);
 }
 
+// A load of 0.01 about the first stage of the step from 0.5 presses the tip on g2 there, and no
+// step's end shows it; without the stop nothing is met.
+BOOST_AUTO_TEST_CASE(a_contact_in_a_stage_alone_is_not_taken_for_none) {
+    const auto run = [](const std::string& stops) {
+        return evolution_of("[data]\ntheta0 = '0'\nu0 = '0'\n"
+                            "body_force = '-60*exp(-((t - 0.52929)/0.01)^2)'\n[beam]\nalpha = 0\n"
+                            "zeta = 0.01\nstops = " +
+                            stops +
+                            "\n[scheme]\ntime = 'sdirk2'\n[evolution]\nfinal_time = 1\n"
+                            "elements = 4\ndt = 0.1\nprobes = ['u@1', 'stress']\n");
+    };
+    const EvolutionResult met = run("[-0.02, 0.1]");
+    const EvolutionResult free = run("[-20, 20]");
+    BOOST_TEST(met.events.empty());
+    BOOST_TEST(met.presses_within_steps());
+    BOOST_TEST(greatest_difference(met.probes[0], free.probes[0]) > 0.0);
+    BOOST_TEST(!free.presses_within_steps());
+}
+
 // The round-off of U⁰ grows with the shortest element. The tip leaves g2 at once, or is pressed on
 // it by the load from t = 0 on.
 BOOST_AUTO_TEST_CASE(a_start_on_a_stop_is_one_on_a_mesh_with_a_short_element) {

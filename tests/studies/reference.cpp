@@ -581,4 +581,44 @@ BOOST_AUTO_TEST_CASE(the_paper_s_second_experiment_has_the_orders_of_the_scheme)
         BOOST_TEST(one.holds, one.what << " is " << one.found << ", not " << one.expected);
 }
 
+// From u = 0 to g2 in the first step of every run; in a stage alone; from one stop to the other.
+BOOST_AUTO_TEST_CASE(an_extrapolated_reference_across_any_change_of_contact_is_remarked) {
+    const auto remark_of = [](const std::string& u0, const std::string& force,
+                              const std::string& beam, const std::string& time) {
+        return ladder_of("[data]\ntheta0 = '0'\nu0 = '" + u0 + "'\nbody_force = '" + force +
+                         "'\n[beam]\n" + beam + "\nstops = [-0.02, 0.1]\n[scheme]\ntime = '" +
+                         time + "'\n[ladder]\nfinal_time = 0.4\nelements = [4, 8]\n" +
+                         "dt = [0.04, 0.02]\nnorms = ['sigma_L2']\n" + reference(16, "0.01", true))
+            .reference_remark;
+    };
+    const std::string change = "and a contact begins or ends";
+    const std::string beam = "alpha = 0.1\nzeta = 0.1";
+    const std::string slack = "alpha = 0\nzeta = 0"; // the tip follows −q/8
+    for (const auto& remark :
+         {remark_of("0", "-20*(1 + t)", beam, "euler"),
+          remark_of("0", "-60*exp(-((t - 0.091716)/0.001)^2)", slack, "sdirk2"),
+          remark_of("-0.01*x^2*(3 - x)", "-20*tanh((t - 0.21)/0.001)", slack, "euler")})
+        BOOST_TEST(remark.find(change) != std::string::npos, remark);
+    BOOST_TEST(remark_of("-0.01*x^2*(3 - x)", "20*(1 + t)", beam, "euler").empty()); // held on g1
+}
+
+BOOST_AUTO_TEST_CASE(a_grid_says_what_its_reference_leaves_open) {
+    const auto remark_of = [](const std::string& text) {
+        return study_of(text).get<OrdersResult>()->reference_remark;
+    };
+    const std::string forced = "[data]\ntheta0 = '2*sin(pi*x)'\nu0 = '0.05*x^2'\n"
+                               "body_force = '5*sin(2*pi*t)*x'\n[beam]\nalpha = 0.3\nzeta = 0.1\n"
+                               "stops = [-0.02, 0.1]\n[orders]\nfinal_time = 0.4\n"
+                               "elements = [4, 8, 16]\ndt = [0.04, 0.02, 0.01]\n"
+                               "norms = ['theta_L2L2']\n";
+    BOOST_TEST(remark_of(forced + reference(32, "5e-3", true)).find("a contact begins or ends") !=
+               std::string::npos);
+    BOOST_TEST(remark_of(forced + reference(64, "2.5e-3")).empty()); // its error is in the model
+    const std::string close = remark_of(free_beam + grid + reference(64, "2.5e-3"));
+    BOOST_TEST(close.starts_with("The runs with s = 32, s = 64, dt = 0.005, dt = 0.0025 have an h "
+                                 "or dt within a factor of two of the reference's"),
+               close);
+    BOOST_TEST(close.find("One of them is the reference itself") != std::string::npos, close);
+}
+
 BOOST_AUTO_TEST_SUITE_END()
