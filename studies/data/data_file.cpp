@@ -437,7 +437,9 @@ DataFile read_data(const std::string& file, const DataChoice& choice) {
         throw InputError({data.name}, "is JSON; a table is asked for, whose first line names the "
                                       "columns, e.g. h,dt,error, and each other is a record");
     const Head head = head_of(lines);
-    const ColumnNames names{head.names, head.place, blank_columns(lines, head)};
+    ColumnNames names{head.names, head.place};
+    if (names.find("dt"))
+        names.blank = blank_columns(lines, head);
     std::vector<ColumnUse> uses = choose_columns(names, choice, data);
     auto conditions = conditions_of(names, choice.where);
     auto unread = unread_columns(names, uses, conditions);
