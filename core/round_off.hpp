@@ -7,14 +7,7 @@
 
 namespace tvbeam {
 
-/// ε s/h³: the round-off of one solve with the Hermite form's B at most, h: the shortest of the
-/// elements. Its condition is that, as its largest entries are like h⁻³; s⁴ on a uniform mesh.
-inline double hermite_solve_round_off(std::int64_t elements, double shortest) {
-    const auto s = static_cast<double>(elements);
-    return std::numeric_limits<double>::epsilon() * s / (shortest * shortest * shortest);
-}
-
-/// The same on a uniform mesh.
+/// ε s⁴: the round-off of one solve with the Hermite form's B, whose condition is s⁴, at most.
 inline double hermite_solve_round_off(std::int64_t elements) {
     const auto s = static_cast<double>(elements);
     return std::numeric_limits<double>::epsilon() * s * s * s * s;

@@ -133,14 +133,17 @@ private:
         const auto forced = [&](std::size_t k) { return contacts_[k] == Contact::force; };
         const bool after_force = i > 0 && forced(i - 1);
         const bool before_force = i + 1 < phases_.size() && forced(i + 1);
-        if (contacts_[i] == Contact::rest)
-            result_.rests_until = phase.end;
-        if (contacts_[i] == Contact::rest || (!after_force && is_on_stop(phase, phase.begin)))
+        std::size_t rest = i; // where one begins, if any does
+        if (contacts_[i] == Contact::rest || (!after_force && is_on_stop(phase, phase.begin))) {
             result_.touch = phase.begin;
-        else if (!before_force && is_on_stop(phase, phase.end))
+        } else if (!before_force && is_on_stop(phase, phase.end)) {
             result_.touch = phase.end;
-        else
+            ++rest;
+        } else {
             result_.touch = touch_inside(phase);
+        }
+        for (; rest < phases_.size() && contacts_[rest] == Contact::rest; ++rest)
+            result_.rests_until = phases_[rest].end;
     }
 
     /// Where a gap that falls and rises again is least.

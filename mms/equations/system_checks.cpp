@@ -213,8 +213,9 @@ private:
     [[nodiscard]] std::string idle_words(const DerivedParameter& parameter) const {
         for (const auto& function : derived_.functions)
             if (const ex slope = derivative_by(parameter, function.formula); !slope.is_zero())
-                return ": " + function.name + " is the same for all values of it" +
-                       (is_proven_zero(slope) ? "" : where_looked()) +
+                return ": " + function.name + " is the same " +
+                       (is_proven_zero(slope) ? "for all values of it"
+                                              : "at and beside its value" + where_looked()) +
                        ", and what it multiplies there is not tested";
         return "";
     }

@@ -67,7 +67,7 @@ std::string check_markdown(const std::vector<CheckedScene>& scenes) {
 
 nlohmann::ordered_json check_json(const CheckedScene& scene) {
     nlohmann::ordered_json json{{"passed", scene.passed()},
-                                {"expectations", scene.expectations.size()},
+                                {"expectations", scene.expectations.size()}, // that were looked at
                                 {"violations", nlohmann::ordered_json::array()}};
     if (!scene.error.empty())
         json["error"] = scene.error;

@@ -239,12 +239,18 @@ std::string caveat(const SchemeRuns& scheme, const std::string& name, std::size_
     const auto reaches = [&](const RungResult& run) {
         return !run.errors.empty() && run.errors.at(norm) <= error;
     };
+    const auto timed = std::span(runs).first(end);
+    const auto finer = std::span(runs).subspan(end);
     std::string text;
     if (!reaches(runs[end - 1]))
-        text = std::ranges::any_of(runs, reaches)
-                   ? fmt::format("; {} ends above it, by {:g} % at most", name, 100.0 * same_error)
-                   : fmt::format("; {} comes within {:g} % of it, no nearer", name,
-                                 100.0 * same_error);
+        text =
+            fmt::format(fmt::runtime(std::ranges::any_of(finer, reaches)
+                                         ? "; {} comes within {:g} % of it, and below it in a row "
+                                           "without a time"
+                                     : std::ranges::any_of(timed, reaches)
+                                         ? "; {} ends above it, by {:g} % at most"
+                                         : "; {} comes within {:g} % of it, no nearer"),
+                        name, 100.0 * same_error);
     for (; end < runs.size(); ++end)
         if (runs[end].status == RungStatus::failed ||
             (!runs[end].errors.empty() && std::isinf(runs[end].errors.at(norm))))

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 namespace tvbeam {
 
@@ -71,13 +72,16 @@ std::vector<PeriodChange> changes_of(const std::vector<double>& t,
     return periods;
 }
 
-/// Of the initial deflection, relative: the moment form's is a sum, the Hermite form solves for it.
-double tip_round_off(const Scheme& scheme, const Mesh& mesh) {
+/// Where the tip is at first, and its round-off, relative: the moment form's is a sum; the Hermite
+/// form solves for it, so that it is taken from the data where they are known well enough.
+std::pair<double, double> start_of(const Solver& solver, const Scheme& scheme,
+                                   const ProblemData& data, std::int64_t elements) {
     const double of_sum = 1e-12;
-    return scheme.algorithm == Algorithm::direct
-               ? of_sum
-               : std::max(of_sum,
-                          hermite_solve_round_off(mesh.elements(), mesh.lengths.minCoeff()));
+    if (scheme.algorithm == Algorithm::direct)
+        return {solver.tip_displacement(), of_sum};
+    if (const auto tip = initial_tip(data))
+        return {*tip, of_sum};
+    return {solver.tip_displacement(), std::max(of_sum, hermite_solve_round_off(elements))};
 }
 
 } // namespace
@@ -162,11 +166,13 @@ EvolutionResult run_evolution(const Scene& scene, const EvolutionBlock& block,
     observer.needs = needs_of(block, scene.beam.stops);
     observer.visit = [&](double t, const Solver& solver) {
         if (scene.beam.stops.exist()) {
-            if (contact)
+            if (contact) {
                 contact->add(t, solver.tip_displacement(), solver.contact_stress());
-            else
-                contact.emplace(scene.beam.stops, solver.tip_displacement(),
-                                tip_round_off(scene.scheme, mesh));
+            } else {
+                const auto [tip, round_off] =
+                    start_of(solver, scene.scheme, data, block.rung.elements);
+                contact.emplace(scene.beam.stops, tip, round_off);
+            }
         }
         if (step++ % block.every != 0)
             return;

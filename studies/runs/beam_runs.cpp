@@ -155,18 +155,25 @@ std::string jump_at_start(const Scene& scene, const ProblemData& data) {
 
 /// Whether the tip is between the stops at t = 0: a run that is pressed in every step has met one.
 bool starts_off_the_stops(const Scene& scene, const ProblemData& data) {
-    if (!scene.beam.stops.exist() || !data.resolution)
+    const auto tip = initial_tip(data);
+    if (!scene.beam.stops.exist() || !tip)
         return false;
-    const auto w = [&](const Eigen::ArrayXd& at) {
-        return values(data, data.curvature_initial, at, 0.0);
-    };
-    const double tip = hat_loads(data.resolution->on(Mesh::uniform(1)), w)(0);
     constexpr double rounding = 1e-9;
-    const double most = rounding * w(Eigen::ArrayXd::LinSpaced(33, 0.0, 1.0)).abs().maxCoeff();
-    return scene.beam.stops.lower + most < tip && tip < scene.beam.stops.upper - most;
+    const double most =
+        rounding *
+        values(data, data.curvature_initial, sample_points(0.0, 1.0), 0.0).abs().maxCoeff();
+    return scene.beam.stops.lower + most < *tip && *tip < scene.beam.stops.upper - most;
 }
 
 } // namespace
+
+std::optional<double> initial_tip(const ProblemData& data) {
+    if (!data.resolution)
+        return std::nullopt;
+    return hat_loads(data.resolution->on(Mesh::uniform(1)), [&](const Eigen::ArrayXd& at) {
+        return values(data, data.curvature_initial, at, 0.0);
+    })(0);
+}
 
 StudiedSolver beam_runs(const Scene& scene, const ProblemData& data, const ProblemData& measured,
                         const Defects& defects) {
@@ -195,7 +202,7 @@ StudiedSolver beam_runs(const Scene& scene, const ProblemData& data, const Probl
     };
     const auto remark = [&scene, &data](const Series& series, const std::vector<RungResult>& runs,
                                         std::size_t k) {
-        return round_off_remark(scene.beam, scene.mesh, data, series, runs, k);
+        return round_off_remark(scene.beam, data, series, runs, k);
     };
     const auto rounding = [&scene,
                            &measured](const Series& series, const std::vector<RungResult>& runs,

@@ -6,6 +6,7 @@
 #include "studies/runs/defects.hpp"
 #include "studies/runs/studied_solver.hpp"
 
+#include <optional>
 #include <vector>
 
 namespace tvbeam {
@@ -24,6 +25,10 @@ std::vector<Norm> norms_of(const std::vector<Measure>& measures);
 
 /// A run of the beam as a study has it.
 RungResult rung_result(const Rung& rung, const RunResult& run, double seconds);
+
+/// u(1, 0) of the data, the integral of (1 - x) u_xx(x, 0): without the round-off of a state of the
+/// Hermite form, which solves for it. nullopt: the data are not resolved.
+std::optional<double> initial_tip(const ProblemData& data);
 
 /// The beam of a scene as a solver under study: core/run.hpp on the scene's meshes. data: the
 /// scene's problem; measured: the same with what errors are measured against for its exact

@@ -151,14 +151,6 @@ double rounding_of_reference(const Scene& scene, const Series& series, const Nor
                        scene.beam, norm, size);
 }
 
-/// Of a solve with the Hermite form's B, over that on a uniform mesh.
-double solve_round_off_to_uniform(const MeshFamily& family, std::int64_t elements) {
-    return family.is_uniform()
-               ? 1.0
-               : hermite_solve_round_off(elements, family.with(elements).lengths.minCoeff()) /
-                     hermite_solve_round_off(elements);
-}
-
 bool measures_deflection_alone(const Norm& norm) {
     const QuantitySet measured = quantities_of({norm});
     const auto has = [&](tvbeam::Quantity quantity) { return measured[index(quantity)]; };
@@ -195,9 +187,8 @@ std::optional<bool> exact_in_theory(const Scene& scene, const Series& series, co
 
 } // namespace
 
-std::string round_off_remark(const Beam& beam, const MeshFamily& family, const ProblemData& data,
-                             const Series& series, const std::vector<RungResult>& rungs,
-                             std::size_t k) {
+std::string round_off_remark(const Beam& beam, const ProblemData& data, const Series& series,
+                             const std::vector<RungResult>& rungs, std::size_t k) {
     const Measure& measure = series.measures[k];
     const Scheme& scheme = scheme_of(series.method);
     const auto norm = Norm::named(measure.root());
@@ -209,9 +200,8 @@ std::string round_off_remark(const Beam& beam, const MeshFamily& family, const P
         if (rung.errors.empty())
             continue;
         const double error = measure.root_of(rung.errors[k]);
-        const double most = size * solve_round_off_to_uniform(family, rung.rung.elements) *
-                            hermite_round_off(scheme.time.name, rung.rung.elements, beam.zeta,
-                                              rung.rung.dt, rung.rung.steps);
+        const double most = size * hermite_round_off(scheme.time.name, rung.rung.elements,
+                                                     beam.zeta, rung.rung.dt, rung.rung.steps);
         if (most <= error / 2.0)
             continue;
         return fmt::format(

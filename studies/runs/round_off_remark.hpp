@@ -1,7 +1,6 @@
 #pragma once
 
 #include "core/problem.hpp"
-#include "core/space/mesh.hpp"
 #include "studies/runs/run.hpp"
 #include "studies/runs/studied_solver.hpp"
 
@@ -18,9 +17,8 @@ struct Scene;
 /// exceeds half of an error of u; empty where it does not, of other norms, where no exact solution
 /// says how large u is, and for the direct algorithm. k: the norm's place among the measures of the
 /// series.
-std::string round_off_remark(const Beam& beam, const MeshFamily& family, const ProblemData& data,
-                             const Series& series, const std::vector<RungResult>& rungs,
-                             std::size_t k);
+std::string round_off_remark(const Beam& beam, const ProblemData& data, const Series& series,
+                             const std::vector<RungResult>& rungs, std::size_t k);
 
 /// Where every error is below 16 ε of the norm of the exact solution, or of what that
 /// comes from (α u_xx beside θ; α θ, the moment load and σ beside u; these and u_xx beside σ; the

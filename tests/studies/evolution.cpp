@@ -750,6 +750,17 @@ BOOST_AUTO_TEST_CASE(a_start_on_a_stop_is_one_on_a_mesh_with_a_short_element) {
     BOOST_TEST(held.events[0].t == 0.0);
 }
 
+// Elements of 1e-5 at the clamped end.
+BOOST_AUTO_TEST_CASE(a_start_off_the_stops_is_none_on_one_on_a_graded_mesh) {
+    const EvolutionResult pushed = evolution_of(
+        "[data]\ntheta0 = '0'\nu0 = '0.05*x^2'\nbody_force = '10'\n[beam]\nalpha = 0\n"
+        "zeta = 0.1\nstops = [-0.02, 0.1]\n[scheme]\nalgorithm = 'fixed-point'\n"
+        "[mesh]\ngrading = 2.5\n[evolution]\nfinal_time = 0.3\nelements = 100\ndt = 0.1\n"
+        "probes = ['u@1']\n");
+    BOOST_REQUIRE(!pushed.events.empty());
+    BOOST_TEST(pushed.events[0].t > 0.0);
+}
+
 // The fixed point does not come to rest in its first step.
 BOOST_AUTO_TEST_CASE(a_run_that_failed_has_no_figures_of_the_part_that_it_made) {
     const EvolutionResult failed =

@@ -420,18 +420,6 @@ BOOST_AUTO_TEST_CASE(round_off_of_the_hermite_form_is_within_what_is_predicted) 
     }
 }
 
-// It grows with the shortest of the elements.
-BOOST_AUTO_TEST_CASE(round_off_of_the_hermite_form_is_named_on_a_mesh_with_short_elements) {
-    const TemporaryDirectory directory;
-    const StudyResult result =
-        of_hermite_form(directory, "euler",
-                        "elements = [6, 12, 24]\ndt = '0.6/s'\nnorms = ['u_LinfL2']\n"
-                        "[mesh]\nnodes = [0, 0.5, 0.501, 1]\n");
-    const std::string& text = result.get<LadderResult>()->norms.at(0).remarks.back();
-    BOOST_TEST(text.starts_with("u_LinfL2: from s = 6 on, the round-off of the Hermite form"),
-               text);
-}
-
 BOOST_AUTO_TEST_CASE(round_off_of_the_hermite_form_is_named_of_every_norm_of_the_deflection) {
     const TemporaryDirectory directory;
     const StudyResult result = of_hermite_form(
