@@ -92,7 +92,10 @@ void weigh(const ValueLevels& levels, const LimitModel& model, std::vector<Weigh
         }
         if (!compared || !std::isfinite(fit->limit_error))
             continue;
-        limits.push_back({fit->limit, std::hypot(change, fit->limit_error)});
+        // On four levels it is chance that a model of three numbers stays where it is.
+        constexpr std::size_t few = 4;
+        const double back = n > few ? 0.0 : fit->goes_back;
+        limits.push_back({fit->limit, std::hypot(change, fit->limit_error, back)});
         if (!model.order)
             orders.push_back(fit->order);
     }

@@ -7,9 +7,11 @@
 /// moves by one level, as its standard error allows, and as far as the change would still grow if
 /// the sequence went on (with δ from one window to the next, r their ratio of widths):
 ///
-///     u_m² = max(t_{dof} s_m / 1.96, σ_m)² + (δ_m / (r' − 1))²,
+///     u_m² = max(t_{dof} s_m / 1.96, σ_m)² + (δ_m / (r' − 1))² + b_m²,
 ///
-/// r' = √r for models with a given p and r^min(p, 1) for others,
+/// r' = √r for models with a given p and r^min(p, 1) for others, b_m how far the model goes back
+/// where it turns behind the finest of no more than four levels: f_0 + C h + D h² may follow those
+/// of h³ + c h⁴ so,
 ///
 /// with s_m from the residuals and σ_m from a stated deviation, that of replicates or that of
 /// rounding to the digits printed, where the finest step is so few of their units that it counts.

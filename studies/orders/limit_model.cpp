@@ -16,6 +16,20 @@ double deviation_of(const LinearFit& fit, const Weights& weights) {
                     weights.scatter);
 }
 
+/// The width down to which the rows show where they turn: between the two finest they may, where
+/// their last two steps go one way, but show nothing of it.
+double seen_to(std::span<const ValueRow> rows) {
+    const std::size_t n = rows.size();
+    const auto step = [&](std::size_t i) { return rows[i].value - rows[i - 1].value; };
+    return rows[n < 3 || step(n - 1) * step(n - 2) < 0 ? n - 1 : n - 2].h;
+}
+
+/// Of C h^p + D h^(p+k): how far it is from its extremum to zero, where that lies below h.
+double back_from_turn(double c, double d, double p, double k, double h) {
+    const double at = std::pow(-c * p / (d * (p + k)), 1 / k);
+    return at > 0 && at < h ? std::abs(c) * std::pow(at, p) * k / (p + k) : 0.0;
+}
+
 /// For a given order all else is linear.
 LinearFit fit_at(std::span<const ValueRow> rows, const Weights& weights, double order,
                  const LimitModel& model) {
@@ -47,6 +61,9 @@ LinearFit fit_at(std::span<const ValueRow> rows, const Weights& weights, double 
                   .square = (right - design * x).squaredNorm(),
                   .dof = static_cast<int>(n) - model.parameters()};
     fit.finest = rows.back().value + design.row(n - 1).dot(x) / std::sqrt(weights.relative[n - 1]);
+    if (model.next != Next::none)
+        fit.goes_back = back_from_turn(x[1], x[2], order, model.next == Next::doubled ? order : 1,
+                                       seen_to(rows) / unit);
     if (const double deviation = deviation_of(fit, weights); deviation > 0) {
         const Eigen::MatrixXd root =
             qr.matrixQR().topRows(columns).template triangularView<Eigen::Upper>().solve(

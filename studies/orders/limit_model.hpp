@@ -43,6 +43,8 @@ struct LinearFit {
     double square = infinity; ///< sum of weighted squares
     double finest = 0;        ///< the model's value at the finest level
     int dof = 0;
+    /// How far the model goes back behind the finest level, where it turns there.
+    double goes_back = 0;
 };
 
 /// 1/σ² over its mean, and the standard deviation at weight one, 0 where it is not known.
