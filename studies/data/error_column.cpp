@@ -139,7 +139,7 @@ void leave_open(const DataAnalysis& data, const DataColumn& errors,
 
 /// Errors of one or two widths.
 void analyse_records(const DataAnalysis& data, const std::vector<std::size_t>& used,
-                     const std::vector<double>& sigma, ColumnAnalysis& column) {
+                     const std::vector<double>& sigma, bool rounded, ColumnAnalysis& column) {
     std::vector<Refinement> records(data.rows());
     for (std::size_t i = 0; i < records.size(); ++i) {
         records[i].h = data.widths[used.front()].numbers[i];
@@ -147,7 +147,7 @@ void analyse_records(const DataAnalysis& data, const std::vector<std::size_t>& u
             records[i].dt = data.widths[used.back()].numbers[i];
         records[i].error = column.numbers[i];
     }
-    auto found = analyse(std::move(records), sigma);
+    auto found = analyse(std::move(records), sigma, rounded);
     if (found.two_term) {
         column.by_width[used.front()] = found.two_term->p;
         column.by_width[used.back()] = found.two_term->q;
@@ -298,7 +298,7 @@ ColumnAnalysis analyse_errors(const DataAnalysis& data, const DataColumn& errors
                 used.erase(used.begin() + static_cast<std::ptrdiff_t>(j));
             }
     if (used.size() <= 2) {
-        analyse_records(data, used, sigma, column);
+        analyse_records(data, used, sigma, stated.empty(), column);
         for (std::size_t r = 0; r < column.verdicts.size(); ++r)
             if (!column.missing.empty() && column.missing[r])
                 column.verdicts[r].reason = "no error is given";

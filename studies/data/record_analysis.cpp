@@ -55,7 +55,8 @@ std::vector<std::size_t> coarse_to_fine(const std::vector<Refinement>& records) 
 
 } // namespace
 
-RecordAnalysis analyse(std::vector<Refinement> records, const std::vector<double>& sigma) {
+RecordAnalysis analyse(std::vector<Refinement> records, const std::vector<double>& sigma,
+                       bool rounded) {
     RecordAnalysis analysis;
     if (is_grid(records)) {
         analysis.two_term = fit_two_term(records, {}, sigma);
@@ -68,7 +69,7 @@ RecordAnalysis analyse(std::vector<Refinement> records, const std::vector<double
         if (!sigma.empty())
             sorted.push_back(sigma[i]);
     }
-    analysis.along = order_along(analysis.records, sorted);
+    analysis.along = order_along(analysis.records, sorted, rounded);
     analysis.verdict = judge(analysis.records, {.order = &analysis.along.order, .sigma = sorted});
     analysis.orders = analysis.verdict->orders;
     return analysis;

@@ -25,6 +25,8 @@ struct RecordAnalysis {
 };
 
 /// sigma: standard deviations of the errors, one a record; empty where they are not known.
-RecordAnalysis analyse(std::vector<Refinement> records, const std::vector<double>& sigma = {});
+/// rounded: they are what rounding to the digits printed makes.
+RecordAnalysis analyse(std::vector<Refinement> records, const std::vector<double>& sigma = {},
+                       bool rounded = false);
 
 } // namespace tvbeam

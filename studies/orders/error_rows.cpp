@@ -138,6 +138,7 @@ TermRows usable_rows(std::span<const ErrorRow> given, std::size_t most_rows) {
         return rows;
     const double mean_weight = rows.weights.mean();
     rows.weights /= mean_weight;
+    rows.rounded = stated && std::ranges::all_of(given, &ErrorRow::rounded);
     if (stated)
         rows.scatter = 1 / std::sqrt(mean_weight);
     else if (const auto dof = static_cast<int>(points.size()) - static_cast<int>(n);
@@ -173,7 +174,8 @@ TermRows with_widths(const TermRows& rows, const std::vector<Eigen::Index>& widt
     const auto groups = rows_by(rows, widths);
     const auto n = static_cast<Eigen::Index>(groups.size());
     const auto d = static_cast<Eigen::Index>(widths.size());
-    TermRows merged{Eigen::MatrixXd(n, d), Eigen::VectorXd(n), Eigen::VectorXd(n), rows.scatter};
+    TermRows merged{Eigen::MatrixXd(n, d), Eigen::VectorXd(n), Eigen::VectorXd(n), rows.scatter,
+                    rows.rounded};
     Eigen::Index r = 0;
     for (const auto& [at, group] : groups) {
         merged.log_widths.row(r) = Eigen::Map<const Eigen::RowVectorXd>(at.data(), d);

@@ -19,6 +19,7 @@ struct ErrorRow {
     /// Standard deviation of ln e, that is of the error over itself. NaN: unknown; counts only
     /// where all rows with an error have one.
     double sigma = std::numeric_limits<double>::quiet_NaN();
+    bool rounded = false; ///< σ is what rounding to the digits printed makes
 };
 
 /// An order needs as many.

@@ -24,7 +24,8 @@ bool is_one_path(std::span<const Refinement> sorted) {
 
 } // namespace
 
-LadderOrder order_along(std::span<const Refinement> ladder, std::span<const double> sigma) {
+LadderOrder order_along(std::span<const Refinement> ladder, std::span<const double> sigma,
+                        bool rounded) {
     LadderOrder result;
     if (ladder.empty())
         return result;
@@ -49,6 +50,7 @@ LadderOrder order_along(std::span<const Refinement> ladder, std::span<const doub
             {{result.is_in_dt ? record.dt : record.h}, std::ldexp(record.error, -exponent)});
         if (!sigma.empty())
             rows.back().sigma = sigma[i] / record.error;
+        rows.back().rounded = rounded;
     }
     if (rows.empty()) {
         result.order.status = "no error is resolved";

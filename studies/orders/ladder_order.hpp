@@ -19,6 +19,8 @@ struct LadderOrder {
 
 /// ladder: from coarse to fine by h, then by Δt. Records that are not resolved are passed over.
 /// sigma: standard deviations of the errors, one a record; empty where they are not known.
-LadderOrder order_along(std::span<const Refinement> ladder, std::span<const double> sigma = {});
+/// rounded: they are what rounding to the digits printed makes.
+LadderOrder order_along(std::span<const Refinement> ladder, std::span<const double> sigma = {},
+                        bool rounded = false);
 
 } // namespace tvbeam

@@ -115,6 +115,11 @@ double scatter_of(const ValueLevels& levels) {
     return least;
 }
 
+/// Whether what is known of a value's deviation is that its digits are few.
+bool is_rounding(const ValueRow& level) {
+    return level.sigma < level.unit;
+}
+
 /// The order of the differences between consecutive levels, as the engine of orders sees that of
 /// errors. Of f_0 + C h^p + D h^{p+1} they are, over (h_k^p − h_{k+1}^p) / H_k^p with the widths
 ///
@@ -143,10 +148,13 @@ OrderInterval order_of_differences(const ValueLevels& given, double from_models)
             const double stretch = -std::expm1(-(p + 1) * log_ratio) / leading;
             differences.push_back({{levels[k].h * stretch},
                                    step * std::pow(stretch, p) / leading,
-                                   std::hypot(levels[k].sigma, levels[k + 1].sigma) / step});
+                                   std::hypot(levels[k].sigma, levels[k + 1].sigma) / step,
+                                   is_rounding(levels[k]) && is_rounding(levels[k + 1])});
         }
         // Those of values that go to and fro leave residuals that are no scatter.
-        order = estimate_orders(differences, {}, {.contradicted = infinity}).front();
+        order = estimate_orders(differences, {},
+                                {.contradicted = infinity, .log_finest = std::log(levels.back().h)})
+                    .front();
         if (!(order.value > 0))
             break;
         p = order.value;

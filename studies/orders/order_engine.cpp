@@ -1,5 +1,7 @@
 #include "studies/orders/order_engine.hpp"
 
+#include "studies/orders/left_open.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -171,7 +173,8 @@ std::vector<OrderInterval> OrderEnsemble::orders() const {
         if (mixture) {
             const double half =
                 std::max({mixture->half, distance_to_slow_terms(width, mixture->value),
-                          distance_to_close_terms(width, mixture->value)});
+                          distance_to_close_terms(width, mixture->value),
+                          distance_left_open(rows_, tuning_.log_finest, mixture->value)});
             order.value = mixture->value;
             order.low = mixture->value - half;
             order.high = mixture->value + half;

@@ -28,7 +28,8 @@
 /// turns or moves ever more from level to level (LevelErrors); the status says why. Where scatter,
 /// or a width of three levels, leaves open whether there is a logarithm or a next term half an
 /// order on, the interval reaches its order; and that which the orders of a sequence's levels go
-/// to, where they slow down less than by half an order. In a width of three levels models with next
+/// to, where they slow down less than by half an order, and those that the digits leave open which
+/// its errors are printed to (left_open.hpp). In a width of three levels models with next
 /// terms do not count whose term in another width stands still. There is none where no model of all
 /// rows follows them. A width that changes no error by more than OrderTuning::idle of it is left
 /// out where the rest determines all orders. Constants: OrderTuning. Ideas of others: model

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 
 namespace tvbeam {
 
@@ -110,6 +111,9 @@ struct OrderTuning {
     /// A width that changes no error by more than this part is left out: what the orders of others
     /// could owe to it is far below `narrowest`.
     double idle = 1e-4;
+    /// ln of the width at which next terms are no larger than leading ones: where errors are steps
+    /// between values, that of the finest value. NaN: that of the finest error.
+    double log_finest = std::numeric_limits<double>::quiet_NaN();
 };
 
 } // namespace tvbeam

@@ -185,12 +185,13 @@ TermRows TermRows::subset(const std::vector<Eigen::Index>& chosen) const {
             log_errors(chosen),
             weights(chosen),
             scatter,
+            rounded,
             log_reference,
             in_squares};
 }
 
 TermRows TermRows::along(Eigen::Index width) const {
-    TermRows result{log_widths.col(width), log_errors, weights, scatter};
+    TermRows result{log_widths.col(width), log_errors, weights, scatter, rounded};
     if (log_reference.size() > 0)
         result.log_reference = log_reference.segment(width, 1);
     result.in_squares = width == in_squares ? 0 : -1;

@@ -30,6 +30,7 @@ struct TermRows {
     Eigen::VectorXd log_errors;
     Eigen::VectorXd weights; ///< relative: 1 / variance of ln e
     double scatter = 0;      ///< known standard deviation of ln e at weight one; 0: not known
+    bool rounded = false;    ///< scatter is that of rounding to the digits printed
     /// ln of the widths of a reference run that stands in for the exact solution: T_i is then its
     /// value at the row less that at the reference. NaN: exact in that width. Empty: in all.
     Eigen::VectorXd log_reference = {};
