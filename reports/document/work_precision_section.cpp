@@ -9,6 +9,7 @@
 #include <functional>
 #include <limits>
 #include <set>
+#include <span>
 
 namespace tvbeam {
 

@@ -327,7 +327,7 @@ BOOST_AUTO_TEST_CASE(the_limit_of_a_power_with_a_next_term_is_held) {
 // to 1.00054 and go to 1.
 BOOST_AUTO_TEST_CASE(a_model_that_turns_behind_the_finest_level_does_not_hide_the_others) {
     for (const auto& [p, q] : {std::pair{3, 4}, {4, 5}, {4, 6}})
-        for (double b = -0.9; b < -0.2; b += short_tests ? 0.013 : 0.001) {
+        for (double b = -0.9; b < -0.2; b += short_tests ? 0.003 : 0.001) {
             std::vector<ValueRow> rows;
             for (const double h : {1.0, 0.5, 0.25, 0.125})
                 rows.push_back({h, 1 + 0.3 * (std::pow(h, p) + b * std::pow(h, q))});
