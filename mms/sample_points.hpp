@@ -10,7 +10,7 @@ namespace tvbeam {
 inline constexpr Eigen::Index grid_points = 33;
 
 /// So many points of [begin, end], an odd number, in order: its ends and its middle, where
-/// solutions are greatest most often, and others at uneven distances, 0.7 to 1.4 times the mean. At
+/// solutions are greatest most often, and others at uneven distances, 0.8 to 1.3 times the mean. At
 /// points of one distance, sin(n pi x) is 0 for every multiple n of their number: something that is
 /// wrong by it would be right there. What is uneven are the fractional parts of the multiples of
 /// the golden ratio, which are as far from all simple fractions as can be.

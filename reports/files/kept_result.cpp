@@ -134,7 +134,7 @@ RungResult kept_run(const nlohmann::ordered_json& json, const Rung& rung,
     result.seconds = seconds(json);
     if (json.contains("wall_clock"))
         result.wall_clock = number(json["wall_clock"], "wall_clock");
-    result.has_kink = json.value("has_kink", Json()) == true;
+    result.has_kink = json.value("has_kink", false);
     const Json& counts = member(json, "counters");
     require(counts.is_object(), "counters have no names");
     for (const auto& [name, value] : counts.items())

@@ -269,8 +269,8 @@ std::string grid_reference_remark(const ReferenceBlock& reference,
     std::string remark;
     if (!close.empty())
         remark = fmt::format("The runs with {} have an h or dt within a factor of two of the "
-                             "reference's: what is measured there lacks much of the error, which "
-                             "the model has to add.",
+                             "reference's: the fit takes the reference's own error into account "
+                             "there, and rests on it.",
                              fmt::join(close, ", "));
     if (is_one)
         remark += " One of them is the reference itself, and its error 0 shows nothing.";

@@ -399,7 +399,7 @@ BOOST_AUTO_TEST_CASE(a_rough_end_at_the_limit_lowers_the_order_by_a_logarithm) {
             return reason.find("sqrt(ln(1/h))") != std::string::npos;
         }));
     }
-    // A third of a percent beyond it the square is integrable.
+    // With the power 0.52 in place of 1/2 the square is integrable.
     BOOST_TEST(!expected_orders(
                     {parse_solution("theta = 't*sin(pi*x)'\nu = 'sin(t)*x^3.52'\n", "smooth.toml"),
                      {0.0, 0.15, 0.0, {}},
