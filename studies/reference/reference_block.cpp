@@ -233,8 +233,7 @@ std::string reference_remark(const ReferenceBlock& reference, const std::vector<
             named += fmt::format("{}s = {} (dt = {:g})", close++ > 0 ? ", " : "", run.rung.elements,
                                  run.rung.dt);
     const bool changes = std::ranges::any_of(rungs, &RungResult::has_kink);
-    if (const auto remark = extrapolation_remark(reference, changes, jump_at_start);
-        !remark.empty())
+    if (auto remark = extrapolation_remark(reference, changes, jump_at_start); !remark.empty())
         return remark;
     if (close == 0)
         return rungs.empty() ? ""
