@@ -133,9 +133,12 @@ std::map<std::string, double> EvolutionResult::figures() const {
     if (!periods.empty())
         figures["period_change"] = std::accumulate(periods.back().changes.begin(),
                                                    periods.back().changes.end(), 0.0, worse);
+    const bool ended = run.status == RungStatus::ok;
     int onsets = 0;
     int releases = 0;
-    for (const auto& event : run.status == RungStatus::ok ? events : std::vector<ContactEvent>()) {
+    for (const auto& event : events) {
+        if (!ended)
+            break;
         const bool is_onset = event.kind == ContactEvent::Kind::onset;
         const std::string which = std::to_string(++(is_onset ? onsets : releases));
         figures[(is_onset ? "onset." : "release.") + which] = event.t;
@@ -143,7 +146,7 @@ std::map<std::string, double> EvolutionResult::figures() const {
     }
     figures["onsets"] = onsets;
     figures["releases"] = releases;
-    if (run.status != RungStatus::ok) // of a part of the time
+    if (!ended) // of a part of the time
         for (auto& [name, figure] : figures)
             figure = std::numeric_limits<double>::quiet_NaN();
     return figures;

@@ -78,11 +78,15 @@ double log_finest_shown(const TermRows& rows, const Eigen::ArrayXd& sigma, doubl
 } // namespace
 
 double distance_left_open(const TermRows& rows, double log_finest, double order) {
-    constexpr double half_an_order = 0.5;
-    constexpr double next_terms[] = {0.25, 1.0 / 3, half_an_order, 0.75, 1.0, 1.5, 2.0};
-    constexpr double greatest = 1.1; // of a next term over the leading one: what is as large counts
+    // ln of how many orders on a next term is, to the base 2: from a quarter on to a half, or two.
+    constexpr double closest = -2;
+    constexpr double half_an_order = -1;
+    constexpr double farthest = 1;
+    constexpr double step = 0.5;            // between two lies one minimum
+    constexpr double greatest = 1.1;        // of a next term over the leading one: as large counts
     constexpr double of_four_digits = 3e-4; // these terms are not followed more closely
-    constexpr int fitted = 2;               // A and c, for a given p
+    constexpr int fitted = 2;               // A and c, for given orders
+    constexpr int bits = 12;
     // A leading term alone whose squares are so many times what rounding makes does not follow the
     // rows.
     constexpr double for_certain = 1.25;
@@ -96,20 +100,26 @@ double distance_left_open(const TermRows& rows, double log_finest, double order)
         rows.log_widths.col(0).array() - log_finest_shown(rows, sigma, log_finest);
     const Eigen::ArrayXd y = 1 / sigma.max(of_four_digits);
     const Eigen::ArrayXd unit = y * (rows.log_errors.minCoeff() - rows.log_errors.array()).exp();
-    const auto distance_with = [&](double next, double size) {
-        const Eigen::ArrayXd beside = size * (next * x).exp();
-        const auto square_at = [&](double away) {
-            const Eigen::ArrayXd leading = unit * ((order + away) * x).exp();
-            return least_square(leading, leading * beside, y);
-        };
-        return farthest_below(square_at, size > 0 ? most : for_certain * most);
+    const auto square_with = [&](double away, double log_next, double size) {
+        const Eigen::ArrayXd leading = unit * ((order + away) * x).exp();
+        return least_square(leading, leading * (size * (std::exp2(log_next) * x).exp()), y);
     };
-    const bool is_seen_to_move = !distance_with(half_an_order, 0.0);
-    double distance = 0;
-    for (const double next : next_terms)
-        if (next <= half_an_order || is_seen_to_move)
-            distance = std::max(distance, distance_with(next, greatest).value_or(0));
-    return distance;
+    const bool is_seen_to_move = !farthest_below(
+        [&](double away) { return square_with(away, half_an_order, 0); }, for_certain * most);
+    const double last = is_seen_to_move ? farthest : half_an_order;
+    const auto least_of_next_terms = [&](double away) {
+        const auto square_at = [&](double log_next) {
+            return square_with(away, log_next, greatest);
+        };
+        double best = closest;
+        for (double log_next = closest; log_next <= last; log_next += step)
+            if (square_at(log_next) < square_at(best))
+                best = log_next;
+        return boost::math::tools::brent_find_minima(square_at, std::max(best - step, closest),
+                                                     std::min(best + step, last), bits)
+            .second;
+    };
+    return farthest_below(least_of_next_terms, most).value_or(0);
 }
 
 } // namespace tvbeam

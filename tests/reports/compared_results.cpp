@@ -39,6 +39,10 @@ BOOST_AUTO_TEST_CASE(how_far_a_tip_is_beyond_a_rigid_stop_is_rounding) {
     const std::string other =
         R"({{"schema": "tvbeam-result/1", "evolution": {{"beyond_all": {0}, "x": [{0}]}}}})";
     BOOST_TEST(differences(other, 2.77556e-17, 6.93889e-17) == 2U);
+    const std::string error =
+        R"({{"schema": "tvbeam-result/1", "ladder": {{"rungs": [{{"elements": 4,
+        "errors": {{"beyond": {0}, "beyond_stops": {0}}}}}]}}}})";
+    BOOST_TEST(differences(error, 4e-15, 8e-15) == 2U);
 }
 
 BOOST_AUTO_TEST_SUITE_END()
