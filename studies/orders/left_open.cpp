@@ -78,7 +78,7 @@ double log_finest_shown(const TermRows& rows, const Eigen::ArrayXd& sigma, doubl
 } // namespace
 
 double distance_left_open(const TermRows& rows, double log_finest, double order) {
-    // ln of how many orders on a next term is, to the base 2: from a quarter on to a half, or two.
+    // Logarithms to the base 2 of how many orders on a next term is: a quarter to a half, or two.
     constexpr double closest = -2;
     constexpr double half_an_order = -1;
     constexpr double farthest = 1;
@@ -112,9 +112,12 @@ double distance_left_open(const TermRows& rows, double log_finest, double order)
             return square_with(away, log_next, greatest);
         };
         double best = closest;
-        for (double log_next = closest; log_next <= last; log_next += step)
-            if (square_at(log_next) < square_at(best))
+        double least = square_at(best);
+        for (double log_next = closest + step; log_next <= last; log_next += step)
+            if (const double square = square_at(log_next); square < least) {
                 best = log_next;
+                least = square;
+            }
         return boost::math::tools::brent_find_minima(square_at, std::max(best - step, closest),
                                                      std::min(best + step, last), bits)
             .second;
