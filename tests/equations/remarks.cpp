@@ -123,6 +123,16 @@ BOOST_AUTO_TEST_CASE(a_parameter_of_a_sum_that_vanishes_is_named) {
     BOOST_TEST(remarks[0].text.starts_with("parameter lambda has no effect on anything"));
 }
 
+// Upwind: the part of a that is positive is zero, but not of another a.
+BOOST_AUTO_TEST_CASE(
+    a_parameter_without_effect_about_its_value_is_not_said_to_have_none_at_others) {
+    const std::string said = remark_of("sin(x)*exp(t)", "diff(u, t) + (a + sqrt(a^2))/2*diff(u, x)",
+                                       "[parameters]\na = -1\n");
+    BOOST_TEST(said.find(": f is the same at and beside its value, to rounding, at all ") !=
+                   std::string::npos,
+               said);
+}
+
 BOOST_AUTO_TEST_CASE(a_parameter_that_something_depends_on_is_not_named) {
     for (const auto& [unknown, equation] :
          {std::pair<std::string, std::string>{"sin(x)*exp(-k*t)", "diff(u, t) + k*u"},

@@ -202,6 +202,15 @@ BOOST_AUTO_TEST_CASE(a_scheme_whose_errors_rise_above_an_error_again_is_not_said
     const std::string text = rises.text();
     BOOST_TEST(has(text, "; euler ends above it, by\n    1 % at most"), text);
     BOOST_TEST(!has(text, "sd ends"), text);
+    // A finer row is below it, in which the clock shows nothing.
+    Study quick = study({"theta_L2L2"});
+    quick.add("euler", {{4e-3, 1e-3}, {1.0077e-3, 5e-3}, {5e-4, 0.0}});
+    quick.add("sd", {{4e-3, 5e-4}, {5e-4, 2e-3}});
+    quick.block.targets["theta_L2L2"] = {1e-3};
+    const std::string short_of = std::regex_replace(quick.text(), std::regex("\\s+"), " ");
+    BOOST_TEST(
+        has(short_of, "; euler comes within 1 % of it, and below it in a row without a time"),
+        short_of);
 }
 
 BOOST_AUTO_TEST_CASE(a_scheme_that_fails_on_finer_rows_is_said_to_beside_its_time) {
