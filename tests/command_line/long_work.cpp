@@ -188,8 +188,8 @@ BOOST_AUTO_TEST_CASE(a_run_that_ends_leaves_nothing_unfinished) {
 BOOST_AUTO_TEST_CASE(an_evolution_that_was_interrupted_is_not_taken_for_one_that_ended) {
     const TemporaryDirectory directory;
     const std::string out = " --quiet --out " + (directory.path() / "out").string();
-    const std::string steps = " --set evolution.final_time=1000 --set evolution.elements=320"
-                              " --set evolution.every=1000";
+    const std::string steps = " --set evolution.final_time=100000 --set evolution.elements=320"
+                              " --set evolution.every=1000"; // minutes, anywhere
     call(directory, "run figure1" + steps + out, "timeout -s INT 2 ");
     const auto json = nlohmann::json::parse(directory.read("out/result.json"));
     BOOST_REQUIRE(json.at("interrupted") == true);
