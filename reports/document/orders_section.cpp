@@ -143,6 +143,23 @@ std::vector<std::string> sentences_on_runs(const OrdersResult& orders, const Ord
     return sentences;
 }
 
+/// After a blank line, where there are any.
+void add_limits(std::vector<Block>& blocks, const OrdersResult& orders) {
+    if (orders.values.empty())
+        return;
+    blocks.emplace_back(BlankLine{});
+    if (std::ranges::any_of(orders.values, [](const GridLimit& of) { return of.limit.determined; }))
+        blocks.emplace_back(Paragraph{basis_of_limits(orders.runs)});
+    for (const auto& value : orders.values) {
+        blocks.emplace_back(finding(value));
+        if (!value.out_of_line.empty())
+            blocks.emplace_back(Finding{value.value +
+                                            ": out of line with the runs that the limit is from: " +
+                                            names_of(value.out_of_line),
+                                        2, true});
+    }
+}
+
 } // namespace
 
 Table fit_table(const std::vector<std::pair<std::string, const TwoTermFit*>>& fits,
@@ -213,20 +230,7 @@ Section orders_section(const OrdersResult& orders, const OrdersBlock& block) {
         blocks.emplace_back(fit_table(fits, orders.runs.size()));
         blocks.insert(blocks.end(), findings.begin(), findings.end());
     }
-    if (!orders.values.empty()) {
-        blocks.emplace_back(BlankLine{});
-        if (std::ranges::any_of(orders.values,
-                                [](const GridLimit& of) { return of.limit.determined; }))
-            blocks.emplace_back(Paragraph{basis_of_limits(orders.runs)});
-    }
-    for (const auto& value : orders.values) {
-        blocks.emplace_back(finding(value));
-        if (!value.out_of_line.empty())
-            blocks.emplace_back(Finding{value.value +
-                                            ": out of line with the runs that the limit is from: " +
-                                            names_of(value.out_of_line),
-                                        2, true});
-    }
+    add_limits(blocks, orders);
     if (const auto& constant = orders.corollary) {
         blocks.emplace_back(BlankLine{});
         blocks.emplace_back(Finding{

@@ -32,6 +32,25 @@ bool is_as_fine(const ErrorRow& row, const ErrorRow& as) {
     return std::ranges::equal(row.widths, as.widths, std::less_equal());
 }
 
+/// ln of the widths and of the error, and the weight.
+Eigen::VectorXd log_point(const ErrorRow& row, bool weighted) {
+    const auto d = static_cast<Eigen::Index>(row.widths.size());
+    Eigen::VectorXd point(d + 2);
+    for (Eigen::Index i = 0; i < d; ++i)
+        point[i] = std::log(row.widths[static_cast<std::size_t>(i)]);
+    point[d] = std::log(row.error);
+    point[d + 1] = weighted ? 1 / (row.sigma * row.sigma) : 1.0;
+    return point;
+}
+
+/// Of the points in one cell, by their weights.
+struct CellSum {
+    Eigen::VectorXd sum;
+    double weight = 0;
+    int count = 0;
+    double mean = 0, squares = 0; ///< of ln e, by Welford's recurrence
+};
+
 } // namespace
 
 bool vanishes_at_the_finest(std::span<const ErrorRow> rows) {
@@ -85,30 +104,19 @@ TermRows usable_rows(std::span<const ErrorRow> given, std::size_t most_rows) {
     const bool stated = std::all_of(given.begin(), given.end(), [&](const ErrorRow& row) {
         return !usable(row) || is_positive(row.sigma);
     });
-    std::vector<Eigen::VectorXd> points; // ln of the widths and the error, and the weight
+    std::vector<Eigen::VectorXd> points;
     Eigen::VectorXd least = Eigen::VectorXd::Constant(d, infinity);
     Eigen::VectorXd greatest = -least;
     for (const auto& row : given)
         if (usable(row)) {
-            Eigen::VectorXd point(d + 2);
-            for (Eigen::Index i = 0; i < d; ++i)
-                point[i] = std::log(row.widths[static_cast<std::size_t>(i)]);
-            point[d] = std::log(row.error);
-            point[d + 1] = stated ? 1 / (row.sigma * row.sigma) : 1.0;
-            least = least.cwiseMin(point.head(d));
-            greatest = greatest.cwiseMax(point.head(d));
-            points.push_back(std::move(point));
+            points.push_back(log_point(row, stated));
+            least = least.cwiseMin(points.back().head(d));
+            greatest = greatest.cwiseMax(points.back().head(d));
         }
     const auto most = static_cast<double>(most_rows);
     const Eigen::VectorXd cell =
         (greatest - least) / std::max(1.0, std::pow(most, 1 / static_cast<double>(d)) - 1);
-    struct Sum {
-        Eigen::VectorXd sum;
-        double weight = 0;
-        int count = 0;
-        double mean = 0, squares = 0; ///< of ln e, by Welford's recurrence
-    };
-    std::map<std::vector<double>, Sum> cells;
+    std::map<std::vector<double>, CellSum> cells;
     std::vector<double> key(static_cast<std::size_t>(d));
     const bool lattice = points.size() > most_rows;
     for (const auto& point : points) {

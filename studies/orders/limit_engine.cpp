@@ -306,6 +306,20 @@ LimitEstimate refused(LimitEstimate result, const std::string& reason) {
     return result;
 }
 
+/// Of values that differ by rounding at most: their digits or their sigma may hide more.
+LimitEstimate of_same(LimitEstimate result, const ValueLevels& given, double rounding) {
+    constexpr double of_95 = 1.96;
+    const double sigma = given.back().sigma;
+    const double half = std::max(hidden_by_digits(given), is_positive(sigma) ? of_95 * sigma : 0.0);
+    if (half <= rounding)
+        return refused(std::move(result),
+                       fmt::format("all {} values are the same to rounding: they are exact, or "
+                                   "nothing is refined",
+                                   given.size()));
+    set_same(result, given, half);
+    return result;
+}
+
 } // namespace
 
 LimitEstimate estimate_limit(std::span<const ValueRow> rows, const LimitTuning& tuning) {
@@ -340,18 +354,8 @@ LimitEstimate estimate_limit(std::span<const ValueRow> rows, const LimitTuning& 
                 std::abs(given[given.size() - count].value -
                          given[given.size() - count - 1].value)));
     result.finest_step = printed;
-    if (of.scale <= rounding) {
-        constexpr double of_95 = 1.96;
-        const double sigma = given.back().sigma;
-        const double half =
-            std::max(hidden_by_digits(given), is_positive(sigma) ? of_95 * sigma : 0.0);
-        if (half <= rounding)
-            return refused(result, fmt::format("all {} values are the same to rounding: they are "
-                                               "exact, or nothing is refined",
-                                               given.size()));
-        set_same(result, given, half);
-        return result;
-    }
+    if (of.scale <= rounding)
+        return of_same(std::move(result), given, rounding);
     result.gci = gci_of(given);
     result.celik = celik_of(given);
     result.eca_hoekstra = eca_hoekstra_of(of.levels);

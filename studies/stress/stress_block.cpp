@@ -109,8 +109,7 @@ Axis gap_axis(const std::vector<double>& gaps, const std::vector<std::size_t>& s
     return axis_of(stops, &StressParameters::stops);
 }
 
-/// left: how many cases all sweeps together may have still.
-StressSweep read_sweep(TableReader table, const std::string& name, std::int64_t left) {
+std::vector<Axis> read_axes(TableReader& table) {
     std::vector<Axis> axes;
     axes.push_back(
         axis_of(numbers(table, "alpha", 0.5, Admitted::not_negative), &StressParameters::alpha));
@@ -136,7 +135,12 @@ StressSweep read_sweep(TableReader table, const std::string& name, std::int64_t 
                            &StressParameters::algorithm));
     axes.push_back(
         axis_of(numbers(table, "theta_A", 0.0, Admitted::all), &StressParameters::theta_A));
+    return axes;
+}
 
+/// left: how many cases all sweeps together may have still.
+StressSweep read_sweep(TableReader table, const std::string& name, std::int64_t left) {
+    std::vector<Axis> axes = read_axes(table);
     const auto sampling = table.choice("sampling", {"each", "product", "sobol"}).value_or(0);
     const std::int64_t steps = count(table, "steps", 20, most_work);
     const std::int64_t work = count(table, "work", 2'000'000, most_work);

@@ -128,6 +128,26 @@ std::string trouble_of(const StudyResult& result, bool interrupted,
     return result.failed() ? "a run failed; the result says which and why" : "";
 }
 
+/// Files first: what standard output goes to may be gone. Text stands there where neither does.
+void write_single_files(const StudyResult& result, Destination& json, Destination& csv,
+                        bool quiet) {
+    const auto write_csv = [&] {
+        csv.write(csv_report(result));
+        if (result.scene.defect && !quiet)
+            say("the CSV holds results with a deliberate defect, not the problem's");
+    };
+    if (json.wanted() && !json.standard_output())
+        json.write(json_report(result));
+    if (csv.wanted() && !csv.standard_output())
+        write_csv();
+    if (json.standard_output())
+        json.write(json_report(result));
+    else if (csv.standard_output())
+        write_csv();
+    else if (!quiet)
+        write_standard_output(text_document(result_document(result)));
+}
+
 int run_command(const RunOptions& options) {
     const Scene scene =
         read_scene(options.scene, options.overrides, {.report_files = report_format_names()});
@@ -161,7 +181,6 @@ int run_command(const RunOptions& options) {
     if (const std::string remark = kept ? kept->remark() : ""; !remark.empty())
         result.remarks.push_back(remark);
     bool interrupted = result.interrupted();
-    // Files first: what standard output goes to may be gone.
     if (out) {
         kept->write();
         interrupted = !write_reports(*out, reported(result)) || interrupted;
@@ -170,21 +189,7 @@ int run_command(const RunOptions& options) {
         if (!interrupted)
             kept->end();
     }
-    const auto write_csv = [&] {
-        csv.write(csv_report(result));
-        if (scene.defect && !options.quiet)
-            say("the CSV holds results with a deliberate defect, not the problem's");
-    };
-    if (json.wanted() && !json.standard_output())
-        json.write(json_report(result));
-    if (csv.wanted() && !csv.standard_output())
-        write_csv();
-    if (json.standard_output())
-        json.write(json_report(result));
-    else if (csv.standard_output())
-        write_csv();
-    else if (!options.quiet)
-        write_standard_output(text_document(result_document(result)));
+    write_single_files(result, json, csv, options.quiet);
     if (const std::string trouble = trouble_of(result, interrupted, kept); !trouble.empty()) {
         say(trouble);
         return run_failed;
