@@ -15,10 +15,9 @@ struct TermsKnown {
     double half_p = 0, half_q = 0; ///< halves of the 95 % intervals of its orders
     double part_a = 0, part_b = 0; ///< TwoTermFit::a_uncertainty and b_uncertainty
 
-    [[nodiscard]] bool has_sizes() const {
-        constexpr double widest = 0.5;
-        return part_a <= widest && part_b <= widest;
-    }
+    static constexpr double widest = 0.5;
+    [[nodiscard]] bool knows_space() const { return part_a <= widest; }
+    [[nodiscard]] bool knows_time() const { return part_b <= widest; }
     /// Terms at right angles have been fitted with correlations of −0.4.
     [[nodiscard]] static bool are_opposed(double rho) { return rho <= -0.5; }
 };
@@ -29,8 +28,9 @@ struct TermsKnown {
 /// fewer than two orders. Also that a level between others has no error at all. roots: the records
 /// of the norm itself, also where the table shows its square; orders in the text are the table's.
 /// terms: of orders that their intervals do not tell apart nothing is said past the ladder, and of
-/// the size of a hidden term nothing that is not known. is_explained: no reason is guessed, as one
-/// is said elsewhere, or the scheme is known to be wrong.
+/// the size of a term nothing that is not known: where the model has it so small that the other
+/// dominates in any case, that it is hidden; else that how large it is is not known. is_explained:
+/// no reason is guessed, as one is said elsewhere, or the scheme is known to be wrong.
 std::vector<std::string> order_remarks(const Measure& norm, std::span<const Refinement> roots,
                                        const TwoTermModel* model, bool is_explained = false,
                                        const TermsKnown& terms = {});

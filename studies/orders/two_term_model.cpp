@@ -50,12 +50,20 @@ LadderForecast::Place place_of(const std::vector<ForecastRow>& rows, std::size_t
     return {.row = row, .h = rows[row].h, .dt = rows[row].dt};
 }
 
-std::optional<LadderForecast::Place> onset(const std::vector<ForecastRow>& rows, double order,
+/// The order into the first row is that from a level before it.
+std::optional<LadderForecast::Place> onset(const TwoTermModel& model,
+                                           const std::vector<ForecastRow>& rows, double order,
                                            double tolerance) {
+    const auto agrees = [&](const std::optional<double>& other) {
+        return other && std::abs(*other - order) <= tolerance * std::abs(order);
+    };
     std::size_t from = rows.size();
-    while (from > 1 && rows[from - 1].order &&
-           std::abs(*rows[from - 1].order - order) <= tolerance * std::abs(order))
+    while (from > 1 && agrees(rows[from - 1].order))
         --from;
+    const auto before =
+        row_at(model, rows[0].h * (rows[0].h / rows[1].h), rows[0].dt * (rows[0].dt / rows[1].dt));
+    if (from == 1 && agrees(order_between(before, rows[0])))
+        from = 0;
     if (from == rows.size())
         return std::nullopt;
     return place_of(rows, from);
@@ -147,7 +155,7 @@ LadderForecast forecast(const TwoTermModel& model, std::span<const Refinement> l
         result.asymptotic_dominant = Dominant::both;
 
     const auto rows = carried_on(model, result.rows);
-    result.asymptotic_from = onset(rows, result.asymptotic_order, tolerance);
+    result.asymptotic_from = onset(model, rows, result.asymptotic_order, tolerance);
     // By so little nothing is seen to cancel, and a fit has no other sign for zero.
     constexpr double least_opposed = 0.05;
     if (model.rho < -least_opposed)

@@ -69,7 +69,8 @@ struct LadderForecast {
     double asymptotic_order = 0;
     Dominant asymptotic_dominant = Dominant::both; ///< never cancellation
 
-    /// The first row from which on every shown order is within the tolerance of the asymptotic one.
+    /// The first row from which on every order is within the tolerance of the asymptotic one; the
+    /// order into the first is that from a level before it.
     /// It may lie past the ladder (row ≥ rows.size()); h and dt say where. None where it lies more
     /// than `furthest_row` rows on, or the errors of the ladder have no order.
     struct Place {

@@ -319,6 +319,9 @@ std::vector<bool> outliers_of(const std::vector<Level>& levels, double tolerance
 }
 
 std::string dominant_term(const ForecastRow& row) {
+    constexpr double alike = 0.1;
+    if (std::abs(row.spatial - row.temporal) <= alike * row.spatial)
+        return "the two terms are alike";
     return row.dominant == Dominant::space ? "the h term dominates" : "the dt term dominates";
 }
 
