@@ -112,6 +112,17 @@ bool same_in_all(auto width, const std::vector<RungResult>& rungs) {
            });
 }
 
+/// Within a factor of two of the reference's width, in a study that refines it.
+bool is_close_in_h(const ReferenceBlock& reference, const Rung& rung,
+                   const std::vector<RungResult>& rungs) {
+    return 2 * rung.elements >= reference.elements && !same_in_all(&Rung::elements, rungs);
+}
+
+bool is_close_in_dt(const ReferenceBlock& reference, const Rung& rung,
+                    const std::vector<RungResult>& rungs) {
+    return reference.steps_in(rung) <= 2 && !same_in_all(&Rung::dt, rungs);
+}
+
 /// Temperature and curvature on every element at every kept level.
 void require_memory(const TableReader& table, const ReferenceBlock& reference,
                     const std::vector<Series>& measured) {
@@ -145,9 +156,7 @@ bool ReferenceBlock::is(const Rung& rung) const {
 }
 
 bool ReferenceBlock::is_close_to(const Rung& rung, const std::vector<RungResult>& rungs) const {
-    return !richardson &&
-           ((2 * rung.elements >= elements && !same_in_all(&Rung::elements, rungs)) ||
-            (steps_in(rung) <= 2 && !same_in_all(&Rung::dt, rungs)));
+    return !richardson && (is_close_in_h(*this, rung, rungs) || is_close_in_dt(*this, rung, rungs));
 }
 
 std::optional<Refinement> ReferenceBlock::widths() const {
@@ -258,10 +267,10 @@ std::string grid_reference_remark(const ReferenceBlock& reference,
             close.push_back(width);
     };
     for (const auto& run : runs)
-        if (2 * run.rung.elements >= reference.elements && !same_in_all(&Rung::elements, runs))
+        if (is_close_in_h(reference, run.rung, runs))
             add(fmt::format("s = {}", run.rung.elements));
     for (const auto& run : runs)
-        if (reference.steps_in(run.rung) <= 2 && !same_in_all(&Rung::dt, runs))
+        if (is_close_in_dt(reference, run.rung, runs))
             add(fmt::format("dt = {:g}", run.rung.dt));
     const bool is_one =
         std::ranges::any_of(runs, [&](const RungResult& run) { return reference.is(run.rung); });
