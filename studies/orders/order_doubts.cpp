@@ -4,7 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <iterator>
+#include <map>
 #include <numeric>
 
 namespace tvbeam {
@@ -244,6 +247,74 @@ std::string OrderEnsemble::motion_between_levels(Index width, const OrderInterva
     return rows_.widths() > 1 && levels->leave(order.low, order.high)
                ? fmt::format("from level to level{} it moves more and more, to {:.2f}", where, last)
                : std::string();
+}
+
+/// The order of the steps between errors along the lines of a grid on which one width alone is
+/// refined, at the finest of its levels, where all lines have nearly one: of terms that add or
+/// subtract it is the order of the width's own term on every line, whatever stands beside it. Its
+/// error: how far it differs from line to line, and from the level before.
+std::optional<FittedNumber> OrderEnsemble::order_of_steps(Index width) const {
+    constexpr std::size_t fewest_lines = 3;
+    constexpr double even = 0.01;                               // of the ratios
+    constexpr double nearly = 0.3;                              // of an order
+    std::map<std::vector<int>, std::map<double, double>> lines; // ln width, error
+    for (Index r = 0; r < rows_.size(); ++r) {
+        std::vector<int> others;
+        for (Index i = 0; i < rows_.widths(); ++i)
+            others.push_back(i == width ? 0 : place_of(i, rows_.log_widths(r, i)));
+        lines[others][rows_.log_widths(r, width)] =
+            std::exp(rows_.log_errors[r] - rows_.log_errors.maxCoeff());
+    }
+    std::vector<double> orders;
+    double drift = 0;
+    for (const auto& [others, line] : lines) {
+        if (line.size() < 4)
+            continue;
+        std::array<double, 4> at{};
+        std::array<double, 4> error{};
+        std::transform(line.begin(), std::next(line.begin(), 4), at.begin(),
+                       [](const auto& row) { return row.first; });
+        std::transform(line.begin(), std::next(line.begin(), 4), error.begin(),
+                       [](const auto& row) { return row.second; });
+        const double ratio = at[1] - at[0];
+        const auto step = [&](std::size_t i) { return error[i + 1] - error[i]; };
+        if (std::abs((at[2] - at[1]) / ratio - 1) > even ||
+            std::abs((at[3] - at[2]) / ratio - 1) > even || !(step(1) / step(0) > 0) ||
+            !(step(2) / step(1) > 0))
+            return std::nullopt;
+        orders.push_back(std::log(step(1) / step(0)) / ratio);
+        drift = std::max(drift, std::abs(orders.back() - std::log(step(2) / step(1)) / ratio));
+    }
+    if (orders.size() < fewest_lines)
+        return std::nullopt;
+    const auto [least, greatest] = std::ranges::minmax(orders);
+    if (greatest - least > nearly)
+        return std::nullopt;
+    return FittedNumber{(least + greatest) / 2, greatest - least + drift};
+}
+
+/// Whether what the lines of a grid show speaks against terms of one width each, in words. Two
+/// terms that are at right angles have steps of twice the order where the other one dominates.
+/// Against a reference, which has a part of each, steps are as they would be: it says nothing.
+std::string OrderEnsemble::steps_contradict(const std::vector<OrderInterval>& orders) const {
+    constexpr double at_right_angles = 0.3;
+    const EnsembleMember* fit = steadiest();
+    if (rows_.widths() != 2 || rows_.log_reference.size() > 0 || fit == nullptr)
+        return {};
+    const bool may_double = std::abs(fit->fit.correlation(0, 1).value) < at_right_angles;
+    for (Index i = 0; i < 2; ++i) {
+        const OrderInterval& order = orders[static_cast<std::size_t>(i)];
+        const auto seen = order.determined ? order_of_steps(i) : std::nullopt;
+        if (!seen)
+            continue;
+        const double margin = 2 * tuning_.narrowest + 2 * seen->error;
+        if (std::max(order.low - seen->value, seen->value - order.high) > margin &&
+            !(may_double && std::abs(seen->value - 2 * order.value) <= margin))
+            return fmt::format("along lines of the grid the errors step with order {:.2f}, and no "
+                               "sum of a term in each width follows all: a term depends on both",
+                               seen->value);
+    }
+    return {};
 }
 
 bool OrderEnsemble::is_settled(Index width, const OrderInterval& order) const {

@@ -190,6 +190,12 @@ std::vector<OrderInterval> OrderEnsemble::orders() const {
             order.falls = motion_of(width).falls();
         }
     }
+    if (const std::string status = steps_contradict(result); !status.empty())
+        for (auto& order : result)
+            if (order.determined) {
+                order.determined = false;
+                order.status = status;
+            }
     return result;
 }
 

@@ -25,7 +25,9 @@
 /// that is wide the order is not determined, nor where it still moves (order_motion.hpp), is steep
 /// and seen at two levels alone, or stands beside a constant that its few levels do not tell from
 /// it, or where exact errors, of a grid those at the finest of all other widths, have one that
-/// turns or moves ever more from level to level (LevelErrors); the status says why. Where scatter,
+/// turns or moves ever more from level to level (LevelErrors), nor where the steps of the errors
+/// along lines of a grid have one order and models of terms of one width each have another, as of
+/// h + dt/√h; the status says why. Where scatter,
 /// or a width of three levels, leaves open whether there is a logarithm or a next term half an
 /// order on, the interval reaches its order; and that which the orders of a sequence's levels go
 /// to, where they slow down less than by half an order, and those that the digits leave open which
@@ -147,6 +149,8 @@ private:
     std::optional<double> drifts_away(Eigen::Index width) const;
     std::optional<LevelErrors> levels_alone(Eigen::Index width) const;
     std::string motion_between_levels(Eigen::Index width, const OrderInterval& order) const;
+    std::optional<FittedNumber> order_of_steps(Eigen::Index width) const;
+    std::string steps_contradict(const std::vector<OrderInterval>& orders) const;
 
     OrderTuning tuning_;
     TermRows rows_;
