@@ -2,6 +2,7 @@
 
 #include "core/space/quadrature.hpp"
 #include "core/time/time_levels.hpp"
+#include "mms/forecast/expected_orders.hpp"
 #include "mms/sample_points.hpp"
 #include "mms/text/error_text.hpp"
 #include "mms/text/toml_reader.hpp"
@@ -15,7 +16,9 @@
 #include <functional>
 #include <limits>
 #include <map>
+#include <optional>
 #include <set>
+#include <utility>
 
 namespace tvbeam {
 
@@ -74,8 +77,9 @@ RateJump rate_jump(const ProblemData& data, double end) {
 
 /// The steps of the runs in which the end of a phase costs something.
 struct Costly {
-    Decreasing inside; ///< it lies within a step
-    Decreasing behind; ///< it is a level, which a later step reads across
+    Decreasing inside;             ///< it lies within a step
+    Decreasing behind;             ///< it is a level, which a later step reads across
+    std::set<std::string> schemes; ///< of all runs
 };
 
 Costly costly_steps(const Scene& scene, const ProblemData& data, double end) {
@@ -84,6 +88,7 @@ Costly costly_steps(const Scene& scene, const ProblemData& data, double end) {
         for (const Rung& rung : series.rungs) {
             const TimeScheme& time = scheme_of(series.method).time;
             const TimeLevels levels(data, time, series.final_time, rung.steps);
+            costly.schemes.insert(time.name);
             if (!(end < levels.time(rung.steps)))
                 continue;
             if (!levels.meet(end))
@@ -112,35 +117,85 @@ std::string steps_text(const Decreasing& steps) {
     return text;
 }
 
+/// What theory says of the scene; nothing: its solution is no text, or theory has no word for it.
+std::optional<ExpectedOrders> theory_of(const Scene& scene) {
+    const auto* solution = std::get_if<Solution>(&scene.problem);
+    if (solution == nullptr || solution->phases.empty())
+        return std::nullopt;
+    try {
+        return expected_orders({*solution, scene.beam, scene.longest_time()});
+    } catch (const InputError&) {
+        return std::nullopt; // as of a derivative that is too large
+    }
+}
+
+/// What an order in dt is to be said of.
+struct Losses {
+    const RateJump& jump;
+    bool touches_stop;  ///< in the step that holds the end, or later
+    bool presses_later; ///< behind the end
+};
+
+/// By any of these schemes; of a square the square's.
+Forecast order_of(const std::optional<ExpectedOrders>& theory, const Norm& norm,
+                  const std::set<std::string>& schemes) {
+    if (!theory)
+        return {.kind = Forecast::Kind::unknown};
+    Forecast result;
+    for (const ExpectedOrder& row : theory->orders)
+        for (const std::string& scheme : schemes)
+            if (row.norm == norm.name)
+                result = either(result, row.in_dt(scheme));
+            else if (row.norm + "_sq" == norm.name)
+                result = either(result, doubled(row.in_dt(scheme)));
+    return result;
+}
+
 /// The orders in dt that are left, by norm; of a square the square's. Empty where nothing is read
 /// that the jump touches.
-std::string orders_text(const Scene& scene, const RateJump& jump, bool touches_stop) {
+std::string orders_text(const Scene& scene, const std::optional<ExpectedOrders>& theory,
+                        const std::set<std::string>& schemes, const Losses& losses) {
+    const RateJump& jump = losses.jump;
     const bool coupled = scene.beam.alpha != 0.0;
     const bool heat = jump.heat > 0.0 || coupled;
     const bool bending = jump.bending > 0.0 || coupled;
-    std::map<double, std::vector<std::string>, std::greater<>> norms;
+    std::map<std::pair<double, std::string>, std::vector<std::string>, std::greater<>> norms;
     for (const Norm& norm : norms_of(scene.measures())) {
         const QuantitySet set = norm.quantities();
         const auto has = [&](Quantity q) { return set[static_cast<std::size_t>(q)]; };
         const bool of_heat = heat && (has(Quantity::theta) || has(Quantity::theta_x));
-        const bool of_stress = touches_stop && has(Quantity::stress) && (jump.tip || coupled);
+        const bool of_stress =
+            losses.touches_stop && has(Quantity::stress) && (jump.tip || coupled);
         const bool of_bending =
             bending && (has(Quantity::u) || has(Quantity::u_x) || has(Quantity::u_xx));
-        if (!of_heat && !of_bending && !of_stress)
+        Forecast order = order_of(theory, norm, schemes);
+        if (of_stress ? !order.has_error() : !of_heat && !of_bending)
             continue;
-        auto& names = norms[(of_stress && jump.tip ? 0.5 : 1.0) * (norm.squared ? 2.0 : 1.0)];
-        if (std::find(names.begin(), names.end(), norm.name) == names.end())
-            names.push_back(norm.name);
+        const double own = norm.squared ? 2.0 : 1.0;
+        if (!of_stress && (!theory || order.is_known()))
+            order = {Forecast::Kind::between, order.is_known() ? std::min(order.least, own) : own,
+                     own};
+        auto& names = norms[{order.greatest, order.is_known() ? words_of(order) : ""}];
+        const std::string name = norm.name + (of_stress && !losses.presses_later
+                                                  ? " (where the error keeps the tip on its stop)"
+                                                  : "");
+        if (std::find(names.begin(), names.end(), name) == names.end())
+            names.push_back(name);
     }
     std::vector<std::string> parts;
     parts.reserve(norms.size());
     for (const auto& [order, names] : norms)
-        parts.push_back((parts.empty() ? "the order " : "") + message_text(order) + " in " +
-                        list_of(names));
+        parts.push_back(
+            (order.second.empty()
+                 ? std::string(parts.empty() ? "an order" : "one") + " that is not known"
+                 : (parts.empty() ? "the order " : "") + order.second) +
+            " in " + list_of(names));
     return parts.empty() && scene.get<EvolutionBlock>() != nullptr ? "the order 1" : list_of(parts);
 }
 
-std::string remark(const Scene& scene, const RateJump& jump, const std::string& orders,
+/// orders: those by these schemes.
+template <typename Orders>
+std::string remark(const Scene& scene, const RateJump& jump, const Orders& orders,
                    const Costly& costly, double end) {
     // The greatest over x is that of the points that were looked at.
     const auto about = [](double size) { return fmt::format("about {:.2g}", size); };
@@ -152,13 +207,13 @@ std::string remark(const Scene& scene, const RateJump& jump, const std::string& 
         jumps.push_back("zeta u_xxt by " + about(jump.bending));
     std::string text = "At t = " + message_text(end) +
                        ", where a phase of the solution ends, rates jump: " + list_of(jumps) + ".";
-    if (!costly.inside.empty())
+    if (const std::string every = orders(costly.schemes); !costly.inside.empty())
         text += " In a run of which no time level is there (" + steps_text(costly.inside) +
-                ") every time scheme has " + orders +
+                ") every time scheme has " + every +
                 ", and an error that changes with the place in the step.";
     if (!costly.behind.empty())
         text += " Where it is a level (" + steps_text(costly.behind) +
-                "), BDF2 still looks back across it and has " + orders + ".";
+                "), BDF2 still looks back across it and has " + orders({"bdf2"}) + ".";
     return text;
 }
 
@@ -166,6 +221,7 @@ std::string remark(const Scene& scene, const RateJump& jump, const std::string& 
 
 std::vector<std::string> phase_remarks(const Scene& scene, const ProblemData& data) {
     std::vector<std::string> remarks;
+    std::optional<ExpectedOrders> theory;
     for (const double end : data.phase_ends) {
         const Costly costly = costly_steps(scene, data, end);
         if (costly.inside.empty() && costly.behind.empty())
@@ -175,9 +231,16 @@ std::vector<std::string> phase_remarks(const Scene& scene, const ProblemData& da
             continue;
         // What the step that holds the end does to the stress shows in it, or behind it.
         const double step = costly.inside.empty() ? 0.0 : *costly.inside.begin();
-        const bool touches_stop =
-            touches(data, std::max(end - step, 0.0), longest_time(scene.series()));
-        if (const std::string orders = orders_text(scene, jump, touches_stop); !orders.empty())
+        const double final_time = longest_time(scene.series());
+        const double after = std::nextafter(end, std::numeric_limits<double>::infinity());
+        const Losses losses{jump, touches(data, std::max(end - step, 0.0), final_time),
+                            touches(data, after, final_time)};
+        if (!theory)
+            theory = theory_of(scene);
+        const auto orders = [&](const std::set<std::string>& schemes) {
+            return orders_text(scene, theory, schemes, losses);
+        };
+        if (!orders(costly.schemes).empty())
             remarks.push_back(remark(scene, jump, orders, costly, end));
     }
     return remarks;

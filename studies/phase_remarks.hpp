@@ -17,10 +17,10 @@ namespace tvbeam {
 ///
 /// A step of Δt with the end inside it, at a part r of it, takes one side of the jump for both: its
 /// error is of the order rΔt times the jump, and stays in what follows. That is the order 1 for
-/// every scheme, with a factor that changes with r from run to run. Where the velocity of the tip
-/// jumps, the stress of that step is wrong by a part of the jump: the order is 1/2 in the L² norm
-/// in time. A scheme that reads the steps before it makes an error like it when the end is a level,
-/// too. With α = 0 each equation keeps its own.
+/// every scheme, with a factor that changes with r from run to run. What of it the stress has
+/// depends on what the tip does at the stops: its order is that which theory has for the whole
+/// solution (expected_orders.hpp), and so is one below 1. A scheme that reads the steps before it
+/// makes an error like it when the end is a level, too. With α = 0 each equation keeps its own.
 ///
 /// data: with the exact solution of the scene; one without has no phases.
 std::vector<std::string> phase_remarks(const Scene& scene, const ProblemData& data);

@@ -337,7 +337,8 @@ constexpr const char* small_viscosity =
 std::string why_not(const ExpectedOrders& expected, const DerivedSolution& derived,
                     const Beam& beam, double final_time, const std::string& time_scheme) {
     if (expected.law_distance > 0.0)
-        return "the solution is one of rigid stops, and errors stall";
+        return std::string("the solution is one of rigid stops, and ") + stalling_errors(beam) +
+               " stall";
     if (expected.is_in_stops)
         return "the tip passes penalised stops";
     if (expected.contact.touch)

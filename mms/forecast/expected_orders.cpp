@@ -90,15 +90,17 @@ bool jumps(const std::vector<Switch>& switches, double Switch::*jump) {
                        [jump](const Switch& change) { return change.*jump > 0.0; });
 }
 
-/// How far the tip goes beyond a penalised stop, or stays clear of it, where it is farthest, and at
-/// the start.
-void seek_farthest_tip(const DerivedSolution& derived, const Stops& stops, double final_time,
+/// How far the tip goes beyond a penalised stop, or stays clear of it, where it is farthest, at the
+/// start and at the switches.
+void seek_farthest_tip(const DerivedSolution& derived, const Beam& beam, double final_time,
                        ExpectedOrders& result) {
+    const Stops& stops = beam.stops;
     const PiecewiseTape tape(derived,
                              [](const DerivedPhase& phase) { return std::vector<ex>{phase.u}; });
     double size = 0.0;
     double farthest = -std::numeric_limits<double>::infinity();
     double farthest_at = 0.0;
+    double nearest = std::numeric_limits<double>::infinity();
     const auto tip_at = [&](double t) { return tape.at(ArrayXd::Ones(1), t)(0, 0); };
     const auto beyond_stop = [&](double tip) {
         return std::max(tip - stops.upper, stops.lower - tip);
@@ -107,6 +109,7 @@ void seek_farthest_tip(const DerivedSolution& derived, const Stops& stops, doubl
         const double tip = tip_at(t);
         const double beyond = beyond_stop(tip);
         size = std::max(size, std::abs(tip));
+        nearest = std::min(nearest, beyond);
         if (beyond > farthest) {
             farthest = beyond;
             farthest_at = t;
@@ -127,6 +130,15 @@ void seek_farthest_tip(const DerivedSolution& derived, const Stops& stops, doubl
                              beyond_stop(tip_at(begin)) > 0.0;
     if (std::abs(farthest) <= nearest_to_stop * size)
         result.contact.touch = farthest_at;
+    if (const double answer = 3.0 * beam.zeta * stops.epsilon;
+        !result.is_in_stops || answer == 0.0 || answer >= least_viscosity * final_time)
+        return;
+    result.enters_stiff_stops = nearest < -nearest_to_stop * size;
+    const auto jump = std::ranges::find_if(result.switches, [&](const Switch& change) {
+        return change.u_xxt_jump > 0.0 && beyond_stop(tip_at(change.t)) >= -nearest_to_stop * size;
+    });
+    if (jump != result.switches.end())
+        result.jump_in_stiff_stops = jump->t;
 }
 
 constexpr Forecast no_error{};
@@ -138,10 +150,6 @@ Forecast between(double least, double greatest) {
 Forecast exactly(double order) {
     return between(order, order);
 }
-Forecast doubled(const Forecast& order) {
-    return {order.kind, 2.0 * order.least, 2.0 * order.greatest, order.none_at_levels};
-}
-
 /// Of the sum of two errors.
 Forecast slower(const Forecast& a, const Forecast& b) {
     if (!a.has_error() || !b.has_error())
@@ -201,7 +209,8 @@ public:
                                  [&](Method method) { return stress_in_time(method); }));
         if (known_.law_distance > 0.0)
             for (ExpectedOrder& order : result)
-                order.in_h = order.euler = order.bdf2 = order.sdirk2 = unknown;
+                if (coupled_ || !order.norm.starts_with("theta"))
+                    order.in_h = order.euler = order.bdf2 = order.sdirk2 = unknown;
         return result;
     }
 
@@ -295,23 +304,22 @@ private:
                                             !known_.contact.touch && !known_.contact.within;
         if (!known_.tip_has_time_error || (!coupled_ && is_held_from_the_start))
             return no_error;
-        // A jump at the end of the last contact comes too late for the stress.
-        const double pressed = known_.contact.pressed_until
-                                   ? std::nextafter(*known_.contact.pressed_until, 0.0)
-                                   : always;
         const auto of_u = [&](double until) {
             return with_stages(method, Over::square, u_in_time(method, until));
         };
+        Forecast pressed = of_u(known_.contact.pressed_until.value_or(always));
+        if (known_.enters_stiff_stops) {
+            Forecast entered = with_lag(method, Over::square, u_in_time(method, always));
+            entered.least -= 0.5;
+            pressed = slower(pressed, entered);
+        }
         if (loses_force(method))
-            return of_u(pressed);
-        return of_stress(of_u(pressed), [&](const ContactOnset& onset) {
-            const Forecast p = of_u(onset.t);
-            const auto order = [](double of_u, double j) {
-                return std::max(of_u - 0.5, of_u * share(j));
-            };
-            const auto [least, greatest] = powers(onset);
-            Forecast result = between(order(p.least, least), order(p.greatest, greatest));
-            result.none_at_levels = p.none_at_levels;
+            return pressed;
+        return of_stress(pressed, [&](const ContactOnset& onset) {
+            Forecast result = of_u(onset.t);
+            result.least -= 0.5;
+            result.greatest =
+                std::max(result.greatest - 0.5, result.greatest * share(powers(onset).second));
             return result;
         });
     }
@@ -321,16 +329,28 @@ private:
 
     /// order, or less where the order of SDIRK2's stages, one, shows: BDF2 has them in one step
     /// alone, whose error, however large, falls with the third power of small steps.
-    [[nodiscard]] Forecast with_stages(Method method, Over time, const Forecast& order) const {
-        const bool lags = method == Method::sdirk2 ? known_.stages_lag
-                          : method == Method::bdf2 ? known_.first_step_lags
-                                                   : false;
-        if (!lags && !loses_force(method))
-            return order;
+    static Forecast of_stages(Method method, Over time, const Forecast& order) {
         if (method == Method::sdirk2)
             return slower(order, between(1.0, 2.0));
         Forecast result = slower(order, between(time == Over::maximum ? 1.0 : 1.5, always));
         result.greatest = result.is_known() ? 3.0 : result.greatest;
+        return result;
+    }
+
+    /// What little viscosity shows of the stages.
+    [[nodiscard]] Forecast with_lag(Method method, Over time, const Forecast& order) const {
+        const bool lags = method == Method::sdirk2 ? known_.stages_lag
+                          : method == Method::bdf2 ? known_.first_step_lags
+                                                   : false;
+        return lags ? of_stages(method, time, order) : order;
+    }
+
+    /// And what a penalised stop does, beside what it makes of a jump on it.
+    [[nodiscard]] Forecast with_stages(Method method, Over time, const Forecast& order) const {
+        Forecast result =
+            loses_force(method) ? of_stages(method, time, order) : with_lag(method, time, order);
+        if (known_.jump_in_stiff_stops)
+            result.least = std::min(result.least, time == Over::maximum ? 0.0 : 0.5);
         return result;
     }
 
@@ -367,6 +387,18 @@ private:
 };
 
 } // namespace
+
+Forecast doubled(const Forecast& order) {
+    return {order.kind, 2.0 * order.least, 2.0 * order.greatest, order.none_at_levels};
+}
+
+Forecast either(const Forecast& a, const Forecast& b) {
+    if (!a.has_error() || !b.has_error())
+        return a.has_error() ? a : b;
+    if (!a.is_known() || !b.is_known())
+        return unknown;
+    return between(std::min(a.least, b.least), std::max(a.greatest, b.greatest));
+}
 
 std::string words_of(const Forecast& forecast) {
     if (!forecast.has_error())
@@ -417,7 +449,7 @@ ExpectedOrders expected_orders(const AdmissibleSolution& solution) {
         result.rough_end = find_rough_end(derived, final_time);
         result.law_distance = solution.remarks().law_distance;
         if (beam.stops.epsilon > 0.0)
-            seek_farthest_tip(derived, beam.stops, final_time, result);
+            seek_farthest_tip(derived, beam, final_time, result);
         else if (beam.stops.exist())
             result.contact = contact_history(derived, beam.stops, final_time);
         const bool coupled = beam.alpha != 0.0;

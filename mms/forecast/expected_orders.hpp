@@ -10,7 +10,8 @@
 
 namespace tvbeam {
 
-/// ζ over T. With less, steps may be longer than ζ, and a scheme behaves as without viscosity.
+/// ζ over T. With less, steps may be longer than ζ, and a scheme behaves as without viscosity. So
+/// of the time 3ζε in which a penalised stop answers: with less it behaves as a rigid one.
 inline constexpr double least_viscosity = 0.01;
 
 /// The order of one error, as far as theory says it.
@@ -30,6 +31,12 @@ struct Forecast {
     [[nodiscard]] bool is_known() const { return kind == Kind::between; }
 };
 
+/// Of the square.
+Forecast doubled(const Forecast& order);
+
+/// Of one error or the other.
+Forecast either(const Forecast& a, const Forecast& b);
+
 /// "2", "1 to 2", "-" where there is no error, or "not known".
 std::string words_of(const Forecast& forecast);
 
@@ -41,6 +48,11 @@ struct ExpectedOrder {
     std::string norm;
     Forecast in_h;
     Forecast euler, bdf2, sdirk2; ///< in dt
+
+    /// By the name of the time scheme.
+    [[nodiscard]] const Forecast& in_dt(const std::string& scheme) const {
+        return scheme == "euler" ? euler : scheme == "bdf2" ? bdf2 : sdirk2;
+    }
 };
 
 /// What is to be expected of a solution on a beam before it is run.
@@ -79,6 +91,10 @@ struct ExpectedOrders {
     bool is_in_stops = false;  ///< penalised stops: the tip passes one
     /// Of those: it is on one at t = 0 and goes on within it: the first step is made with a force.
     bool starts_in_stops = false;
+    /// Of those, where steps may be longer than they take to answer: it comes to one from outside.
+    bool enters_stiff_stops = false;
+    /// Of those, too: the first time at which u_xxt jumps while it is on one.
+    std::optional<double> jump_in_stiff_stops;
     std::vector<ExpectedOrder> orders;
     std::vector<std::string> reasons; ///< in sentences, why an order is not 2 in h, 1 or 2 in dt
 };
@@ -123,16 +139,27 @@ struct ExpectedOrders {
 ///
 ///   and between its values for both j, as the sign of e decides. In h likewise with p = 2 and no
 ///   step to end it. Without viscosity the tip answers to the force at once: p. A tip that touches
-///   a stop without a force leaves the order open; one that touches none has no error.
+///   a stop without a force leaves the order open; one that touches none has no error. Which of the
+///   two the maximum is, the sizes of e and of the force decide as long as steps are not small: it
+///   is p − 1/2 at least. What jumps when a tip leaves the stop makes it stick where the sign of e
+///   is such: p, too.
 /// - of the stress at penalised stops: that of u, as it is a Lipschitz function of u(1,t), once Δt
-///   is below 3ζε; with greater steps as at rigid stops, but for SDIRK2 where the tip moves within
+///   is below 3ζε; with greater steps as at rigid stops: p − 1/2 at least where the tip comes from
+///   outside. A jump of its velocity on a stop leaves λ wrong by ~ 1 in one step, 1/2 in L² over
+///   time, and u by ε times that, 0 in maxima over time. But for SDIRK2 where the tip moves within
 ///   a stop, other than linearly in t: its stages are of order 1, which the stiff stop lets
 ///   through, and it has 1 to 2. So has the first step of BDF2, which SDIRK2 makes, where the tip
 ///   is on a stop at t = 0: an error of order 1 over a time Δt, for 1 up to 3 in maxima over time,
 ///   and from 3/2 in L² over time, as below 3ζε it falls with the third power of Δt. The errors of
-///   a solution of rigid stops stall, in an unknown way, at the distance of the two laws.
+///   a solution of rigid stops stall, in an unknown way, at the distance of the two laws; without
+///   coupling those of θ̃ do not.
 ///
 /// Throws InputError where a derivative is too large.
 ExpectedOrders expected_orders(const AdmissibleSolution& solution);
+
+/// The errors that stall where a solution of rigid stops meets penalised ones.
+inline const char* stalling_errors(const Beam& beam) {
+    return beam.alpha == 0.0 ? "errors of u and sigma" : "errors";
+}
 
 } // namespace tvbeam

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace tvbeam {
@@ -18,15 +19,48 @@ std::string power_text(const std::string& base, std::optional<double> power) {
                        : "like " + base + (*power == 1 ? "" : fmt::format("^{:.3g}", *power));
 }
 
+/// How penalised stops that the tip passes answer.
+void add_penalised_reasons(const ExpectedOrders& known, const Beam& beam,
+                           std::vector<std::string>& text) {
+    // A step answers to a force with the compliance Δt/(3ζ), beside which ε must be large.
+    text.push_back("The penalised stops answer to u(1,t) at once, and sigma has its order, for "
+                   "steps below 3*zeta*epsilon = " +
+                   number_text(3.0 * beam.zeta * beam.stops.epsilon) +
+                   "; with greater ones sigma_L2 behaves as at rigid stops" +
+                   (known.tip_is_linear
+                        ? "."
+                        : ", but for SDIRK2: where the tip moves within a stop other than "
+                          "linearly in t its order is 1, and rises to 2 only below." +
+                              std::string(known.starts_in_stops
+                                              ? " The first step of BDF2 is one of SDIRK2, and "
+                                                "its error remains: of order 1 in maxima over "
+                                                "time, 1.5 in sigma_L2 and other norms of L2 "
+                                                "in time, and in smaller steps it falls like dt^3."
+                                              : "")));
+    if (known.enters_stiff_stops)
+        text.emplace_back("The tip comes to a penalised stop from outside: in steps in which that "
+                          "behaves as a rigid one, sigma_L2 has half an order less than u.");
+    if (known.jump_in_stiff_stops)
+        text.push_back("at t = " + number_text(*known.jump_in_stiff_stops) +
+                       " u_xxt jumps while the tip is on a penalised stop: in steps in which that "
+                       "behaves as a rigid one, sigma is wrong by a part of the jump for one step, "
+                       "and u by epsilon times as much: orders from 0.5 in L2 over time, from 0 in "
+                       "maxima.");
+}
+
 void add_contact_reasons(const ExpectedOrders& known, const Beam& beam,
                          std::vector<std::string>& text) {
     if (known.law_distance > 0.0) {
         text.push_back("The solution is one of rigid stops. Penalised ones with epsilon = " +
                        number_text(beam.stops.epsilon) + " would let its tip pass by up to " +
-                       number_text(known.law_distance) +
-                       ": errors do not fall to zero, and how they come to a halt is not known.");
+                       number_text(known.law_distance) + ": " + stalling_errors(beam) +
+                       " do not fall to zero, and how they come to a halt is not known.");
         return;
     }
+    const auto ends_contact = [&](const Switch& change) {
+        return known.contact.pressed_until == change.t &&
+               (change.theta_t_jump > 0.0 || change.u_xxt_jump > 0.0);
+    };
     if (known.contact.touch)
         text.push_back((known.contact.rests_until
                             ? "from t = " + number_text(*known.contact.touch) + " to " +
@@ -41,32 +75,22 @@ void add_contact_reasons(const ExpectedOrders& known, const Beam& beam,
     else if (beam.stops.exist() && !known.is_in_stops && !known.contact.pressed_until)
         text.emplace_back("The tip never reaches a stop: sigma is zero, and so is its error once "
                           "the error of u(1,t) is less than the distance.");
+    else if (std::ranges::any_of(known.switches, ends_contact))
+        text.push_back("at t = " + number_text(*known.contact.pressed_until) +
+                       " the last contact ends, and rates jump: where the error of that keeps the "
+                       "tip on the stop, sigma_L2 has it, too, and where not, nothing of it.");
     if (beam.zeta == 0.0)
         return;
-    // A step answers to a force with the compliance Δt/(3ζ), beside which ε must be large.
     if (known.is_in_stops)
-        text.push_back(
-            "The penalised stops answer to u(1,t) at once, and sigma has its order, for "
-            "steps below 3*zeta*epsilon = " +
-            number_text(3.0 * beam.zeta * beam.stops.epsilon) +
-            "; with greater ones sigma_L2 behaves as at rigid stops" +
-            (known.tip_is_linear
-                 ? "."
-                 : ", but for SDIRK2: where the tip moves within a stop other than "
-                   "linearly in t its order is 1, and rises to 2 only below." +
-                       std::string(known.starts_in_stops
-                                       ? " The first step of BDF2 is one of SDIRK2, and "
-                                         "its error remains: of order 1 in maxima over "
-                                         "time, 1.5 in sigma_L2 and other norms of L2 "
-                                         "in time, and in smaller steps it falls like dt^3."
-                                       : "")));
+        add_penalised_reasons(known, beam, text);
     for (const ContactOnset& onset : known.contact.onsets)
         text.push_back(
             "at t = " + number_text(onset.t) + " a contact begins: the tip comes up " +
             power_text("s", onset.approach) + ", s the time to it, and the force begins " +
             power_text("s", onset.force) +
             ". A run is there too early or too late by its error of u(1,t), and sigma_L2 "
-            "loses a part of the order to that; its orders scatter from row to row.");
+            "loses a part of the order to that: half an order where one step makes it good; where "
+            "it takes several, orders scatter from row to row.");
 }
 
 /// Of what is quadratic in t, of stages that miss the ends, and of those that lag.

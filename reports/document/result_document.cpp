@@ -1,5 +1,6 @@
 #include "reports/document/result_document.hpp"
 
+#include "mms/forecast/expected_orders.hpp"
 #include "reports/files/provenance.hpp"
 #include "reports/studies/study_report.hpp"
 #include "studies/text/number_text.hpp"
@@ -32,7 +33,8 @@ std::string problem_line(const Scene& scene, double law_distance) {
                 (law_distance > 0.0
                      ? " (the solution is one of rigid stops; these would let its tip pass by up "
                        "to " +
-                           scientific(law_distance, 1) + ", and errors do not fall to zero)"
+                           scientific(law_distance, 1) + ", and " + stalling_errors(scene.beam) +
+                           " do not fall to zero)"
                      : "");
     if (!scene.mesh.nodes.empty())
         line += "; nodes of every mesh: " + std::to_string(scene.mesh.nodes.size());

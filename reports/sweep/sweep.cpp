@@ -1,5 +1,6 @@
 #include "reports/sweep/sweep.hpp"
 
+#include "mms/forecast/expected_orders.hpp"
 #include "mms/text/input_error.hpp"
 #include "mms/text/toml_document.hpp"
 #include "reports/document/json_text.hpp"
@@ -310,8 +311,9 @@ std::vector<std::string> cautions(const StudyResult& result) {
         race != nullptr && !race->busy_remark.empty())
         all.push_back(race->busy_remark);
     if (result.law_distance > 0.0)
-        all.emplace_back("The solution is one of rigid stops: errors at penalised ones do not fall "
-                         "to zero.");
+        all.push_back(std::string("The solution is one of rigid stops: ") +
+                      stalling_errors(result.scene.beam) +
+                      " at penalised ones do not fall to zero.");
     return all;
 }
 

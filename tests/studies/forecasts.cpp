@@ -239,6 +239,103 @@ BOOST_AUTO_TEST_CASE(a_jump_at_the_time_of_an_onset_lowers_the_order_that_it_lea
     }
 }
 
+// The force begins so steeply, beside the error of a tip that hardly moves, that one step makes
+// that good: half an order is lost however small these steps are.
+BOOST_AUTO_TEST_CASE(an_onset_that_one_step_makes_good_costs_the_stress_half_an_order) {
+    const Problem problem{parse_solution("theta = 0\n[[phase]]\nuntil = 1\n"
+                                         "u = 'g2*x^2*(3 - x)/2*(1 - (1 - t)^2)'\n"
+                                         "[[phase]]\nu = 'g2*x^2*(3 - x)/2'\nsigma = '1 - t'\n",
+                                         "onset.toml"),
+                          {0.0, 0.1, 0.0, {-0.001, 0.001}},
+                          2.0};
+    const ExpectedOrders expected =
+        expected_orders({problem.solution, problem.beam, problem.final_time});
+    const ExpectedOrder& stress = expected.orders.back();
+    BOOST_REQUIRE(stress.norm == "sigma_L2");
+    BOOST_TEST(stress.euler.least == 0.5);
+    BOOST_TEST(stress.euler.greatest == 0.75);
+    BOOST_TEST(stress.bdf2.least == 1.5);
+    const ProblemData data =
+        manufactured_problem({problem.solution, problem.beam, problem.final_time});
+    std::vector<double> dt;
+    std::vector<double> found;
+    for (const std::int64_t steps : {32, 128, 512, 2048, 8192}) {
+        dt.push_back(problem.final_time / static_cast<double>(steps));
+        found.push_back(errors(problem, data, "euler", 2, steps).back());
+    }
+    BOOST_TEST(std::abs(slope(dt, found) - 0.5) < 0.01);
+}
+
+// A tip that leaves like s^3 sticks while its error is larger than that.
+BOOST_AUTO_TEST_CASE(a_jump_where_the_last_contact_ends_is_one_of_the_stress) {
+    const Problem problem{parse_solution("[[phase]]\nuntil = 1\ntheta = '(1 - x)*sin(x)'\n"
+                                         "u = 'g2*x^2*(3 - x)/2'\nsigma = -1\n"
+                                         "[[phase]]\ntheta = '(1 - x)*sin(x)*t'\n"
+                                         "u = 'g2*x^2*(3 - x)/2*(1 - (t - 1)^3/2)'\nsigma = 0\n",
+                                         "release.toml"),
+                          {3.0, 0.0, 0.0, {-0.2, 0.1}},
+                          2.0};
+    const ExpectedOrders expected =
+        expected_orders({problem.solution, problem.beam, problem.final_time});
+    const ExpectedOrder& stress = expected.orders.back();
+    BOOST_REQUIRE(stress.norm == "sigma_L2");
+    for (const Forecast& order : {stress.bdf2, stress.sdirk2}) {
+        BOOST_TEST(order.least == 1.0);
+        BOOST_TEST(order.greatest == 2.0);
+    }
+    check_forecast(problem, "bdf2", of_sixteenths, "a release with a jump"); // a level of each
+}
+
+// The velocity of a tip in a penalised stop jumps, within a step: one that answers in a time of a
+// few steps leaves sigma the order of u; one that answers at once half an order less than one, and
+// u an error of epsilon times that of sigma.
+BOOST_AUTO_TEST_CASE(a_jump_in_a_penalised_stop_leaves_half_an_order_if_it_is_stiff) {
+    const auto problem = [](double zeta, double epsilon) {
+        return Problem{parse_solution("theta = 0\n[[phase]]\nuntil = 1\n"
+                                      "u = '1.5*g2*t^2*x^2*(3 - x)/2'\n"
+                                      "[[phase]]\nu = '1.5*g2*t*x^2*(3 - x)/2'\n",
+                                      "tip.toml"),
+                       {0.0, zeta, 0.0, {-0.2, 0.1, epsilon}},
+                       2.0};
+    };
+    const auto row = [&](const Problem& one, const std::string& norm) {
+        const ExpectedOrders expected = expected_orders({one.solution, one.beam, one.final_time});
+        return *std::ranges::find(expected.orders, norm, &ExpectedOrder::norm);
+    };
+    const Problem soft = problem(0.5, 0.3);
+    const Problem stiff = problem(0.1, 1e-3);
+    for (const std::string& scheme : TimeScheme::names()) {
+        BOOST_TEST(row(soft, "sigma_L2").in_dt(scheme).least == 1.0);
+        BOOST_TEST(row(stiff, "sigma_L2").in_dt(scheme).least == 0.5);
+        BOOST_TEST(row(stiff, "u_L2H2").in_dt(scheme).least == 0.5);
+        BOOST_TEST(row(stiff, "u_LinfH2").in_dt(scheme).least == 0.0);
+        BOOST_TEST(row(stiff, "theta_L2L2").in_dt(scheme).has_error() == false);
+        for (const Problem& one : {soft, stiff})
+            check_forecast(one, scheme, {31, 63, 127, 255, 511}, "a jump in a penalised stop");
+    }
+}
+
+// With alpha = 0 the temperature does not see the stops that a solution of rigid ones misses.
+BOOST_AUTO_TEST_CASE(errors_that_see_the_stops_alone_stall_at_penalised_ones) {
+    const Solution solution = parse_solution("theta = 'sin(pi*x)*exp(-t)'\n[[phase]]\nuntil = 1\n"
+                                             "u = 'g2*x^2*(3 - x)/2*(1 - (1 - t)^2)'\nsigma = 0\n"
+                                             "[[phase]]\nu = 'g2*x^2*(3 - x)/2'\n"
+                                             "sigma = '-(t - 1)'\n",
+                                             "rigid.toml");
+    for (const double alpha : {0.0, 0.3}) {
+        const ExpectedOrders expected =
+            expected_orders({solution, {alpha, 0.2, 0.0, {-0.1, 0.1, 0.01}}, 2.0});
+        BOOST_REQUIRE(expected.law_distance > 0.0);
+        for (const ExpectedOrder& order : expected.orders)
+            BOOST_TEST(order.bdf2.is_known() == (alpha == 0.0 && order.norm.starts_with("theta")),
+                       order.norm);
+        BOOST_TEST(expected.reasons.back().find(alpha == 0.0
+                                                    ? "errors of u and sigma do not fall"
+                                                    : ": errors do not fall") != std::string::npos,
+                   expected.reasons.back());
+    }
+}
+
 // Stages of SDIRK2 are of order 2 for a tip that is linear in t, of 1 for any other. The steps are
 // far above 3ζε = 4.5e-5.
 BOOST_AUTO_TEST_CASE(only_an_uneven_tip_in_a_penalised_stop_costs_sdirk2_an_order) {
@@ -279,19 +376,22 @@ BOOST_AUTO_TEST_CASE(a_tip_that_starts_in_a_penalised_stop_costs_bdf2_an_order) 
     struct Case {
         std::string tip;
         bool loses;
+        bool enters; ///< from outside
     };
-    for (const auto& [tip, loses] : {Case{"(5 + sin(t))/4", true},
-                                     {"1 + exp(t) - cos(t)", true},
-                                     {"(5 + t)/4", false},
-                                     {"1 - t + 2*t^2", false},
-                                     {"0.8 + t^3", false}}) {
+    for (const auto& [tip, loses, enters] : {Case{"(5 + sin(t))/4", true, false},
+                                             {"1 + exp(t) - cos(t)", true, false},
+                                             {"(5 + t)/4", false, false},
+                                             {"1 - t + 2*t^2", false, true},
+                                             {"0.8 + t^3", false, true}}) {
         const Problem one = problem(tip);
         const ExpectedOrders expected = expected_orders({one.solution, one.beam, one.final_time});
         for (const ExpectedOrder& order : expected.orders) {
             const double own = order.norm == "corollary" ? 4.0 : 2.0;
             const bool is_maximum =
                 order.norm.find("Linf") != std::string::npos || order.norm == "corollary";
-            const double least = !loses ? own : own / 2.0 * (is_maximum ? 1.0 : 1.5);
+            // A stop that is met within one step takes half an order of the stress.
+            const double free = enters && order.norm == "sigma_L2" ? own - 0.5 : own;
+            const double least = !loses ? free : own / 2.0 * (is_maximum ? 1.0 : 1.5);
             BOOST_TEST(order.bdf2.least == least, tip << ", " << order.norm);
             BOOST_TEST(order.bdf2.greatest == (loses ? 1.5 * own : own), tip << ", " << order.norm);
         }
@@ -299,7 +399,7 @@ BOOST_AUTO_TEST_CASE(a_tip_that_starts_in_a_penalised_stop_costs_bdf2_an_order) 
         for (const std::string& reason : expected.reasons)
             is_said = is_said || reason.find("first step of BDF2") != std::string::npos;
         BOOST_TEST(is_said == loses, tip);
-        if (loses)
+        if (loses || enters)
             check_forecast(one, "bdf2", {16, 23, 32, 45, 64}, tip);
     }
 }
@@ -314,12 +414,12 @@ BOOST_AUTO_TEST_CASE(a_high_power_of_an_onset_leaves_less_than_a_flat_one) {
         const ExpectedOrder& stress = expected.orders.back();
         BOOST_REQUIRE(stress.norm == "sigma_L2");
         const double share = (2.0 * j + 1.0) / (2.0 * j + 2.0);
-        for (const auto& [forecast, of_u] : {std::pair{stress.in_h, 2.0},
-                                             {stress.euler, 1.0},
-                                             {stress.bdf2, 2.0},
-                                             {stress.sdirk2, 2.0}}) {
-            BOOST_TEST(forecast.least <= of_u * share);
-            BOOST_TEST(forecast.least > of_u * 0.9);
+        BOOST_TEST(stress.in_h.least <= 2.0 * share);
+        BOOST_TEST(stress.in_h.least > 1.8);
+        BOOST_TEST(stress.in_h.greatest >= 2.0 * share);
+        for (const auto& [forecast, of_u] :
+             {std::pair{stress.euler, 1.0}, {stress.bdf2, 2.0}, {stress.sdirk2, 2.0}}) {
+            BOOST_TEST(forecast.least == of_u - 0.5); // in steps that make it good at once
             BOOST_TEST(forecast.greatest >= of_u * share);
         }
         for (const std::string& reason : expected.reasons)
