@@ -46,13 +46,17 @@ std::string text_of(double value) {
     return number_text(value, 3);
 }
 
-/// A power of two near the size of the data, which everything linear in them is measured in. The
-/// heated end acts as the force αθ_A.
-double unit_of(const StressParameters& parameters) {
+/// The size of what bends the beam; 1 where nothing does. The heated end acts as the force αθ_A.
+double size_of(const StressParameters& parameters) {
     const double size =
         std::max({parameters.load, parameters.initial == InitialData::zero ? 0.0 : 1.0,
                   parameters.alpha * std::abs(parameters.theta_A)});
-    return size == 0.0 ? 1.0 : std::ldexp(1.0, std::ilogb(size));
+    return size == 0.0 ? 1.0 : size;
+}
+
+/// A power of two near that size, which everything linear in the data is measured in.
+double unit_of(const StressParameters& parameters) {
+    return std::ldexp(1.0, std::ilogb(size_of(parameters)));
 }
 
 Scheme scheme_of(const StressParameters& parameters) {
@@ -101,11 +105,13 @@ public:
                                         "direct algorithm");
             options_.least_size = 1.0;
         }
+        // What is made of these is to be in the range of floating point, too.
         constexpr double most = 1e300;
         if (parameters.zeta / parameters.dt > most)
-            throw std::domain_error("zeta/dt is beyond the range of floating point");
-        if (std::abs(parameters.theta_A) / unit_ > most)
-            throw std::domain_error("theta_A over the load is beyond the range of floating point");
+            throw std::domain_error("zeta/dt is above 1e300, near the end of floating point");
+        if (std::abs(parameters.theta_A) / size_of(parameters) > most)
+            throw std::domain_error("theta_A is above 1e300 times what bends the beam, near the "
+                                    "end of floating point");
         options_.unit = unit_;
         solver_ = make_solver(beam_, data_, mesh_, scheme_, parameters.dt, Needs{true, true, true});
     }
