@@ -179,9 +179,11 @@ private:
     }
 
     void add(Role role, const std::string& name, const std::string& of, const NamedEntries& named,
-             std::size_t component, const ex& formula, const std::string& place = {}) {
+             std::size_t component, const ex& formula,
+             const std::map<std::string, double>& at = {}) {
         const SourceText& text = named.entries[named.entries.size() > 1 ? component : 0];
-        derived_.functions.push_back({role, name, of, place, text.text(), text.begin(), formula});
+        derived_.functions.push_back(
+            {role, name, of, place_text(at), text.text(), text.begin(), formula, at});
     }
 
     void add_equation(const NamedEntries& named) {
@@ -245,24 +247,30 @@ private:
         return found == names.end() ? 0 : static_cast<std::size_t>(found - names.begin());
     }
 
+    /// "x = 1"; empty: everywhere.
+    static std::string place_text(const std::map<std::string, double>& at) {
+        return at.empty() ? "" : at.begin()->first + " = " + exact_text(at.begin()->second);
+    }
+
     /// A boundary or initial value: at the solution, and in the place.
     void add_values(Role role, const NamedEntries& named, const std::string& ending,
-                    const GiNaC::exmap& at, const std::string& place) {
+                    const GiNaC::exmap& in_place, const std::map<std::string, double>& at) {
+        const std::string place = place_text(at);
         const Tensor value = tensor_of(named);
         require_vector(named, value);
         const auto names = component_names(named.name, value.entries.size());
         for (std::size_t i = 0; i < names.size(); ++i) {
             const SourceText& text = named.entries[named.entries.size() > 1 ? i : 0];
             const ex formula = located(text, names[i] + (place.empty() ? "" : " at " + place), [&] {
-                return substituted(derived_.fields.exact(value.entries[i]), at);
+                return substituted(derived_.fields.exact(value.entries[i]), in_place);
             });
-            add(role, names[i] + ending, names[i], named, i, formula, place);
+            add(role, names[i] + ending, names[i], named, i, formula, at);
         }
     }
 
     void add_boundary(const BoundaryEntry& entry) {
         if (entry.variable.empty()) {
-            add_values(Role::boundary, entry.value, "", {}, "");
+            add_values(Role::boundary, entry.value, "", {}, {});
             return;
         }
         TensorTable known;
@@ -291,7 +299,7 @@ private:
             std::find(coordinate_names().begin(), coordinate_names().end(), entry.variable) -
             coordinate_names().begin());
         add_values(Role::boundary, entry.value, "", {{coordinate(index), exact}},
-                   entry.variable + " = " + exact_text(at));
+                   {{entry.variable, at}});
     }
 
     void add_initial(const NamedEntries& named) {
@@ -301,8 +309,7 @@ private:
                                           "initial; leave [initial] out");
         const double begin = system().domain.at("t").begin;
         add_values(Role::initial, named, "_initial",
-                   {{coordinate(coordinate_count - 1), exact_rational(begin)}},
-                   "t = " + exact_text(begin));
+                   {{coordinate(coordinate_count - 1), exact_rational(begin)}}, {{"t", begin}});
     }
 
     /// What is called alike in code, as the components of f and an equation f1.

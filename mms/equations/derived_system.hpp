@@ -5,6 +5,7 @@
 
 #include <ginac/ginac.h>
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,7 @@ struct DerivedFunction {
     /// In coordinates, parameters and fields; of boundary and initial values in the coordinates and
     /// parameters that remain.
     GiNaC::ex formula;
+    std::map<std::string, double> at; ///< the coordinate of the place, as a number
 };
 
 struct DerivedParameter {

@@ -145,8 +145,8 @@ std::vector<bool> constants_in(const Program& program, const DerivedSystem& deri
 
 class Search {
 public:
-    Search(const Program& program, const DerivedSystem& derived)
-        : program_(program), derived_(derived), criticals_(criticals_of(program)),
+    Search(const Program& program, const DerivedSystem& derived, const DomainPart& part)
+        : program_(program), derived_(derived), part_(part), criticals_(criticals_of(program)),
           is_constant_(constants_in(program, derived)) {}
 
     std::vector<Singularity> worst() {
@@ -206,7 +206,7 @@ private:
             DomainPoint point;
             std::size_t rest = i;
             for (const auto& name : names) {
-                const DomainInterval range = derived_.system.domain.at(name);
+                const DomainInterval range = part_.at(name);
                 const double part = double(rest % along) / double(along - 1);
                 point[name] = (1.0 - part) * range.begin + part * range.end;
                 rest /= along;
@@ -401,18 +401,16 @@ private:
         return std::nullopt;
     }
 
-    using Box = std::map<std::string, DomainInterval>;
-
     /// Halves the domain until all rules hold in every part.
     [[nodiscard]] std::optional<Singularity>
     not_excluded(const std::vector<const Critical*>& open) const {
-        Box whole;
+        DomainPart whole;
         for (const auto& name : coordinates())
-            whole[name] = derived_.system.domain.at(name);
-        std::vector<Box> left = {whole};
+            whole[name] = part_.at(name);
+        std::vector<DomainPart> left = {whole};
         std::size_t looked_at = 0;
         while (!left.empty()) {
-            const Box box = left.back();
+            const DomainPart box = left.back();
             left.pop_back();
             const auto all = broken_in(open, box);
             if (all.empty())
@@ -456,7 +454,7 @@ private:
         return std::ranges::any_of(point, [&](const auto& coordinate) {
             const std::string& name = coordinate.first;
             const double at = coordinate.second;
-            const DomainInterval range = derived_.system.domain.at(name);
+            const DomainInterval range = part_.at(name);
             const double step = std::ldexp(range.end - range.begin, -halvings);
             return std::ranges::all_of(std::array{at - step, at + step}, [&](double beside) {
                 DomainPoint other = point;
@@ -473,7 +471,7 @@ private:
         constexpr int finest = 45; // halvings of the domain
         constexpr long double rounding = 1e-15L;
         for (const auto& [name, at] : point) {
-            const DomainInterval range = derived_.system.domain.at(name);
+            const DomainInterval range = part_.at(name);
             for (int k = 1; k <= finest; ++k)
                 for (const double side : {-1.0, 1.0}) {
                     DomainPoint beside = point;
@@ -487,7 +485,7 @@ private:
     }
 
     [[nodiscard]] std::vector<const Critical*> broken_in(const std::vector<const Critical*>& open,
-                                                         const Box& box) const {
+                                                         const DomainPart& box) const {
         std::map<std::string, Span> names;
         for (const auto& [name, value] : names_at(derived_, {}))
             names[name] = widened(Span(static_cast<double>(value)));
@@ -501,7 +499,7 @@ private:
         return broken;
     }
 
-    static DomainPoint middle_of(const Box& box) {
+    static DomainPoint middle_of(const DomainPart& box) {
         DomainPoint point;
         for (const auto& [name, range] : box)
             point[name] = 0.5 * (range.begin + range.end);
@@ -514,13 +512,14 @@ private:
         return side.begin < middle && middle < side.end;
     }
 
-    static bool can_be_halved(const Box& box) {
+    static bool can_be_halved(const DomainPart& box) {
         return std::ranges::any_of(box, [](const auto& side) { return has_middle(side.second); });
     }
 
     /// Across the coordinate in which the part is longest, measured by the whole: of the
     /// smallest doubles by 0.
-    static void halve(const Box& box, const Box& whole, std::vector<Box>& parts) {
+    static void halve(const DomainPart& box, const DomainPart& whole,
+                      std::vector<DomainPart>& parts) {
         std::string longest;
         double length = 0.0;
         for (const auto& [name, range] : box) {
@@ -540,6 +539,7 @@ private:
 
     const Program& program_;
     const DerivedSystem& derived_;
+    const DomainPart& part_;
     std::vector<Critical> criticals_;
     std::vector<bool> is_constant_; ///< by step: it is the same everywhere
     std::vector<Extremes> extremes_;
@@ -548,8 +548,9 @@ private:
 
 } // namespace
 
-std::vector<Singularity> singularities_of(const Program& program, const DerivedSystem& derived) {
-    return Search(program, derived).worst();
+std::vector<Singularity> singularities_of(const Program& program, const DerivedSystem& derived,
+                                          const DomainPart& part) {
+    return Search(program, derived, part).worst();
 }
 
 } // namespace tvbeam

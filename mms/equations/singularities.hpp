@@ -3,6 +3,7 @@
 #include "mms/equations/derived_system.hpp"
 #include "mms/equations/program.hpp"
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -22,9 +23,13 @@ struct Singularity {
     std::string place; ///< "at x = 0.5"
 };
 
-/// What is found of a program on the domain, the worst first and one a place, at most three and how
-/// many more; none: it is smooth everywhere. Overflow is what leaves an output without a value in
-/// doubles, at the points of a grid that has the ends of the domain.
-std::vector<Singularity> singularities_of(const Program& program, const DerivedSystem& derived);
+/// A part of the domain: of each coordinate an interval, or a value.
+using DomainPart = std::map<std::string, DomainInterval>;
+
+/// What is found of a program on a part of the domain, the worst first and one a place, at most
+/// three and how many more; none: it is smooth everywhere. Overflow is what leaves an output
+/// without a value in doubles, at the points of a grid that has the ends of the domain.
+std::vector<Singularity> singularities_of(const Program& program, const DerivedSystem& derived,
+                                          const DomainPart& part);
 
 } // namespace tvbeam

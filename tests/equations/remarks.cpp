@@ -168,6 +168,24 @@ BOOST_AUTO_TEST_CASE(a_kink_in_another_place_than_the_solution_s_is_said_of_the_
     BOOST_TEST(said[1].find("x = 0.5") != std::string::npos, said[1]);
 }
 
+BOOST_AUTO_TEST_CASE(a_boundary_or_initial_value_is_singular_where_it_is_given) {
+    const auto remark = [](const std::string& values) {
+        return remark_of("sin(x + y)*exp(-t)", "diff(u, t) - laplace(u)",
+                         values + "[domain]\nx = [1, 2]\ny = [0, 3]\nt = [5, 6]\n");
+    };
+    BOOST_TEST(remark("[boundary]\nright = { on = 'x = 2', value = 'diff(u,x)/(y - 1/2)' }\n")
+                   .ends_with("the divisor 2*y - 1 is 0 at t = 5, x = 2, y = 0.5"));
+    BOOST_TEST(remark("[boundary]\ntop = { on = 'y = 3', value = 'sqrt(x - 5/4)*u' }\n")
+                   .find("of a root is 0 at t = 5, x = 1.25, y = 3, and negative") !=
+               std::string::npos);
+    BOOST_TEST(remark("[initial]\nstart = 'sqrt((x - 1.3137)^2)'\n")
+                   .find(" is 0 at t = 5, x = 1.3137, y = ") != std::string::npos);
+    // Without a place it is for all of the boundary, and for nothing within.
+    BOOST_TEST(remark("[boundary]\nall = '1/((x - 1.5)^2 + (y - 1)^2)'\n") == "");
+    BOOST_TEST(remark("[boundary]\nall = '1/((x - 1.5)^2 + (y - 3)^2)'\n")
+                   .ends_with(" is 0 at t = 5, x = 1.5, y = 3"));
+}
+
 BOOST_AUTO_TEST_CASE(a_pole_of_a_source_alone_is_said_of_it) {
     const std::string said = remark_of("exp(x)*(2 + t)", "diff(u, t) - u/(x - 1/2)");
     BOOST_TEST(said.starts_with("my.toml:4:6: f has no value: the divisor 2*x - 1 is 0 at "), said);
