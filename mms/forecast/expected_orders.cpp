@@ -232,7 +232,7 @@ private:
         if (!known_.kink)
             return between(at_end, smooth);
         // Within one element the projection of u_xx misses it by the jump, or by h times it.
-        const double beside_kink = alone - 3.5 + static_cast<double>(known_.kink->derivative);
+        const double beside_kink = alone - (known_.kink->of == Kink::Of::u_xx ? 1.5 : 0.5);
         return between(std::min(at_end, beside_kink), smooth);
     }
 

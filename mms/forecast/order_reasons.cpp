@@ -171,7 +171,8 @@ std::vector<std::string> order_reasons(const ExpectedOrders& known, const Beam& 
         text.push_back(words_of(*known.kink) +
                        ": where that is within an element, not between two, errors of u fall more "
                        "slowly in h." +
-                       (known.kink->derivative == 2
+                       (known.kink->of == Kink::Of::u_xx ||
+                                (known.kink->of == Kink::Of::u_xxt && beam.zeta != 0.0)
                             ? " The formula of G lacks a delta function there, which the moments "
                               "that runs take have."
                             : ""));

@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 namespace tvbeam {
 
@@ -161,18 +162,19 @@ std::optional<Kink> find_kink(const DerivedSolution& derived, double final_time)
         const double end = std::min(phase.end_value, final_time);
         const bool is_expected = may_jump(phase.u) || may_jump(phase.theta);
         const double least = least_jump(is_expected);
-        int derivative = 2;
-        for (const ex& formula : {derived.derived[i].u_xx, derived.derived[i].u_xxx}) {
-            const Tape tape = compile_tape({formula});
+        const DerivedPhase& formulas = derived.derived[i];
+        for (const auto& [of, formula] : {std::pair(Kink::Of::u_xx, &formulas.u_xx),
+                                          {Kink::Of::u_xxt, &formulas.u_xxt},
+                                          {Kink::Of::u_xxx, &formulas.u_xxx}}) {
+            const Tape tape = compile_tape({*formula});
             for (const double part : parts_to_search(is_expected)) {
                 const ArrayXd t =
                     ArrayXd::Constant(1, phase.begin_value + part * (end - phase.begin_value));
                 const auto in_x = [&](const ArrayXd& x) { return tape.evaluate(x, t); };
                 const auto exactly = [&](const ArrayXd& x) { return tape.evaluate_wide(x, t); };
                 if (const auto jump = find_jump(in_x, exactly, uneven_grid(0.0, 1.0), least))
-                    return Kink{jump->at, derivative};
+                    return Kink{of, jump->at, t(0)};
             }
-            ++derivative;
         }
     }
     return std::nullopt;
@@ -217,8 +219,16 @@ std::string words_of(const RoughEnd& end) {
 }
 
 std::string words_of(const Kink& kink) {
-    return std::string(kink.derivative == 2 ? "u_xx" : "u_xxx") +
-           " jumps at x = " + number_text(kink.x);
+    const std::string at = " jumps at x = " + number_text(kink.x);
+    switch (kink.of) {
+    case Kink::Of::u_xx:
+        return "u_xx" + at;
+    case Kink::Of::u_xxt:
+        return "u_xxt" + at + ", t = " + number_text(kink.t);
+    case Kink::Of::u_xxx:
+        break;
+    }
+    return "u_xxx" + at;
 }
 
 } // namespace tvbeam

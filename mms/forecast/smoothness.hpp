@@ -28,10 +28,16 @@ struct Cusp {
     double u_xxt_power = std::numeric_limits<double>::infinity();
 };
 
-/// A place at which a derivative of u in x jumps within a phase.
+/// A place at which a derivative of u jumps in x within a phase, at one of the times looked at.
 struct Kink {
+    enum class Of {
+        u_xx,
+        u_xxt, ///< and u_xxx: the place moves
+        u_xxx  ///< alone
+    };
+    Of of = Of::u_xx;
     double x = 0.0;
-    int derivative = 2; ///< 2 or 3: u_xx, or u_xxx alone
+    double t = 0.0;
 };
 
 /// An end of the beam at which u_xxx has a value and a slope that is not square-integrable: it goes
@@ -43,7 +49,7 @@ struct RoughEnd {
     double power = 0.0; ///< β, the least of all times looked at
 };
 
-/// "u_xx jumps at x = 0.3".
+/// "u_xx jumps at x = 0.3"; of a place that moves the time, too.
 std::string words_of(const Kink& kink);
 
 /// "u_xxx goes to its value at x = 0 like s^0.1".
