@@ -3,6 +3,8 @@
 #include "core/space/quadrature.hpp"
 #include "core/time/time_levels.hpp"
 #include "mms/forecast/expected_orders.hpp"
+#include "mms/local_power.hpp"
+#include "mms/rough_times.hpp"
 #include "mms/sample_points.hpp"
 #include "mms/text/error_text.hpp"
 #include "mms/text/toml_reader.hpp"
@@ -30,6 +32,18 @@ constexpr double tolerance = 1e-9; ///< of a jump, relative to what jumps, in al
 constexpr Eigen::Index looks = 9;  ///< at that time
 constexpr std::size_t most_listed = 5;
 
+/// A time at which rates may jump, or have an infinite slope.
+struct Break {
+    double t;
+    bool is_phase_end; ///< or within a phase
+
+    [[nodiscard]] std::string text() const {
+        return "At t = " + message_text(t) +
+               (is_phase_end ? ", where a phase of the solution ends, "
+                             : ", within a phase of the solution, ");
+    }
+};
+
 using Decreasing = std::set<double, std::greater<>>;
 
 /// How far what is differenced in the two equations jumps.
@@ -48,55 +62,98 @@ bool touches(const ProblemData& data, double begin, double end) {
     return (data.amplitudes(times).row(*data.exact->stress) != 0.0).any();
 }
 
-RateJump rate_jump(const ProblemData& data, double end) {
+/// σ̃(1,t) (1 − x) − μ, which jumps as ζ u_xxt does.
+ArrayXd bending_rate(const ProblemData& data, const ArrayXd& x, double t) {
+    const ArrayXd load = values(data, data.moment_load, x, t);
+    if (!data.exact || !data.exact->stress)
+        return -load;
+    const double stress = data.amplitudes(ArrayXd::Constant(1, t))(*data.exact->stress, 0);
+    return stress * (1.0 - x) - load;
+}
+
+RateJump rate_jump(const ProblemData& data, const Break& at) {
     const GaussRule rule = GaussRule::of(48);
     const ArrayXd& x = rule.points;
-    const double after = std::nextafter(end, std::numeric_limits<double>::infinity());
-    const auto jump = [&](const auto& of) -> ArrayXd {
-        const ArrayXd left = of(end);
-        const ArrayXd right = of(after);
-        double size = right.abs().maxCoeff();
-        for (const double t : sample_points(0.0, end, looks)) // what vanishes there leaves rounding
-            size = std::max(size, of(t).abs().maxCoeff());
-        const ArrayXd difference = right - left;
+    const double after = std::nextafter(at.t, std::numeric_limits<double>::infinity());
+    const auto noticed = [](const ArrayXd& difference, double size) -> ArrayXd {
         return difference.abs().maxCoeff() > tolerance * size ? difference
-                                                              : ArrayXd::Zero(x.size());
+                                                              : ArrayXd::Zero(difference.size());
+    };
+    const auto jump = [&](const auto& of) -> ArrayXd {
+        double size = of(after).abs().maxCoeff();
+        for (const double t :
+             sample_points(0.0, at.t, looks)) // what vanishes there leaves rounding
+            size = std::max(size, of(t).abs().maxCoeff());
+        if (at.is_phase_end)
+            return noticed(of(after) - of(at.t), size);
+        const auto row = [&](double t) -> Eigen::ArrayXXd { return of(t).transpose(); };
+        return noticed(jump_across(row, at.t, at.t).row(0).transpose(), size);
     };
     const ArrayXd heat = jump([&](double t) { return values(data, data.heat_source, x, t); });
-    const ArrayXd bending = jump([&](double t) -> ArrayXd {
-        const ArrayXd load = values(data, data.moment_load, x, t);
-        if (!data.exact || !data.exact->stress)
-            return -load;
-        const double stress = data.amplitudes(ArrayXd::Constant(1, t))(*data.exact->stress, 0);
-        return stress * (1.0 - x) - load;
-    });
+    const ArrayXd bending = jump([&](double t) { return bending_rate(data, x, t); });
     const double most = bending.abs().maxCoeff();
     const double tip = (rule.weights * (1.0 - x) * bending).sum();
     return {heat.abs().maxCoeff(), most, std::abs(tip) > tolerance * most};
 }
 
-/// The steps of the runs in which the end of a phase costs something.
+/// The least β < 1 such that rates go to their values within a phase like s^β, s the time to t.
+double cusp_power(const ProblemData& data, double t) {
+    const ArrayXd x = sample_points(0.0, 1.0);
+    double least = std::numeric_limits<double>::infinity();
+    const auto see = [&](const auto& of) {
+        for (const double direction : {-1.0, 1.0})
+            least =
+                std::min(least, power_below_one(
+                                    [&](double s) {
+                                        return (of(t + direction * s) - of(t + 2.0 * direction * s))
+                                            .abs()
+                                            .maxCoeff();
+                                    },
+                                    t, of(0.5 * t).abs().maxCoeff()));
+    };
+    see([&](double s) -> ArrayXd { return values(data, data.heat_source, x, s); });
+    see([&](double s) { return bending_rate(data, x, s); });
+    return least;
+}
+
+/// The steps of the runs in which such a time costs something.
 struct Costly {
     Decreasing inside;             ///< it lies within a step
     Decreasing behind;             ///< it is a level, which a later step reads across
     std::set<std::string> schemes; ///< of all runs
 };
 
-Costly costly_steps(const Scene& scene, const ProblemData& data, double end) {
+Costly costly_steps(const Scene& scene, const ProblemData& data, const Break& at) {
     Costly costly;
     for (const auto& series : scene.series())
         for (const Rung& rung : series.rungs) {
             const TimeScheme& time = scheme_of(series.method).time;
             const TimeLevels levels(data, time, series.final_time, rung.steps);
             costly.schemes.insert(time.name);
-            if (!(end < levels.time(rung.steps)))
+            if (!(at.t < levels.time(rung.steps)))
                 continue;
-            if (!levels.meet(end))
+            if (!levels.meet(at.t))
                 costly.inside.insert(rung.dt);
-            else if (time.history > 0)
+            else if (time.history > 0 && at.is_phase_end) // within one the run fails
                 costly.behind.insert(rung.dt);
         }
     return costly;
+}
+
+std::vector<Break> breaks_of(const Scene& scene, const ProblemData& data) {
+    std::vector<Break> breaks;
+    for (const double end : data.phase_ends)
+        breaks.push_back({end, true});
+    if (const auto* solution = std::get_if<Solution>(&scene.problem);
+        solution != nullptr && !solution->phases.empty()) {
+        const double final_time = scene.longest_time();
+        for (const PhaseExpressions& phase : expressions_on(*solution, scene.beam).phases)
+            if (phase.begin_value < final_time)
+                for (const double t : rough_times(phase, final_time))
+                    breaks.push_back({t, false});
+    }
+    std::ranges::sort(breaks, {}, &Break::t);
+    return breaks;
 }
 
 std::string list_of(const std::vector<std::string>& parts) {
@@ -196,7 +253,7 @@ std::string orders_text(const Scene& scene, const std::optional<ExpectedOrders>&
 /// orders: those by these schemes.
 template <typename Orders>
 std::string remark(const Scene& scene, const RateJump& jump, const Orders& orders,
-                   const Costly& costly, double end) {
+                   const Costly& costly, const Break& at) {
     // The greatest over x is that of the points that were looked at.
     const auto about = [](double size) { return fmt::format("about {:.2g}", size); };
     std::vector<std::string> jumps;
@@ -205,8 +262,7 @@ std::string remark(const Scene& scene, const RateJump& jump, const Orders& order
                         about(jump.heat));
     if (jump.bending > 0.0)
         jumps.push_back("zeta u_xxt by " + about(jump.bending));
-    std::string text = "At t = " + message_text(end) +
-                       ", where a phase of the solution ends, rates jump: " + list_of(jumps) + ".";
+    std::string text = at.text() + "rates jump: " + list_of(jumps) + ".";
     if (const std::string every = orders(costly.schemes); !costly.inside.empty())
         text += " In a run of which no time level is there (" + steps_text(costly.inside) +
                 ") every time scheme has " + every +
@@ -222,18 +278,26 @@ std::string remark(const Scene& scene, const RateJump& jump, const Orders& order
 std::vector<std::string> phase_remarks(const Scene& scene, const ProblemData& data) {
     std::vector<std::string> remarks;
     std::optional<ExpectedOrders> theory;
-    for (const double end : data.phase_ends) {
-        const Costly costly = costly_steps(scene, data, end);
+    for (const Break& at : breaks_of(scene, data)) {
+        const Costly costly = costly_steps(scene, data, at);
         if (costly.inside.empty() && costly.behind.empty())
             continue;
-        const RateJump jump = rate_jump(data, end);
-        if (jump.heat == 0.0 && jump.bending == 0.0)
+        const RateJump jump = rate_jump(data, at);
+        if (jump.heat == 0.0 && jump.bending == 0.0) {
+            if (const double power = at.is_phase_end ? 1.0 : cusp_power(data, at.t); power < 1.0)
+                remarks.push_back(
+                    at.text() +
+                    fmt::format("a rate has an infinite slope, like s^{:.3g}, s the time to it: "
+                                "errors that it enters have a part of the order {:.3g} in dt, "
+                                "which changes with its place in the step.",
+                                power, 1.0 + power));
             continue;
+        }
         // What the step that holds the end does to the stress shows in it, or behind it.
         const double step = costly.inside.empty() ? 0.0 : *costly.inside.begin();
         const double final_time = longest_time(scene.series());
-        const double after = std::nextafter(end, std::numeric_limits<double>::infinity());
-        const Losses losses{jump, touches(data, std::max(end - step, 0.0), final_time),
+        const double after = std::nextafter(at.t, std::numeric_limits<double>::infinity());
+        const Losses losses{jump, touches(data, std::max(at.t - step, 0.0), final_time),
                             touches(data, after, final_time)};
         if (!theory)
             theory = theory_of(scene);
@@ -241,7 +305,7 @@ std::vector<std::string> phase_remarks(const Scene& scene, const ProblemData& da
             return orders_text(scene, theory, schemes, losses);
         };
         if (!orders(costly.schemes).empty())
-            remarks.push_back(remark(scene, jump, orders, costly, end));
+            remarks.push_back(remark(scene, jump, orders, costly, at));
     }
     return remarks;
 }

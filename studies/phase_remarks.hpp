@@ -8,8 +8,9 @@
 
 namespace tvbeam {
 
-/// What the ends of phases (ProblemData::phase_ends) cost the orders in dt of a scene's runs, in a
-/// paragraph for each end that costs something.
+/// What the ends of phases (ProblemData::phase_ends), and times within one at which rates jump or
+/// have an infinite slope (rough_times), cost the orders in dt of a scene's runs, in a
+/// paragraph for each that costs something.
 ///
 /// At an end the equations see a jump of
 ///

@@ -443,8 +443,8 @@ ExpectedOrders expected_orders(const AdmissibleSolution& solution) {
         ExpectedOrders result;
         result.theta_is_exact = vanishes(derived, final_time, &DerivedPhase::theta_x, s.x, 1);
         result.u_is_exact = vanishes(derived, final_time, &DerivedPhase::u_xx, s.x, 2);
-        result.switches = find_switches(derived, final_time);
-        result.cusps = find_cusps(derived, final_time);
+        result.switches = find_switches(derived, beam, final_time);
+        result.cusps = find_cusps(derived, beam, final_time);
         result.kink = find_kink(derived, final_time);
         result.rough_end = find_rough_end(derived, final_time);
         result.law_distance = solution.remarks().law_distance;

@@ -133,24 +133,77 @@ void add_first_step_reasons(const ExpectedOrders& known, const Beam& beam,
                             : ""));
 }
 
-void add_switch_reasons(const ExpectedOrders& known, std::vector<std::string>& text) {
-    const auto is_linear_beside = [&](const Switch& change) {
-        return change.theta_t_jump > 0.0 ? known.theta_is_linear_in_pieces
-                                         : known.u_is_linear_in_pieces;
+/// What has a rate in the heat equation.
+std::string heat_rate(const Beam& beam) {
+    return beam.alpha != 0.0 && beam.zeta == 0.0 ? "theta_t - alpha u_xxt" : "theta_t";
+}
+
+/// Of which field a sentence about dt is, where they are not coupled.
+std::string in_field(const Beam& beam, bool of_theta) {
+    return beam.alpha != 0.0 ? "" : of_theta ? " in theta" : " in u";
+}
+
+constexpr const char* within_phase = ", within a phase,";
+constexpr const char* better_at_an_end =
+    " Within a phase formulas may have no value at that time, and runs fail of which it is a time "
+    "level; where a phase ends there, none does.";
+
+void add_switch_reasons(const ExpectedOrders& known, const Beam& beam,
+                        std::vector<std::string>& text) {
+    const auto add = [&](const Switch& change, const std::string& jumps, bool of_theta) {
+        const std::string where = in_field(beam, of_theta);
+        if (change.where == Switch::Where::at_a_place) {
+            text.push_back("about t = " + number_text(change.t, 3) + within_phase + " " + jumps +
+                           " at a place: BDF2 and SDIRK2 have an order of 1 to 2 in dt" + where +
+                           ".");
+            return;
+        }
+        const bool within = change.where == Switch::Where::within_phase;
+        const bool is_linear =
+            of_theta ? known.theta_is_linear_in_pieces : known.u_is_linear_in_pieces;
+        text.push_back(
+            "at t = " + number_text(change.t) + (within ? within_phase : "") + " " + jumps +
+            ": BDF2 has the order 1 in dt" + where +
+            ", and more only where the time is the middle of a step; " +
+            (!is_linear ? "SDIRK2 has 1 unless the time is a time level, where it has 2"
+                        : "Euler and SDIRK2 have it, too, unless the time is a time level, where "
+                          "they are exact: " +
+                              std::string(beam.alpha != 0.0 ? "all is"
+                                          : of_theta        ? "theta is"
+                                                            : "u_xx is") +
+                              " linear in t on both sides") +
+            ". Norms with a maximum over time show it late." + (within ? better_at_an_end : ""));
     };
-    for (const Switch& change : known.switches)
-        if (change.theta_t_jump > 0.0 || change.u_xxt_jump > 0.0)
-            text.push_back("at t = " + number_text(change.t) + " " +
-                           (change.theta_t_jump > 0.0
-                                ? "theta_t jumps by up to " + number_text(change.theta_t_jump, 2)
-                                : "u_xxt jumps by up to " + number_text(change.u_xxt_jump, 2)) +
-                           ": BDF2 has the order 1 in dt, and more only where the time is the "
-                           "middle of a step; " +
-                           (is_linear_beside(change)
-                                ? "Euler and SDIRK2 have it, too, unless the time is a time level, "
-                                  "where they are exact: all is linear in t on both sides"
-                                : "SDIRK2 has 1 unless the time is a time level, where it has 2") +
-                           ". Norms with a maximum over time show it late.");
+    for (const Switch& change : known.switches) {
+        const std::string heat =
+            heat_rate(beam) + " jumps by up to " + number_text(change.theta_t_jump, 2);
+        const std::string bending = "u_xxt jumps by up to " + number_text(change.u_xxt_jump, 2);
+        const bool has_heat = change.theta_t_jump > 0.0;
+        const bool has_bending = change.u_xxt_jump > 0.0;
+        if (has_heat && has_bending && beam.alpha != 0.0)
+            add(change, heat + " and " + bending, true);
+        else {
+            if (has_heat)
+                add(change, heat, true);
+            if (has_bending)
+                add(change, bending, false);
+        }
+    }
+}
+
+void add_cusp_reasons(const ExpectedOrders& known, const Beam& beam,
+                      std::vector<std::string>& text) {
+    for (const Cusp& cusp : known.cusps)
+        for (const bool of_theta : {true, false})
+            if (const double power = of_theta ? cusp.theta_t_power : cusp.u_xxt_power;
+                !std::isinf(power))
+                text.push_back(fmt::format(
+                    "at t = {}{} {} has an infinite slope, like s^{:.3g}, s the time to it: BDF2 "
+                    "and SDIRK2 have the order {:.3g} in dt{}. Norms with a maximum over time may "
+                    "show it late.{}",
+                    number_text(cusp.t), cusp.is_within_phase ? within_phase : "",
+                    of_theta ? heat_rate(beam) : "u_xxt", power, 1.0 + power,
+                    in_field(beam, of_theta), cusp.is_within_phase ? better_at_an_end : ""));
 }
 
 } // namespace
@@ -190,10 +243,12 @@ std::vector<std::string> order_reasons(const ExpectedOrders& known, const Beam& 
         text.emplace_back("alpha = 0: heat and bending do not see each other's errors, and u has "
                           "higher orders in the weaker norms.");
     if (!known.theta_has_time_error)
-        text.emplace_back(coupled ? "theta and u_xx are linear in t: no scheme has a time error, "
-                                    "and no order in dt is visible."
-                                  : "theta is linear in t, and alpha = 0: no scheme has a time "
-                                    "error in theta, and no order in dt is visible there.");
+        text.push_back(coupled ? std::string(beam.zeta == 0.0 ? "theta - alpha u_xx is"
+                                                              : "theta and u_xx are") +
+                                     " linear in t: no scheme has a time error, and no order in "
+                                     "dt is visible."
+                               : "theta is linear in t, and alpha = 0: no scheme has a time "
+                                 "error in theta, and no order in dt is visible there.");
     if (!coupled && !known.u_has_time_error)
         text.emplace_back(beam.zeta == 0.0 ? "alpha = zeta = 0: the beam has no memory, and u no "
                                              "time error."
@@ -201,21 +256,8 @@ std::vector<std::string> order_reasons(const ExpectedOrders& known, const Beam& 
                                              "time error in u, and no order in dt is visible "
                                              "there.");
     add_first_step_reasons(known, beam, text);
-    add_switch_reasons(known, text);
-    for (const Cusp& cusp : known.cusps)
-        for (const bool of_theta : {true, false}) {
-            const double power = of_theta ? cusp.theta_t_power : cusp.u_xxt_power;
-            const bool counts = of_theta ? known.theta_has_time_error : known.u_has_time_error;
-            if (counts && !std::isinf(power))
-                text.push_back(fmt::format(
-                    "at t = {} {} has an infinite slope, like s^{:.3g}, s the time to it: BDF2 and "
-                    "SDIRK2 have the order {:.3g} in dt{}. Norms with a maximum over time may show "
-                    "it late.",
-                    number_text(cusp.t), of_theta ? "theta_t" : "u_xxt", power, 1.0 + power,
-                    coupled    ? ""
-                    : of_theta ? " in theta"
-                               : " in u"));
-        }
+    add_switch_reasons(known, beam, text);
+    add_cusp_reasons(known, beam, text);
     add_contact_reasons(known, beam, text);
     return text;
 }

@@ -7,12 +7,14 @@
 #include "mms/expression/symbols.hpp"
 #include "mms/expression/tape_compiler.hpp"
 #include "mms/local_power.hpp"
+#include "mms/rough_times.hpp"
 #include "mms/sample_points.hpp"
 #include "mms/text/number_text.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <utility>
@@ -26,23 +28,34 @@ namespace {
 
 constexpr double jump_tolerance = 1e-9; ///< relative to what jumps
 
-/// θ̃_t and u_xxt in every phase, over x.
-PiecewiseTape rates(const DerivedSolution& derived) {
-    return {derived, [](const DerivedPhase& phase) {
-                return std::vector<ex>{phase.theta_t, phase.u_xxt};
+/// θ̃_t and u_xxt in every phase, over x. Without viscosity θ̃ − α u_xx alone has a rate in (1)–(3).
+PiecewiseTape rates(const DerivedSolution& derived, const Beam& beam) {
+    const ex alpha = exact_rational(beam.alpha);
+    return {derived, [&](const DerivedPhase& phase) -> std::vector<ex> {
+                if (beam.zeta > 0.0)
+                    return {phase.theta_t, phase.u_xxt};
+                return {checked_difference(phase.theta_t, checked_product(alpha, phase.u_xxt)), 0};
             }};
 }
 
-/// The greatest of each rate at any time. A jump is one beside that: beside its own terms at a
-/// switch, which may cancel there, round-off would be one.
-ArrayXd sizes_of(const PiecewiseTape& tape, const DerivedSolution& derived, double final_time) {
+/// The greatest of each rate, or of the terms of their difference, at any time. A jump is one
+/// beside that: beside its own terms at a switch, which may cancel there, round-off would be one.
+ArrayXd sizes_of(const DerivedSolution& derived, const Beam& beam, double final_time) {
+    const PiecewiseTape tape(derived, [](const DerivedPhase& phase) {
+        return std::vector<ex>{phase.theta_t, phase.u_xxt};
+    });
     const ArrayXd x = sample_points(0.0, 1.0);
     ArrayXd sizes = ArrayXd::Zero(2);
     for (const PhaseExpressions& phase : derived.phases)
         if (phase.begin_value < final_time)
             for (const double t :
                  sample_points(phase.begin_value, std::min(phase.end_value, final_time)))
-                sizes = sizes.max(tape.at(x, t).abs().rowwise().maxCoeff());
+                // Within a phase a rate may have no value right where it jumps.
+                if (const ArrayXd here = tape.at(x, t).abs().rowwise().maxCoeff();
+                    here.isFinite().all())
+                    sizes = sizes.max(here);
+    if (beam.zeta == 0.0)
+        sizes(0) += beam.alpha * sizes(1);
     return sizes;
 }
 
@@ -90,20 +103,54 @@ std::optional<double> find_second_rate_jump(const DerivedSolution& derived, doub
     return jump ? std::optional(jump->at) : std::nullopt;
 }
 
-std::vector<Switch> find_switches(const DerivedSolution& derived, double final_time) {
-    const PiecewiseTape tape = rates(derived);
+namespace {
+
+constexpr std::array rate_jumps{&Switch::theta_t_jump, &Switch::u_xxt_jump};
+
+/// The switches within phase i.
+std::vector<Switch> switches_within(const PiecewiseTape& tape, const ArrayXd& sizes,
+                                    const PhaseExpressions& phase, std::size_t i,
+                                    double final_time) {
     const ArrayXd x = sample_points(0.0, 1.0);
-    const ArrayXd sizes = sizes_of(tape, derived, final_time);
+    const double length = std::min(phase.end_value, final_time) - phase.begin_value;
+    std::vector<Switch> result;
+    for (const double t : rough_times(phase, final_time)) {
+        Switch change{.t = t, .where = Switch::Where::within_phase};
+        const Eigen::ArrayXXd jumps =
+            jump_across([&](double at) { return tape.at(x, at); }, t, length);
+        for (Eigen::Index row : {0, 1})
+            if (const double jump = jumps.row(row).abs().maxCoeff();
+                jump > jump_tolerance * sizes(row))
+                change.*rate_jumps.at(static_cast<std::size_t>(row)) = jump;
+        if (change.theta_t_jump > 0.0 || change.u_xxt_jump > 0.0)
+            result.push_back(change);
+    }
+    for (Eigen::Index row : {0, 1}) {
+        const auto jump = rate_jumps.at(static_cast<std::size_t>(row));
+        if (std::ranges::any_of(result, [&](const Switch& known) { return known.*jump > 0.0; }))
+            continue;
+        if (const auto found = jump_within(tape.of_phase(i).only({row}), phase, final_time)) {
+            result.push_back({.t = found->at, .where = Switch::Where::at_a_place});
+            result.back().*jump = std::abs(found->size);
+        }
+    }
+    return result;
+}
+
+} // namespace
+
+std::vector<Switch> find_switches(const DerivedSolution& derived, const Beam& beam,
+                                  double final_time) {
+    const PiecewiseTape tape = rates(derived, beam);
+    const ArrayXd x = sample_points(0.0, 1.0);
+    const ArrayXd sizes = sizes_of(derived, beam, final_time);
     std::vector<Switch> result;
     for (std::size_t i = 0; i < derived.phases.size(); ++i) {
         const PhaseExpressions& phase = derived.phases[i];
         if (!(phase.begin_value < final_time))
             break;
-        if (const auto greatest = jump_within(tape.of_phase(i), phase, final_time)) {
-            const double size = std::abs(greatest->size);
-            result.push_back(
-                {greatest->at, greatest->row == 0 ? size : 0.0, greatest->row == 1 ? size : 0.0});
-        }
+        for (const Switch& change : switches_within(tape, sizes, phase, i, final_time))
+            result.push_back(change);
         if (!(phase.end_value < final_time))
             break;
         const Eigen::ArrayXXd before = tape.at(x, phase.end_value);
@@ -117,24 +164,28 @@ std::vector<Switch> find_switches(const DerivedSolution& derived, double final_t
     return result;
 }
 
-std::vector<Cusp> find_cusps(const DerivedSolution& derived, double final_time) {
-    const PiecewiseTape tape = rates(derived);
+std::vector<Cusp> find_cusps(const DerivedSolution& derived, const Beam& beam, double final_time) {
+    const PiecewiseTape tape = rates(derived, beam);
     const ArrayXd x = sample_points(0.0, 1.0);
-    const ArrayXd sizes = sizes_of(tape, derived, final_time);
+    const ArrayXd sizes = sizes_of(derived, beam, final_time);
     std::vector<Cusp> result;
-    // late: the end of a phase is read in the one that begins there.
-    const auto look = [&](double t, bool late, double direction, double length) {
+    // late: the end of a phase is read in the one that begins there. Within one the rates may have
+    // no value, and two differ at times s and 2s from it as they do from their limit, like s^β.
+    const auto look = [&](double t, bool late, double direction, double length,
+                          bool within = false) {
         const Eigen::ArrayXXd at_end = tape.at(x, t, late);
         const auto power = [&](Eigen::Index row) {
             return power_below_one(
                 [&](double s) {
-                    return (tape.at(x, t + direction * s).row(row) - at_end.row(row))
+                    const Eigen::ArrayXXd other =
+                        within ? tape.at(x, t + 2.0 * direction * s) : at_end;
+                    return (tape.at(x, t + direction * s).row(row) - other.row(row))
                         .abs()
                         .maxCoeff();
                 },
                 length, sizes(row));
         };
-        const Cusp cusp{t, power(0), power(1)};
+        const Cusp cusp{t, within, power(0), power(1)};
         if (std::isinf(cusp.theta_t_power) && std::isinf(cusp.u_xxt_power))
             return;
         if (!result.empty() && result.back().t == t) {
@@ -149,6 +200,9 @@ std::vector<Cusp> find_cusps(const DerivedSolution& derived, double final_time) 
         const double end = std::min(phase.end_value, final_time);
         const double length = end - phase.begin_value;
         look(phase.begin_value, true, 1.0, length);
+        for (const double t : rough_times(phase, final_time))
+            for (const double direction : {-1.0, 1.0})
+                look(t, false, direction, length, true);
         look(end, false, -1.0, length);
     }
     return result;

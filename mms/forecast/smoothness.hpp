@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/problem.hpp"
 #include "mms/derivation.hpp"
 
 #include <cstddef>
@@ -11,19 +12,26 @@
 namespace tvbeam {
 
 /// A time at which a solution passes from one formula to the next, or at which the rates of one
-/// jump, and by how much what the schemes difference jumps there; a jump that is 1e-9 of the
-/// largest size of what jumps is none.
+/// jump, and by how much what the schemes difference jumps there: θ̃_t and u_xxt, or where ζ = 0
+/// θ̃_t − α u_xxt alone, for θ̃_t. A jump that is 1e-9 of the largest size of what jumps is none.
 struct Switch {
+    enum class Where {
+        phase_end,
+        within_phase, ///< one of rough_times
+        at_a_place    ///< within a phase, as far as is known for some x alone
+    };
     double t = 0.0;
     double theta_t_jump = 0.0; ///< largest over x
     double u_xxt_jump = 0.0;   ///< largest over x
+    Where where = Where::phase_end;
 };
 
-/// An end of a phase, or the final time, at which a rate has a value and an infinite slope: it goes
-/// there like s^β, with s the time to it and 0 < β < 1; infinite: it does not. The less of both
-/// sides.
+/// An end of a phase, the final time, or one of rough_times, to which a rate as in Switch goes with
+/// an infinite slope: like s^β, with s the time to it and 0 < β < 1; infinite: it does not. The
+/// less of both sides.
 struct Cusp {
     double t = 0.0;
+    bool is_within_phase = false;
     double theta_t_power = std::numeric_limits<double>::infinity();
     double u_xxt_power = std::numeric_limits<double>::infinity();
 };
@@ -58,13 +66,15 @@ std::string words_of(const RoughEnd& end);
 /// The phases that begin before the final time.
 std::size_t phases_until(const DerivedSolution& derived, double final_time);
 
-/// Where phases end, and the largest jump within one, up to the final time.
-std::vector<Switch> find_switches(const DerivedSolution& derived, double final_time);
+/// Where phases end, and where rates jump within one, up to the final time: at its rough_times, or
+/// else where the jump is largest.
+std::vector<Switch> find_switches(const DerivedSolution& derived, const Beam& beam,
+                                  double final_time);
 
 /// The largest jump of θ̃_tt or u_xxtt within the first phase, where a formula has one.
 std::optional<double> find_second_rate_jump(const DerivedSolution& derived, double final_time);
 
-std::vector<Cusp> find_cusps(const DerivedSolution& derived, double final_time);
+std::vector<Cusp> find_cusps(const DerivedSolution& derived, const Beam& beam, double final_time);
 
 /// A jump within a phase, where a formula has one: sqrt((x - a)^2).
 std::optional<Kink> find_kink(const DerivedSolution& derived, double final_time);

@@ -108,14 +108,14 @@ std::string quadrature_remark(const std::vector<RungResult>& rungs,
         const auto k = static_cast<std::size_t>(worst - run.uncertainties.begin());
         others.erase(norms[k].root());
         named += fmt::format(
-            "{}s = {}: {} is uncertain by {:.2g} of itself{}", named.empty() ? "" : "; ",
+            "{}s = {}: {} is uncertain by up to {:.2g} of itself{}", named.empty() ? "" : "; ",
             run.rung.elements, norms[k].root(), *worst,
             others.empty() ? "" : fmt::format(", {} by no more", fmt::join(others, ", ")));
     }
     if (named.empty())
         return {};
     return "Quadrature does not resolve what is integrated, in loads or norms: " + named +
-           ". Orders that these errors enter say nothing.";
+           ". Errors may be off by far less; orders that they enter are not confirmed.";
 }
 
 /// Whether some error is printed in so few digits that an order of two of them may be 0.1 off: why

@@ -446,6 +446,36 @@ BOOST_AUTO_TEST_CASE(a_steep_cusp_lowers_the_order_too) {
     }
 }
 
+// Within a phase a run sees u_xxt ~ |t − a|^(1/2) from both sides, and has no value of it at a: of
+// all counts a lies in the middle of a step, where the error then has an order.
+BOOST_AUTO_TEST_CASE(a_cusp_within_a_phase_lowers_the_order_too) {
+    const Problem problem{parse_solution("theta = '0'\n"
+                                         "u = 'x^2*(3 - x)*((t - 0.43)^2)^0.75'\n",
+                                         "cusp.toml"),
+                          {0.0, 1.0, 0.0, {}},
+                          1.0};
+    const AdmissibleSolution solution(problem.solution, problem.beam, problem.final_time);
+    const ExpectedOrders expected = expected_orders(solution);
+    BOOST_REQUIRE(expected.cusps.size() == 1);
+    BOOST_TEST(expected.cusps[0].t == 0.43);
+    BOOST_TEST(expected.cusps[0].is_within_phase);
+    BOOST_TEST(std::abs(expected.cusps[0].u_xxt_power - 0.5) < 1e-4);
+    const ProblemData data = manufactured_problem(solution);
+    for (const std::string scheme : {"bdf2", "sdirk2"}) {
+        std::vector<double> dt;
+        std::vector<double> found;
+        for (const std::int64_t count : {1650, 2350, 3350, 4750, 6650}) {
+            dt.push_back(1.0 / static_cast<double>(count));
+            found.push_back(errors(problem, data, scheme, 4, count)[2]);
+        }
+        const auto order = std::ranges::find(expected.orders, "u_LinfH2semi", &ExpectedOrder::norm);
+        const Forecast forecast = in_dt(*order, scheme);
+        BOOST_TEST(std::abs(forecast.least - 1.5) < 1e-4);
+        BOOST_TEST(slope(dt, found) > forecast.least - 0.1, scheme << ": " << slope(dt, found));
+        BOOST_TEST(slope(dt, found) < forecast.greatest + 0.1, scheme << ": " << slope(dt, found));
+    }
+}
+
 // The element at an end misses u_xx ~ s^(p − 2) by h^(p − 3/2) in L², more than h² for p < 7/2.
 BOOST_AUTO_TEST_CASE(a_rough_end_lowers_the_order_in_h) {
     for (const std::string base : {"x", "(1 - x)"})

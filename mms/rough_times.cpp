@@ -1,0 +1,89 @@
+#include "mms/rough_times.hpp"
+
+#include "mms/expression/algebra.hpp"
+#include "mms/expression/symbols.hpp"
+#include "mms/expression/tape_compiler.hpp"
+#include "mms/sample_points.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace tvbeam {
+
+using Eigen::ArrayXd;
+using Eigen::Index;
+using GiNaC::ex;
+
+namespace {
+
+constexpr double zero = 1e-12; // of the greatest value
+
+/// The bases of all powers that are no integers and change in time.
+GiNaC::exset bases_of(const PhaseExpressions& phase) {
+    GiNaC::exset bases;
+    for (const ex& formula : {phase.theta, phase.u})
+        for (auto part = formula.preorder_begin(); part != formula.preorder_end(); ++part)
+            if (GiNaC::is_a<GiNaC::power>(*part) && !part->op(1).info(GiNaC::info_flags::integer) &&
+                depends_on(part->op(0), model_symbols().t))
+                bases.insert(part->op(0));
+    return bases;
+}
+
+/// Where |base| is least between two times, to the last digit of what has no rounding there.
+double least_between(const auto& size, double begin, double end) {
+    constexpr int closer = 32; // each a quarter of the one before
+    CloseLook look{begin, end};
+    double best = begin;
+    for (int i = 0; i < closer; ++i) {
+        const ArrayXd times = look.samples();
+        Index least = 0;
+        size(times).minCoeff(&least);
+        best = times(least);
+        look = look.next_to(best, look.spacing());
+    }
+    return best;
+}
+
+void add_zeros(const Tape& base, double begin, double end, std::vector<double>& zeros) {
+    constexpr Index samples = 513;
+    const ArrayXd places{{0.4321, 0.8765}};
+    const auto sizes = [&](double x, const ArrayXd& t) -> ArrayXd {
+        const ArrayXd values = base.evaluate(ArrayXd::Constant(1, x), t).row(0).abs();
+        return values.isFinite().select(values, std::numeric_limits<double>::max());
+    };
+    const auto size = [&](const ArrayXd& t) { return sizes(places(0), t); };
+    const ArrayXd times = ArrayXd::LinSpaced(samples, begin, end);
+    const ArrayXd on_grid = size(times);
+    for (Index k = 1; k + 1 < samples; ++k) {
+        if (on_grid(k) > on_grid(k - 1) || on_grid(k) > on_grid(k + 1))
+            continue;
+        const ArrayXd at = ArrayXd::Constant(1, least_between(size, times(k - 1), times(k + 1)));
+        if (std::all_of(places.begin(), places.end(), [&](double x) {
+                return sizes(x, at)(0) <= zero * sizes(x, times).maxCoeff();
+            }))
+            zeros.push_back(at(0));
+    }
+}
+
+} // namespace
+
+std::vector<double> rough_times(const PhaseExpressions& phase, double final_time) {
+    constexpr double beside = 1e-9; // of the length: the ends are not within, nor two times one
+    const double begin = phase.begin_value;
+    const double end = std::min(phase.end_value, final_time);
+    std::vector<double> zeros;
+    for (const ex& base : bases_of(phase))
+        try {
+            add_zeros(compile_tape({base}), begin, end, zeros);
+        } catch (const AlgebraError&) {
+            continue; // no doubles hold it by itself
+        }
+    std::sort(zeros.begin(), zeros.end());
+    std::vector<double> times;
+    for (const double t : zeros)
+        if (std::min(t - (times.empty() ? begin : times.back()), end - t) > beside * (end - begin))
+            times.push_back(t);
+    return times;
+}
+
+} // namespace tvbeam
