@@ -143,28 +143,27 @@ std::string in_field(const Beam& beam, bool of_theta) {
     return beam.alpha != 0.0 ? "" : of_theta ? " in theta" : " in u";
 }
 
-constexpr const char* within_phase = ", within a phase,";
-constexpr const char* better_at_an_end =
-    " Within a phase formulas may have no value at that time, and runs fail of which it is a time "
-    "level; where a phase ends there, none does.";
+constexpr const char* within_a_phase =
+    " That is within a phase: formulas may have no value there, and runs fail of which it is a "
+    "time level; where a phase ends there, none does.";
 
 void add_switch_reasons(const ExpectedOrders& known, const Beam& beam,
                         std::vector<std::string>& text) {
     const auto add = [&](const Switch& change, const std::string& jumps, bool of_theta) {
         const std::string where = in_field(beam, of_theta);
         if (change.where == Switch::Where::at_a_place) {
-            text.push_back("about t = " + number_text(change.t, 3) + within_phase + " " + jumps +
-                           " at a place: BDF2 and SDIRK2 have an order of 1 to 2 in dt" + where +
-                           ".");
+            text.push_back(
+                "about t = " + number_text(change.t, 3) + " " + jumps +
+                " at a place within a phase: BDF2 and SDIRK2 have an order of 1 to 2 in dt" +
+                where + ".");
             return;
         }
         const bool within = change.where == Switch::Where::within_phase;
         const bool is_linear =
             of_theta ? known.theta_is_linear_in_pieces : known.u_is_linear_in_pieces;
         text.push_back(
-            "at t = " + number_text(change.t) + (within ? within_phase : "") + " " + jumps +
-            ": BDF2 has the order 1 in dt" + where +
-            ", and more only where the time is the middle of a step; " +
+            "at t = " + number_text(change.t) + " " + jumps + ": BDF2 has the order 1 in dt" +
+            where + ", and more only where the time is the middle of a step; " +
             (!is_linear ? "SDIRK2 has 1 unless the time is a time level, where it has 2"
                         : "Euler and SDIRK2 have it, too, unless the time is a time level, where "
                           "they are exact: " +
@@ -172,7 +171,7 @@ void add_switch_reasons(const ExpectedOrders& known, const Beam& beam,
                                           : of_theta        ? "theta is"
                                                             : "u_xx is") +
                               " linear in t on both sides") +
-            ". Norms with a maximum over time show it late." + (within ? better_at_an_end : ""));
+            ". Norms with a maximum over time show it late." + (within ? within_a_phase : ""));
     };
     for (const Switch& change : known.switches) {
         const std::string heat =
@@ -198,12 +197,11 @@ void add_cusp_reasons(const ExpectedOrders& known, const Beam& beam,
             if (const double power = of_theta ? cusp.theta_t_power : cusp.u_xxt_power;
                 !std::isinf(power))
                 text.push_back(fmt::format(
-                    "at t = {}{} {} has an infinite slope, like s^{:.3g}, s the time to it: BDF2 "
+                    "at t = {} {} has an infinite slope, like s^{:.3g}, s the time to it: BDF2 "
                     "and SDIRK2 have the order {:.3g} in dt{}. Norms with a maximum over time may "
                     "show it late.{}",
-                    number_text(cusp.t), cusp.is_within_phase ? within_phase : "",
-                    of_theta ? heat_rate(beam) : "u_xxt", power, 1.0 + power,
-                    in_field(beam, of_theta), cusp.is_within_phase ? better_at_an_end : ""));
+                    number_text(cusp.t), of_theta ? heat_rate(beam) : "u_xxt", power, 1.0 + power,
+                    in_field(beam, of_theta), cusp.is_within_phase ? within_a_phase : ""));
 }
 
 } // namespace
