@@ -30,7 +30,7 @@ GiNaC::exset bases_of(const PhaseExpressions& phase) {
 }
 
 /// Where |base| is least between two times, to the last digit of what has no rounding there.
-double least_between(const auto& size, double begin, double end) {
+double time_of_least(const auto& size, double begin, double end) {
     constexpr int closer = 32; // each a quarter of the one before
     CloseLook look{begin, end};
     double best = begin;
@@ -57,7 +57,7 @@ void add_zeros(const Tape& base, double begin, double end, std::vector<double>& 
     for (Index k = 1; k + 1 < samples; ++k) {
         if (on_grid(k) > on_grid(k - 1) || on_grid(k) > on_grid(k + 1))
             continue;
-        const ArrayXd at = ArrayXd::Constant(1, least_between(size, times(k - 1), times(k + 1)));
+        const ArrayXd at = ArrayXd::Constant(1, time_of_least(size, times(k - 1), times(k + 1)));
         if (std::all_of(places.begin(), places.end(), [&](double x) {
                 return sizes(x, at)(0) <= zero * sizes(x, times).maxCoeff();
             }))
