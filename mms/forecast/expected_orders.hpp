@@ -112,7 +112,8 @@ struct ExpectedOrders {
 /// - in dt: that of the scheme; none where what is differenced is linear in time, for every scheme
 ///   is exact then: θ̃ and u_xx in the heat equation, where α = 0 θ̃ alone; in the beam equation
 ///   u_xx, and where ζ = 0 nothing. The coupling passes the errors on. Where θ̃_t or u_xxt jumps at
-///   the part s of a step, the defect is of order 1: for BDF2, which looks one step behind, the sum
+///   the part s of a step (with ζ = 0, θ̃_t − α u_xxt), at the end of a phase or within one, the
+///   defect is of order 1: for BDF2, which looks one step behind, the sum
 ///   over the steps is (s − 1/2)Δt times the jump; SDIRK2 has none at a level, and neither it nor
 ///   Euler's scheme any error if all is linear on both sides. What of the jump is along 1 − x a
 ///   stop may take away. So the order is 1 to 2. Where one goes to its value like s^β, β < 1, the
