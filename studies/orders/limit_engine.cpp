@@ -153,7 +153,9 @@ OrderInterval order_of_differences(const ValueLevels& given, double from_models)
         }
         // Those of values that go to and fro leave residuals that are no scatter.
         order = estimate_orders(differences, {},
-                                {.contradicted = infinity, .log_finest = std::log(levels.back().h)})
+                                {.contradicted = infinity,
+                                 .log_finest = std::log(levels.back().h),
+                                 .of_steps = true})
                     .front();
         if (!(order.value > 0))
             break;

@@ -45,7 +45,10 @@ OrderEnsemble::OrderEnsemble(TermRows rows, const OrderTuning& tuning, bool may_
     for (Index i = 0; i < rows_.widths(); ++i) {
         levels_.push_back(levels_of(rows_.log_widths.col(i), tuning_.one_level));
         if (levels_.back().size() < fewest_levels)
-            failure_ = levels_.back().size() == 1
+            failure_ = tuning_.of_steps
+                           ? "an order of values needs steps from one to the next at three widths "
+                             "that differ by an eighth or more"
+                       : levels_.back().size() == 1
                            ? "all rows have the same width, or nearly"
                            : "an order needs errors at three widths that differ by an eighth or "
                              "more";

@@ -114,6 +114,7 @@ struct OrderTuning {
     /// ln of the width at which next terms are no larger than leading ones: where errors are steps
     /// between values, that of the finest value. NaN: that of the finest error.
     double log_finest = std::numeric_limits<double>::quiet_NaN();
+    bool of_steps = false; ///< errors are steps between values, and reasons are said of these
 };
 
 } // namespace tvbeam

@@ -259,6 +259,22 @@ BOOST_AUTO_TEST_CASE(widths_that_hardly_differ_have_no_limit) {
     }
 }
 
+// Of h² on widths 1.1 apart: the steps between four of them are at two widths an eighth apart, and
+// those between six at three.
+BOOST_AUTO_TEST_CASE(without_an_order_of_values_it_is_said_what_values_need) {
+    std::vector<ValueRow> rows;
+    for (int k = 0; k < 6; ++k) {
+        const double h = 0.1 * std::pow(1.1, -k);
+        rows.push_back({h, 1.0 + h * h});
+        const auto found = estimate_limit(rows);
+        BOOST_TEST(found.order.determined == (k == 5));
+        if (k == 3 || k == 4)
+            BOOST_TEST(found.order.status ==
+                       "an order of values needs steps from one to the next at "
+                       "three widths that differ by an eighth or more");
+    }
+}
+
 // Replicates that scatter by 30 units: 100, 102 and 105 apart are no motion, whatever a unit is.
 BOOST_AUTO_TEST_CASE(values_of_much_scatter_are_not_said_to_run_apart_by_their_digits) {
     std::vector<ValueRow> rows;
