@@ -5,6 +5,7 @@
 #include "reports/plots/drawing.hpp"
 #include "reports/plots/plot_style.hpp"
 #include "reports/studies/run_fields.hpp"
+#include "studies/data/refined_widths.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -69,15 +70,6 @@ Json json_of(const DataAnalysis& analysis, const ColumnAnalysis& column) {
               {"rows", std::move(rows)}};
     add_analysis(json, analysis, column);
     return json;
-}
-
-/// The first width that is refined.
-const DataColumn& refined(const DataAnalysis& analysis) {
-    const auto varies = [](const DataColumn& width) {
-        return width.numbers.front() != width.numbers.back();
-    };
-    const auto found = std::find_if(analysis.widths.begin(), analysis.widths.end(), varies);
-    return found == analysis.widths.end() ? analysis.widths.front() : *found;
 }
 
 /// Blocks of more rows than this draw nothing that fewer do not.
@@ -160,10 +152,11 @@ void add_analysis(Json& json, const DataAnalysis& analysis, const ColumnAnalysis
 }
 
 std::vector<Plot> value_plots(const DataAnalysis& analysis) {
+    const DataColumn& width = analysis.widths[leading_width(analysis.widths)];
     std::vector<Plot> plots;
     for (const auto& column : analysis.columns)
-        if (column.is_value && !points_of(refined(analysis), column).empty())
-            plots.push_back(value_plot(refined(analysis), column));
+        if (column.is_value && !points_of(width, column).empty())
+            plots.push_back(value_plot(width, column));
     return plots;
 }
 
@@ -196,7 +189,9 @@ std::string analysis_csv(const DataAnalysis& analysis) {
         for (std::size_t k = 0; k < analysis.widths.size(); ++k)
             text += fmt::format("{}{}", k == 0 ? "" : ",", analysis.widths[k].numbers[i]);
         for (const auto& column : analysis.columns) {
-            text += finite_field(column.numbers[i]);
+            // What is not there stays empty, and what failed does not.
+            text += has_failed(column, i) ? fmt::format(",{}", column.numbers[i])
+                                          : finite_field(column.numbers[i]);
             if (!column.verdicts.empty())
                 text +=
                     number_field(order_of(column, i)) + "," + name_of(column.verdicts[i].verdict);
@@ -207,8 +202,8 @@ std::string analysis_csv(const DataAnalysis& analysis) {
 }
 
 std::vector<Plot> analysis_plots(const DataAnalysis& analysis) {
-    const DataColumn& width = refined(analysis);
-    const auto along = static_cast<std::size_t>(&width - analysis.widths.data());
+    const std::size_t along = leading_width(analysis.widths);
+    const DataColumn& width = analysis.widths[along];
     auto plots = value_plots(analysis);
     Drawing drawing;
     std::vector<double> errors;

@@ -50,16 +50,16 @@ DataAnalysis analyse(const DataFile& data) {
         analysis.columns.push_back(analyse_errors(analysis, in_order(errors, order), sigma));
     for (const auto& values : data.values)
         analysis.columns.push_back(analyse_values(analysis, in_order(values, order), sigma));
-    const std::string before = "; what is said is of the rows before it";
     for (auto& column : analysis.columns) {
         if (finest_failed(analysis, column) &&
             std::ranges::any_of(column.numbers,
                                 [](double number) { return std::isfinite(number); }))
-            column.findings.push_back(column.name + ": the finest row has no " +
-                                      (column.is_value ? "value" : "error") + before);
+            column.findings.push_back(column.name +
+                                      ": a finest row failed; what is said is of the others");
         if (vanishes_at_the_finest(analysis, column))
-            column.findings.push_back(column.name + ": the error of the finest row is zero" +
-                                      before);
+            column.findings.push_back(
+                column.name +
+                ": the error of the finest row is zero; what is said is of the rows before it");
     }
     return analysis;
 }
@@ -71,16 +71,20 @@ bool has_failed(const ColumnAnalysis& column, std::size_t row) {
 }
 
 bool finest_failed(const DataAnalysis& analysis, const ColumnAnalysis& column) {
-    const auto is_as_fine = [&](std::size_t row, std::size_t as) {
-        return std::ranges::all_of(analysis.widths, [&](const DataColumn& width) {
-            return width.numbers[row] <= width.numbers[as];
-        });
+    const auto is_finer = [&](std::size_t row, std::size_t than) {
+        bool is_somewhere = false;
+        for (const DataColumn& width : analysis.widths) {
+            if (width.numbers[row] > width.numbers[than])
+                return false;
+            is_somewhere = is_somewhere || width.numbers[row] < width.numbers[than];
+        }
+        return is_somewhere;
     };
     for (std::size_t row = 0; row < analysis.rows(); ++row) {
         bool is_finest = has_failed(column, row);
         for (std::size_t other = analysis.rows(); other-- > 0 && is_finest;) // finest first
             is_finest = !std::isfinite(column.numbers[other]) || has_failed(column, other) ||
-                        !is_as_fine(other, row);
+                        !is_finer(other, row);
         if (is_finest)
             return true;
     }

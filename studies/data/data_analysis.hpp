@@ -43,8 +43,8 @@ DataAnalysis analyse(const DataFile& data);
 /// but not one that the table leaves out.
 bool has_failed(const ColumnAnalysis& column, std::size_t row);
 
-/// Whether a row failed that no other is as fine as in all widths: what is said is then of the rows
-/// before it.
+/// Whether a row failed that none with a number is finer than: what is said is then of the others,
+/// those of the same widths, as replicates are, too.
 bool finest_failed(const DataAnalysis& analysis, const ColumnAnalysis& column);
 
 /// vanishes_at_the_finest() of a column of errors.

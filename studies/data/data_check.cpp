@@ -2,6 +2,7 @@
 
 #include "mms/text/nearest_name.hpp"
 #include "mms/text/toml_reader.hpp"
+#include "studies/data/refined_widths.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -109,18 +110,8 @@ private:
                                                 column_.name + ".order." +
                                                 analysis_.widths.front().name +
                                                 std::string(key).substr(5));
-            hold_order(table_, "order", refined_width());
+            hold_order(table_, "order", leading_width(analysis_.widths));
         }
-    }
-
-    /// The first that is not the same in all rows.
-    [[nodiscard]] std::size_t refined_width() const {
-        for (std::size_t i = 0; i < analysis_.widths.size(); ++i) {
-            const auto& numbers = analysis_.widths[i].numbers;
-            if (std::ranges::adjacent_find(numbers, std::ranges::not_equal_to()) != numbers.end())
-                return i;
-        }
-        return 0;
     }
 
     void check_limit(const LimitEstimate& estimate) {

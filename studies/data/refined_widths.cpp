@@ -93,10 +93,19 @@ std::string together_with(const DataColumn& other, const DataColumn& width) {
 }
 
 void put_the_refined_first(const std::vector<DataColumn>& widths, std::vector<std::size_t>& used) {
+    // Steps that a stability limit couples to h fall like h² or h⁴: what falls like h⁵ and faster
+    // is refined for itself.
+    constexpr double beyond_coupling = 5.0;
     for (std::size_t k = 1; k < used.size(); ++k)
-        if (hardly_changes(widths[used.front()], widths[used[k]]) &&
+        if (beyond_coupling * log_range(widths[used.front()]) <= log_range(widths[used[k]]) &&
             change_together(widths[used.front()], widths[used[k]]))
             std::swap(used.front(), used[k]);
+}
+
+std::size_t leading_width(const std::vector<DataColumn>& widths) {
+    auto used = refined(widths);
+    put_the_refined_first(widths, used);
+    return used.empty() ? 0 : used.front();
 }
 
 std::vector<double> of_rows_with_numbers(const std::vector<double>& widths,

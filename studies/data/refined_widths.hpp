@@ -24,8 +24,12 @@ bool change_together(const DataColumn& first, const DataColumn& second);
 /// Of a width that changes together with another one.
 std::string together_with(const DataColumn& other, const DataColumn& width);
 
-/// Of two widths that are refined together the first stands for both, unless it hardly changes.
+/// Of two widths that are refined together the first stands for both, unless the second is refined
+/// so much more that no method couples them so.
 void put_the_refined_first(const std::vector<DataColumn>& widths, std::vector<std::size_t>& used);
+
+/// The one that stands for all: the first that is refined, as put_the_refined_first has it.
+std::size_t leading_width(const std::vector<DataColumn>& widths);
 
 /// The widths of the rows that have a number.
 std::vector<double> of_rows_with_numbers(const std::vector<double>& widths,

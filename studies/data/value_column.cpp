@@ -51,9 +51,7 @@ ColumnAnalysis analyse_values(const DataAnalysis& data, const DataColumn& values
     column.numbers = values.numbers;
     column.missing = values.missing;
     column.by_width.resize(data.widths.size());
-    auto used = refined(data.widths);
-    put_the_refined_first(data.widths, used);
-    const std::size_t along = used.empty() ? 0 : used.front();
+    const std::size_t along = leading_width(data.widths);
     std::vector<ValueRow> rows(data.rows());
     const auto units = units_seen_in_values(data.widths[along], values);
     for (std::size_t r = 0; r < rows.size(); ++r) {

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <set>
 #include <string>
 #include <utility>
@@ -70,6 +71,15 @@ LadderNorm analysed(const Measure& norm, const std::vector<RungResult>& rungs, s
             result.predictions.push_back(std::move(prediction));
         }
     return result;
+}
+
+/// From rung to rung, of a ladder that is refined in Δt, whatever h does.
+std::vector<std::optional<double>> orders_in_dt(const std::vector<RungResult>& rungs,
+                                                std::size_t k) {
+    auto records = records_of(rungs, k);
+    for (auto& record : records)
+        record.h = std::numeric_limits<double>::quiet_NaN();
+    return observed_orders(records);
 }
 
 /// The order along the ladder with its interval, in the width that is refined.
@@ -180,6 +190,8 @@ LadderResult analyse_ladder(const LadderBlock& block, const Method& method,
                                         "; what is said is of the levels before it.");
             if (fit == nullptr && !norm.is_value && !column.verdicts.empty())
                 shown.verdicts = column.verdicts;
+            if (!norm.is_value && result.analysis->widths.front().name == "dt")
+                shown.orders = orders_in_dt(result.rungs, k);
         }
         if (!remark.empty())
             shown.remarks.push_back(std::move(remark));

@@ -1,5 +1,7 @@
 #include "studies/ladder/refining.hpp"
 
+#include "studies/data/refined_widths.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -43,8 +45,7 @@ DataAnalysis analysis_of(const Series& series, const std::vector<RungResult>& ru
     if (rungs.front().rung.has_steps())
         add_width("dt", [](const Rung& rung) { return rung.dt; });
     // What is refined first: the order is one in that.
-    if (data.widths.size() > 1 &&
-        data.widths.front().numbers.front() == data.widths.front().numbers.back())
+    if (leading_width(data.widths) > 0)
         std::swap(data.widths.front(), data.widths.back());
     for (std::size_t k = 0; k < series.measures.size(); ++k) {
         const Measure& measure = series.measures[k];

@@ -5,6 +5,7 @@
 #include "studies/data/data_check.hpp"
 #include "studies/data/data_file.hpp"
 #include "studies/data/record_analysis.hpp"
+#include "studies/data/refined_widths.hpp"
 #include "tests/comma_locale.hpp"
 #include "tests/temporary_directory.hpp"
 
@@ -12,6 +13,7 @@
 #include <boost/test/data/monomorphic.hpp>
 #include <boost/test/data/test_case.hpp>
 #include <boost/test/unit_test.hpp>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -608,6 +610,24 @@ BOOST_AUTO_TEST_CASE(that_the_finest_error_is_zero_is_said_beside_the_order) {
     BOOST_TEST(!says("nan"));
 }
 
+// One of two at the finest widths, whichever it is; not one that others refine.
+BOOST_AUTO_TEST_CASE(a_run_beside_the_one_that_failed_does_not_hide_it) {
+    const auto failed = [](const std::string& rows) {
+        const auto analysis = analysis_of("h,error\n0.1,1e-2\n0.05,2.5e-3\n" + rows);
+        const auto& column = analysis.columns.front();
+        BOOST_TEST(
+            finest_failed(analysis, column) ==
+            (std::ranges::find(column.findings, "error: a finest row failed; what is said "
+                                                "is of the others") != column.findings.end()));
+        return finest_failed(analysis, column);
+    };
+    BOOST_TEST(failed("0.025,nan\n0.025,6.25e-4\n"));
+    BOOST_TEST(failed("0.025,6.25e-4\n0.025,nan\n"));
+    BOOST_TEST(failed("0.025,6.25e-4\n0.0125,nan\n"));
+    BOOST_TEST(!failed("0.025,nan\n0.025,6.25e-4\n0.0125,1.5625e-4\n"));
+    BOOST_TEST(!failed("0.025,6.25e-4\n0.025,\n"));
+}
+
 // Steps that something else limits.
 BOOST_AUTO_TEST_CASE(a_width_that_hardly_changes_beside_another_is_not_refined) {
     const auto values = [](const std::vector<double>& dt) {
@@ -629,21 +649,32 @@ BOOST_AUTO_TEST_CASE(a_width_that_hardly_changes_beside_another_is_not_refined) 
     BOOST_TEST(held.by_width[1].status == "it is hardly refined with h");
 }
 
-// The other way round: h hardly changes, and the order is that of dt.
+// The other way round: h hardly changes, or by far less, and the order is that of dt. Of steps that
+// fall like h⁴, as a stability limit has them, it is that of h.
 BOOST_AUTO_TEST_CASE(of_two_widths_the_one_that_is_refined_has_the_order) {
-    std::string rows = "h,dt,error\n";
-    std::string values = "h,dt,value\n";
-    for (int k = 0; k < 6; ++k) {
-        const std::string widths = std::to_string(0.1 * std::pow(0.936, k)) + "," +
-                                   std::to_string(0.1 * std::pow(0.25, k)) + ",";
-        rows += widths + std::to_string(std::pow(0.25, k)) + "\n";
-        values += widths + std::to_string(1.0 + std::pow(0.25, k)) + "\n";
-    }
-    for (const std::string& text : {rows, values}) {
-        const auto column = analysis_of(text).columns.front();
-        BOOST_TEST(!column.by_width[0].determined);
-        BOOST_REQUIRE(column.by_width[1].determined);
-        BOOST_TEST(std::abs(column.by_width[1].value - 1.0) <= column.by_width[1].half_width());
+    struct Path {
+        double h, dt;
+        std::size_t leads;
+    };
+    for (const auto& [ratio_of_h, ratio_of_dt, leads] :
+         {Path{0.936, 0.25, 1}, {1 / 1.1, 0.5, 1}, {0.85, 0.4, 1}, {0.75, 0.31640625, 0}}) {
+        std::string rows = "h,dt,error\n";
+        std::string values = "h,dt,value\n";
+        const double ratio = leads == 0 ? ratio_of_h : ratio_of_dt;
+        for (int k = 0; k < 6; ++k) {
+            const std::string widths = fmt::format(
+                "{:.12g},{:.12g},", 0.1 * std::pow(ratio_of_h, k), 0.1 * std::pow(ratio_of_dt, k));
+            rows += widths + fmt::format("{:.12g}\n", std::pow(ratio, k));
+            values += widths + fmt::format("{:.12g}\n", 1.0 + std::pow(ratio, k));
+        }
+        for (const std::string& text : {rows, values}) {
+            const auto analysis = analysis_of(text);
+            const auto& order = analysis.columns.front().by_width;
+            BOOST_TEST(leading_width(analysis.widths) == leads);
+            BOOST_TEST(!order[1 - leads].determined);
+            BOOST_REQUIRE(order[leads].determined);
+            BOOST_TEST(std::abs(order[leads].value - 1.0) <= order[leads].half_width());
+        }
     }
 }
 
