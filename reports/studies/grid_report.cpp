@@ -1,7 +1,6 @@
 #include "reports/document/orders_section.hpp"
 #include "reports/studies/run_fields.hpp"
 #include "reports/studies/study_report.hpp"
-#include "studies/gates/expectation.hpp"
 #include "studies/grid/grid.hpp"
 #include "studies/table_row.hpp"
 
@@ -114,7 +113,7 @@ std::string grid_csv(const OrdersResult& orders, const std::vector<Measure>& nor
     for (const auto& run : orders.runs) {
         text += run_fields(run);
         for (std::size_t k = 0; k < norms.size(); ++k)
-            text += number_field(error_of(run, k));
+            text += measure_field(run, k);
         text += cost_fields(run);
     }
     return text;

@@ -2,7 +2,6 @@
 #include "reports/document/ladder_section.hpp"
 #include "reports/studies/run_fields.hpp"
 #include "reports/studies/study_report.hpp"
-#include "studies/gates/expectation.hpp"
 #include "studies/ladder/ladder.hpp"
 #include "studies/table_row.hpp"
 
@@ -94,7 +93,7 @@ std::string ladder_csv(const LadderResult& ladder, const std::optional<Published
         text += run_fields(ladder.rungs[i]);
         for (std::size_t k = 0; k < ladder.norms.size(); ++k) {
             const LadderNorm& norm = ladder.norms[k];
-            text += number_field(error_of(ladder.rungs[i], k));
+            text += measure_field(ladder.rungs[i], k);
             if (has_figures(norm.norm.name))
                 text += number_field(printed->figures.at(norm.norm.name)[i]);
             if (!norm.norm.is_value)

@@ -1,6 +1,7 @@
 #include "reports/studies/run_fields.hpp"
 
 #include "mms/text/visible_text.hpp"
+#include "studies/gates/expectation.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -75,6 +76,10 @@ std::string number_field(std::optional<double> value) {
 
 std::string finite_field(std::optional<double> value) {
     return number_field(value && std::isfinite(*value) ? value : std::nullopt);
+}
+
+std::string measure_field(const RungResult& run, std::size_t k) {
+    return run.status == RungStatus::failed ? ",nan" : number_field(error_of(run, k));
 }
 
 std::string cost_fields(const RungResult& run) {

@@ -5,6 +5,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -35,6 +36,10 @@ inline constexpr const char* run_columns = "elements,h,dt,steps,status";
 /// A comma and a number, or nothing where there is none; finite_field: or it is not finite.
 std::string number_field(std::optional<double> value);
 std::string finite_field(std::optional<double> value);
+
+/// A comma and the k-th error or value of a run: nan of one that failed, as who reads the table
+/// must not take it for one that was not made; nothing of one that was not.
+std::string measure_field(const RungResult& run, std::size_t k);
 
 /// The last columns of a run, seconds and reason.
 std::string cost_fields(const RungResult& run);

@@ -1,7 +1,6 @@
 #include "reports/document/work_precision_section.hpp"
 #include "reports/studies/run_fields.hpp"
 #include "reports/studies/study_report.hpp"
-#include "studies/gates/expectation.hpp"
 #include "studies/table_row.hpp"
 #include "studies/work_precision/work_precision.hpp"
 
@@ -92,7 +91,7 @@ std::string timed_csv(const WorkPrecisionResult& result, const WorkPrecisionBloc
             const RungResult& run = result.schemes[k].runs[i];
             text += quoted(block.schemes[k].name) + "," + run_fields(run);
             for (std::size_t norm = 0; norm < block.norms.size(); ++norm)
-                text += number_field(error_of(run, norm));
+                text += measure_field(run, norm);
             const auto& timing = result.schemes[k].timings[i];
             text += timing ? fmt::format(",{},{},{},{},{}", timing->min, timing->q1, timing->median,
                                          timing->q3, timing->runs)

@@ -242,6 +242,13 @@ BOOST_AUTO_TEST_CASE(no_field_of_csv_is_computed_by_a_spreadsheet) {
     BOOST_TEST(quoted("a=1") == "a=1");
 }
 
+// As analyse reads them: nan is a run that failed, an empty field one that was not made.
+BOOST_AUTO_TEST_CASE(of_a_run_that_failed_no_field_is_empty) {
+    BOOST_TEST(measure_field({.rung = {}, .errors = {0.25, 0.5}}, 1) == ",0.5");
+    BOOST_TEST(measure_field({.rung = {}, .status = RungStatus::failed}, 1) == ",nan");
+    BOOST_TEST(measure_field({.rung = {}, .status = RungStatus::interrupted}, 1) == ",");
+}
+
 BOOST_AUTO_TEST_CASE(junit_is_xml_whatever_a_scene_is_called) {
     CheckedScene scene{"\033[2J.toml", 0.0, "a \x01 b", {}};
     scene.expectations.push_back({"\u009b", "<1>", "\xff", {}, false});
