@@ -22,7 +22,7 @@
 #include <cmath>
 #include <fstream>
 #include <set>
-#include <tuple>
+#include <utility>
 
 namespace tvbeam {
 
@@ -96,27 +96,54 @@ struct Cell {
     std::string words = {};   ///< of the norm
     std::string without = {}; ///< what the table shows where there is no value
     bool is_asked = true;     ///< for this value of the key
+    int digits = 4;           ///< that the table shows, but of an error
 };
 
+/// An order or a limit where it is determined, and by the finest run, too.
+Cell estimate_cell(const std::string& group, const std::string& heading, const OrderInterval& of,
+                   const std::vector<RungResult>& runs) {
+    const bool no_finest = finest_failed(runs);
+    return {.group = group,
+            .heading = heading,
+            .value = of.determined && !no_finest ? std::optional(of.value) : std::nullopt,
+            .without = no_finest ? name_of(RungStatus::failed) : ""};
+}
+
+Cell limit_cell(const std::string& group, const OrderInterval& of,
+                const std::vector<RungResult>& runs) {
+    Cell cell = estimate_cell(group, "limit", of, runs);
+    if (cell.value)
+        cell.digits = digits_within(of.value, of.half_width());
+    return cell;
+}
+
 void add_ladder(const LadderResult& ladder, std::vector<Cell>& cells) {
+    const RungResult& finest = ladder.rungs.back();
     for (std::size_t k = 0; k < ladder.norms.size(); ++k) {
         const Measure& norm = ladder.norms[k].norm;
-        const RungResult& finest = ladder.rungs.back();
         cells.push_back({norm.name, norm.is_value ? "value" : "error", error_of(finest, k),
                          !norm.is_value, norm.words, name_of(finest.status)});
-        if (norm.is_value)
-            continue;
-        cells.push_back({norm.name, "ord.", ladder.norms[k].orders.back(), false});
+        if (!norm.is_value) {
+            cells.push_back({norm.name, "ord.", ladder.norms[k].orders.back(), false});
+        } else if (ladder.analysis) {
+            const LimitEstimate& of = *ladder.analysis->columns[k].limit;
+            cells.push_back(limit_cell(norm.name, of.limit, ladder.rungs));
+            cells.push_back(estimate_cell(norm.name, "ord.", of.order, ladder.rungs));
+        }
     }
 }
 
 void add_orders(const OrdersResult& orders, std::vector<Cell>& cells) {
     for (const auto& [norm, fit, rounding] : orders.norms)
-        for (const auto& [heading, interval, order] :
-             {std::tuple{"p", &fit.p, fit.model.p}, {"q", &fit.q, fit.model.q}})
-            cells.push_back(
-                {norm + " (fit)", heading,
-                 fit.holds() && interval->determined ? std::optional(order) : std::nullopt, false});
+        for (const auto& [heading, order] : {std::pair("p", &fit.p), std::pair("q", &fit.q)})
+            cells.push_back(estimate_cell(norm + " (fit)", heading,
+                                          fit.holds() ? *order : OrderInterval(), orders.runs));
+    for (const auto& value : orders.values) {
+        const std::string group = value.value + " (grid)";
+        cells.push_back(limit_cell(group, value.limit, orders.runs));
+        cells.push_back(estimate_cell(group, "p", value.p, orders.runs));
+        cells.push_back(estimate_cell(group, "q", value.q, orders.runs));
+    }
 }
 
 /// Of each scheme the finest row, its error and its time; and who reaches a target after how long.
@@ -194,6 +221,15 @@ std::vector<std::vector<Cell>> rows_of(const std::vector<StudyResult>& results) 
     return rows;
 }
 
+/// "4 runs"; nothing where none did.
+std::string failed_runs(const Ending& ending) {
+    return ending.failures > 0
+               ? fmt::format("{} run{}", ending.failures, ending.failures > 1 ? "s" : "")
+           : !ending.failed
+               ? ""
+               : name_of(ending.interrupted ? RungStatus::interrupted : RungStatus::failed);
+}
+
 Table table_of(const Sweep& sweep, const std::vector<StudyResult>& results) {
     const auto rows = rows_of(results);
     Table::Group key{"", {{sweep.key, {}}}};
@@ -209,12 +245,18 @@ Table table_of(const Sweep& sweep, const std::vector<StudyResult>& results) {
             const auto& value = row[c].value;
             column.cells.push_back(!value          ? row[c].without
                                    : head.is_error ? scientific(value, 4)
-                                                   : significant(*value, 4));
+                                                   : significant(*value, row[c].digits));
         }
         groups.back().columns.push_back(std::move(column));
     }
+    if (std::ranges::any_of(results, [](const auto& result) { return result.ending().failed; })) {
+        Table::Column runs{"failed", {}};
+        for (const auto& result : results)
+            runs.cells.push_back(failed_runs(result.ending()));
+        groups.push_back({"", {std::move(runs)}});
+    }
     return {"Of the finest level of each run: error and observed order, or seconds; p and q of "
-            "fits; figures of other studies.",
+            "fits; limits and orders of values; figures of other studies.",
             key, groups};
 }
 
@@ -527,7 +569,9 @@ std::string sweep_csv(const Sweep& sweep, const std::vector<StudyResult>& result
     for (std::size_t i = 0; i < rows.size(); ++i) {
         text += is_word(sweep.shown(i)) ? sweep.shown(i) : quoted(sweep.shown(i));
         for (const auto& cell : rows[i])
-            text += cell.value ? fmt::format(",{}", *cell.value) : comma;
+            text += cell.value                                    ? fmt::format(",{}", *cell.value)
+                    : cell.without == name_of(RungStatus::failed) ? ",nan"
+                                                                  : comma;
         if (has_failed)
             text += comma + (results[i].ending().failed ? quoted(results[i].ending().reason) : "");
         text += "\n";

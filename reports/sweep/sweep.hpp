@@ -40,10 +40,10 @@ void require_names_of_rows(const Sweep& sweep, const Scene& scene);
 std::vector<std::filesystem::path> files_of_sweep(const std::filesystem::path& directory);
 
 /// One table of all: a row a value, with the error of the finest level and its observed order for
-/// each norm of a ladder, p and q of each of [orders], of each scheme of [work_precision] the
-/// finest row and the times to its targets, and every figure of other studies; and a picture of the
-/// errors, or of the figures, over the values. results: one a value, in their order; fewer where it
-/// was interrupted.
+/// each norm of a ladder, p and q of each of [orders], of each value its limit and orders, of each
+/// scheme of [work_precision] the finest row and the times to its targets, and every figure of
+/// other studies, and how many runs failed; and a picture of the errors, or of the figures, over
+/// the values. results: one a value, in their order; fewer where it was interrupted.
 Reported reported(const Sweep& sweep, const std::vector<StudyResult>& results);
 
 /// The table as CSV.
