@@ -54,8 +54,9 @@ DataAnalysis analyse(const DataFile& data) {
         if (finest_failed(analysis, column) &&
             std::ranges::any_of(column.numbers,
                                 [](double number) { return std::isfinite(number); }))
-            column.findings.push_back(column.name +
-                                      ": a finest row failed; what is said is of the others");
+            column.findings.push_back(column.name + ": a finest row has no " +
+                                      (column.is_value ? "value" : "error") +
+                                      "; what is said is of the others");
         if (vanishes_at_the_finest(analysis, column))
             column.findings.push_back(
                 column.name +
