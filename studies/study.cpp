@@ -2,6 +2,7 @@
 
 #include "core/low_rank/separated.hpp"
 #include "core/run.hpp"
+#include "mms/forecast/smoothness.hpp"
 #include "studies/evolution/evolution_block.hpp"
 #include "studies/external/external_runs.hpp"
 #include "studies/ladder/ladder_block.hpp"
@@ -112,6 +113,23 @@ std::int64_t finest_steps(const Scene& scene) {
     return static_cast<std::int64_t>(std::min(scene.longest_time() / least, most));
 }
 
+/// The fixed-point algorithm checks the other, and so integrates G itself, whose formula lacks what
+/// the moment of G has where a curvature or its viscous rate jumps.
+void require_whole_load(const Scene& scene) {
+    const auto* solution = std::get_if<Solution>(&scene.problem);
+    if (solution == nullptr || solution->phases.empty())
+        return;
+    const AdmissibleSolution admissible(*solution, scene.beam, scene.longest_time());
+    const auto kink = find_kink(admissible.derived(), scene.longest_time());
+    if (kink &&
+        (kink->of == Kink::Of::u_xx || (kink->of == Kink::Of::u_xxt && scene.beam.zeta != 0.0)))
+        throw InputError(admissible.place(),
+                         words_of(*kink) + ": the formula of G lacks a delta function there, "
+                                           "without which the fixed-point algorithm solves another "
+                                           "problem; take the direct algorithm, or u without a "
+                                           "kink");
+}
+
 /// The problem with what all runs share: how finely it is to be cut, and products in place of what
 /// does not separate.
 ProblemData prepared(const Scene& scene, const ProblemData& data, StudyResult& result) {
@@ -128,8 +146,10 @@ ProblemData prepared(const Scene& scene, const ProblemData& data, StudyResult& r
     }
     // The paper's algorithm checks the other, and so reads the functions themselves.
     const auto algorithms = algorithms_of(scene);
-    if (std::find(algorithms.begin(), algorithms.end(), Algorithm::fixed_point) != algorithms.end())
+    if (std::ranges::find(algorithms, Algorithm::fixed_point) != algorithms.end()) {
+        require_whole_load(scene);
         return problem;
+    }
     SeparatedProblem products =
         separated(problem, norms, scene.longest_time(), finest_steps(scene));
     result.separation = {products.rank, products.residual, products.reason};
