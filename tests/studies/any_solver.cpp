@@ -217,7 +217,8 @@ BOOST_AUTO_TEST_CASE(every_norm_that_quadrature_leaves_uncertain_is_named) {
     const LadderResult ladder =
         run_ladder(block, method("first"), {.run = made_uncertain, .reference = {}});
     BOOST_TEST(ladder.quadrature_remark.find(
-                   "s = 4: L2 is uncertain by up to 0.05 of itself, H1 by no more.") != std::string::npos,
+                   "s = 4: L2 is uncertain by up to 0.05 of itself, H1 by no more.") !=
+                   std::string::npos,
                ladder.quadrature_remark);
 }
 
