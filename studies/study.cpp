@@ -123,7 +123,7 @@ void require_whole_load(const Scene& scene) {
     const auto kink = find_kink(admissible.derived(), scene.longest_time());
     if (kink &&
         (kink->of == Kink::Of::u_xx || (kink->of == Kink::Of::u_xxt && scene.beam.zeta != 0.0)))
-        throw InputError(admissible.place(),
+        throw InputError(admissible.place().begin(),
                          words_of(*kink) + ": the formula of G lacks a delta function there, "
                                            "without which the fixed-point algorithm solves another "
                                            "problem; take the direct algorithm, or u without a "
