@@ -59,9 +59,10 @@ std::string of_square(const Measure& norm, double order) {
 /// Orders within this of each other are one.
 constexpr double steady = 0.15;
 
-/// A term whose size is not known is hidden behind the other one where a model has it no larger
-/// than this part of it. Of larger ones nothing is said: of 550 ladders whose terms have next ones
-/// of a quarter of them, a thousandth of the other was called 41 times as large.
+/// The size of a term that is a smaller part of the other on every level comes from what models
+/// leave of that: of 128 sentences of such 46 were untrue, and 0.2 was said of 0.026; of 42 of
+/// larger ones none. A term whose size is not known at all is hidden where it is smaller; of a
+/// larger one nothing is said: a thousandth of the other was called 41 times as large.
 constexpr double small = 0.25;
 
 std::string size_not_known(const Measure& norm, bool in_space) {
@@ -226,7 +227,7 @@ std::string from_what_stays(const Measure& norm, std::span<const Refinement> roo
     const bool knows_other = in_time ? known.knows_space() : known.knows_time();
     if (!knows_what_stays || (!knows_other && times * small <= 1))
         return size_not_known(norm, in_time == knows_what_stays);
-    if (!knows_other)
+    if (times * small > 1 && !known.has_sizes())
         return fmt::format("{}: the {} error stays as it is along this ladder, as {} is the same; "
                            "it hides the {} error, whose size is not known.",
                            norm.name, in_time ? "time" : "space", in_time ? "dt" : "h",
@@ -274,8 +275,10 @@ std::string from_model(const Measure& norm, std::span<const Refinement> roots,
                ".";
     const bool knows_faster = space_is_faster ? known.knows_space() : known.knows_time();
     const bool knows_slower = space_is_faster ? known.knows_time() : known.knows_space();
-    const bool has_size = knows_faster && knows_slower;
-    if (!has_size && !(knows_faster && at_last <= small) &&
+    const auto nearer_one = [](double share) { return std::min(share, 1 / share); };
+    const bool has_size =
+        std::max(nearer_one(at_first), nearer_one(at_last)) >= small || known.has_sizes();
+    if (!(knows_faster && knows_slower) && !(knows_faster && at_last <= small) &&
         !(knows_slower && at_first * small >= 1))
         return size_not_known(norm, space_is_faster == !knows_faster);
     if (at_last < 1.0)

@@ -15,9 +15,16 @@ struct TermsKnown {
     double half_p = 0, half_q = 0; ///< halves of the 95 % intervals of its orders
     double part_a = 0, part_b = 0; ///< TwoTermFit::a_uncertainty and b_uncertainty
 
-    static constexpr double widest = 0.5;
+    /// Of 800 ladders beside grids whose terms have next ones, 1 of 340 sentences on sizes was
+    /// untrue up to this, and 16 of 25 beyond.
+    static constexpr double widest = 2;
     [[nodiscard]] bool knows_space() const { return part_a <= widest; }
     [[nodiscard]] bool knows_time() const { return part_b <= widest; }
+
+    [[nodiscard]] bool has_sizes() const {
+        constexpr double of_hidden_terms = 0.5;
+        return part_a <= of_hidden_terms && part_b <= of_hidden_terms;
+    }
     /// Terms at right angles have been fitted with correlations of −0.4.
     [[nodiscard]] static bool are_opposed(double rho) { return rho <= -0.5; }
 };

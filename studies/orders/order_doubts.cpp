@@ -6,13 +6,41 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <iterator>
 #include <map>
 #include <numeric>
 
 namespace tvbeam {
 
 using Index = Eigen::Index;
+
+namespace {
+
+struct Steps {
+    double size = 0;   ///< of the finest
+    double order = 0;  ///< of the two finest
+    double before = 0; ///< of the two before
+};
+
+/// Of the errors at the four finest of the widths whose logarithms are given, where these are
+/// refined evenly and the error goes one way.
+std::optional<Steps> finest_steps(const std::map<double, double>& errors) {
+    constexpr double even = 0.01; // of the ratios
+    std::array<double, 3> ratio{};
+    std::array<double, 3> step{};
+    auto row = errors.begin();
+    for (std::size_t i = 0; i < step.size(); ++i) {
+        const auto [width, error] = *row++;
+        ratio.at(i) = row->first - width;
+        step.at(i) = row->second - error;
+    }
+    for (std::size_t i = 0; i + 1 < step.size(); ++i)
+        if (std::abs(ratio.at(i + 1) / ratio[0] - 1) > even || !(step.at(i + 1) / step.at(i) > 0))
+            return std::nullopt;
+    return Steps{std::abs(step[0]), std::log(step[1] / step[0]) / ratio[0],
+                 std::log(step[2] / step[1]) / ratio[0]};
+}
+
+} // namespace
 
 /// How far from an order that of a logarithm, or of a next term half an order on, is, where
 /// scatter, or a width of a grid with three levels, leaves open whether there is one: of all models
@@ -250,13 +278,13 @@ std::string OrderEnsemble::motion_between_levels(Index width, const OrderInterva
 }
 
 /// The order of the steps between errors along the lines of a grid on which one width alone is
-/// refined, at the finest of its levels, where all lines have nearly one: of terms that add or
-/// subtract it is the order of the width's own term on every line, whatever stands beside it. Its
-/// error: how far it differs from line to line, and from the level before.
+/// refined, at the finest of its levels, where all lines have nearly one, and steps of other sizes:
+/// those of a sum are the same on all lines, whatever stands in it. Its error: how far it differs
+/// from line to line, and from the level before.
 std::optional<FittedNumber> OrderEnsemble::order_of_steps(Index width) const {
     constexpr std::size_t fewest_lines = 3;
-    constexpr double even = 0.01;                               // of the ratios
-    constexpr double nearly = 0.3;                              // of an order
+    constexpr double nearly = 0.3; // of an order
+    constexpr double the_same = 1.1;
     std::map<std::vector<int>, std::map<double, double>> lines; // ln width, error
     for (Index r = 0; r < rows_.size(); ++r) {
         std::vector<int> others;
@@ -266,29 +294,23 @@ std::optional<FittedNumber> OrderEnsemble::order_of_steps(Index width) const {
             std::exp(rows_.log_errors[r] - rows_.log_errors.maxCoeff());
     }
     std::vector<double> orders;
+    std::vector<double> sizes;
     double drift = 0;
     for (const auto& [others, line] : lines) {
-        if (line.size() < 4)
+        if (line.size() < 4 || line.begin()->first > rows_.log_widths.col(width).minCoeff())
             continue;
-        std::array<double, 4> at{};
-        std::array<double, 4> error{};
-        std::transform(line.begin(), std::next(line.begin(), 4), at.begin(),
-                       [](const auto& row) { return row.first; });
-        std::transform(line.begin(), std::next(line.begin(), 4), error.begin(),
-                       [](const auto& row) { return row.second; });
-        const double ratio = at[1] - at[0];
-        const auto step = [&](std::size_t i) { return error[i + 1] - error[i]; };
-        if (std::abs((at[2] - at[1]) / ratio - 1) > even ||
-            std::abs((at[3] - at[2]) / ratio - 1) > even || !(step(1) / step(0) > 0) ||
-            !(step(2) / step(1) > 0))
+        const auto steps = finest_steps(line);
+        if (!steps)
             return std::nullopt;
-        orders.push_back(std::log(step(1) / step(0)) / ratio);
-        drift = std::max(drift, std::abs(orders.back() - std::log(step(2) / step(1)) / ratio));
+        orders.push_back(steps->order);
+        sizes.push_back(steps->size);
+        drift = std::max(drift, std::abs(steps->order - steps->before));
     }
     if (orders.size() < fewest_lines)
         return std::nullopt;
     const auto [least, greatest] = std::ranges::minmax(orders);
-    if (greatest - least > nearly)
+    const auto [small, large] = std::ranges::minmax(sizes);
+    if (greatest - least > nearly || large < the_same * small)
         return std::nullopt;
     return FittedNumber{(least + greatest) / 2, greatest - least + drift};
 }

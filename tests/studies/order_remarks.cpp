@@ -183,10 +183,15 @@ BOOST_AUTO_TEST_CASE(of_a_hidden_error_no_size_is_said_that_is_not_known) {
     const TermsKnown terms{.part_a = 0.1, .part_b = 0.9};
     const auto remarks = remarks_by_model({2.0, 4.0, 8.0}, terms); // 8/160 = 0.05 of the other
     BOOST_REQUIRE(remarks.size() == 2U);
-    // Nor which dominates, where a model has what is not known as large as the other.
+    // Of what is larger it is seen.
+    BOOST_TEST(remarks_by_model({20.0, 40.0, 80.0}, terms).at(1).find("0.50 times as large") !=
+               std::string::npos);
+    // Nor which dominates, where a model has what is not known at all as large as the other.
     for (const double finest : {80.0, 640.0, 81920.0})
-        BOOST_TEST(remarks_by_model({finest / 4, finest / 2, finest}, terms).at(1) ==
-                   "theta_L2L2: how large the time error is beside the space error is not known.");
+        BOOST_TEST(
+            remarks_by_model({finest / 4, finest / 2, finest}, {.part_a = 0.1, .part_b = 3.0})
+                .at(1) ==
+            "theta_L2L2: how large the time error is beside the space error is not known.");
     BOOST_TEST(remarks[1] == "theta_L2L2: the order 2.00 is that of the space error; the time "
                              "error, of order 1.00 along this ladder, is smaller at s = 8 and "
                              "hidden; its size is not known.");
