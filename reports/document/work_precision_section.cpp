@@ -167,19 +167,18 @@ Finding comparison(const SchemeComparison& pair, const ReachedError& error,
     const std::string& faster = block.schemes[pair.faster].name;
     const std::string& slower = block.schemes[pair.slower].name;
     const bool once = error.times[pair.faster]->runs == 1 || error.times[pair.slower]->runs == 1;
-    const std::string known =
-        (pair.times.clock_step > 0.0
-             ? fmt::format(", of times known to {} s", step_text(pair.times.clock_step))
-             : "") +
-        std::string(pair.times.has_few_digits ? ", of errors known to their digits" : "");
+    const std::string clock =
+        pair.times.clock_step > 0.0
+            ? fmt::format(", of times known to {} s", step_text(pair.times.clock_step))
+            : "";
     const std::string range =
         std::isfinite(pair.times.highest)
             ? ratio_text(pair.times.lowest) + " … " + ratio_text(pair.times.highest)
             : ratio_text(pair.times.lowest) + " and more";
     const std::string spread =
-        once && known.empty()
+        once && clock.empty()
             ? "(of one run)"
-            : fmt::format("({} {}{})", once ? "of one run:" : "quartiles", range, known);
+            : fmt::format("({} {}{})", once ? "of one run:" : "quartiles", range, clock);
     const std::string ratio = ratio_text(pair.times.ratio);
     return {(pair.times.distinguishable
                  ? fmt::format("{} is {} times faster than {} {}", faster, ratio, slower, spread)

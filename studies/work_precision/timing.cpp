@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <numeric>
 #include <set>
 
@@ -17,8 +16,8 @@ namespace {
 constexpr double least_time_ratio = 1.2;
 /// The same of single runs, whose scatter is not known.
 constexpr double least_ratio_of_one_run = 2.0;
-/// Of a lower quartile a step of the clock, or what digits leave open, that is worth a word.
-constexpr double least_part = 0.01;
+/// Of a lower quartile: a step of the clock that is worth a word.
+constexpr double least_part_of_a_step = 0.01;
 
 bool has_error(const TimedError& row) {
     return std::isfinite(row.error) && row.error > 0.0;
@@ -54,30 +53,6 @@ std::optional<Timing> time_between(const TimedError& before, const TimedError& a
     }
     const double weight = std::log(before.error / error) / std::log(before.error / after.error);
     return between(before.timing, after.timing, weight);
-}
-
-/// time_to_reach(), errors being what they are.
-std::optional<Timing> time_by(std::span<const TimedError> rows, double error) {
-    const auto last = std::find_if(rows.rbegin(), rows.rend(), has_error);
-    const auto first = std::find_if(rows.begin(), rows.end(), has_error);
-    if (first == rows.end())
-        return std::nullopt;
-    // The finest row that exceeds the error; from the next one on it is reached.
-    const auto above = std::find_if(rows.rbegin(), rows.rend(), [&](const TimedError& row) {
-        return has_error(row) && row.error > error;
-    });
-    std::optional<Timing> reached;
-    if (above == last)
-        return same(last->error, error) ? std::optional(last->timing) : std::nullopt;
-    if (above == rows.rend())
-        reached = same(first->error, error) ? std::optional(first->timing) : std::nullopt;
-    else
-        reached = time_between(*above, *std::find_if(above.base(), rows.end(), has_error), error);
-    // A finer row may be cheaper, as where a solver takes fewer iterations on it.
-    for (auto row = above.base(); reached && row != rows.end(); ++row)
-        if (has_error(*row) && row->timing.median < reached->median)
-            reached = row->timing;
-    return reached;
 }
 
 } // namespace
@@ -138,18 +113,25 @@ double clock_step_of(const std::vector<double>& seconds, double printed_unit) {
 }
 
 std::optional<Timing> time_to_reach(std::span<const TimedError> rows, double error) {
-    auto reached = time_by(rows, error);
-    if (!reached || std::ranges::none_of(rows, [](const auto& row) { return row.unit > 0.0; }))
-        return reached;
-    const auto part_by = [&](double units, double otherwise) {
-        std::vector<TimedError> moved(rows.begin(), rows.end());
-        for (auto& row : moved)
-            row.error += units * row.unit;
-        const auto time = time_by(moved, error);
-        return time ? time->median / reached->median : otherwise;
-    };
-    reached->shortest = std::min(part_by(-0.5, 0.0), 1.0);
-    reached->longest = std::max(part_by(0.5, std::numeric_limits<double>::infinity()), 1.0);
+    const auto last = std::find_if(rows.rbegin(), rows.rend(), has_error);
+    const auto first = std::find_if(rows.begin(), rows.end(), has_error);
+    if (first == rows.end())
+        return std::nullopt;
+    // The finest row that exceeds the error; from the next one on it is reached.
+    const auto above = std::find_if(rows.rbegin(), rows.rend(), [&](const TimedError& row) {
+        return has_error(row) && row.error > error;
+    });
+    std::optional<Timing> reached;
+    if (above == last)
+        return same(last->error, error) ? std::optional(last->timing) : std::nullopt;
+    if (above == rows.rend())
+        reached = same(first->error, error) ? std::optional(first->timing) : std::nullopt;
+    else
+        reached = time_between(*above, *std::find_if(above.base(), rows.end(), has_error), error);
+    // A finer row may be cheaper, as where a solver takes fewer iterations on it.
+    for (auto row = above.base(); reached && row != rows.end(); ++row)
+        if (has_error(*row) && row->timing.median < reached->median)
+            reached = row->timing;
     return reached;
 }
 
@@ -160,17 +142,13 @@ Comparison compare(const Timing& first, const Timing& second) {
     const Timing& fast = result.first_is_faster ? first : second;
     const Timing& slow = result.first_is_faster ? second : first;
     result.ratio = slow.median / fast.median;
-    result.lowest = std::max(slow.q1 * slow.shortest - slow.clock_step, 0.0) /
-                    (fast.q3 * fast.longest + fast.clock_step);
+    result.lowest = std::max(slow.q1 - slow.clock_step, 0.0) / (fast.q3 + fast.clock_step);
     if (std::abs(result.lowest - 1.0) < rounding)
         result.lowest = 1.0; // two steps of the clock apart: they touch
-    result.highest = (slow.q3 * slow.longest + slow.clock_step) /
-                     std::max(fast.q1 * fast.shortest - fast.clock_step, 0.0);
+    result.highest = (slow.q3 + slow.clock_step) / std::max(fast.q1 - fast.clock_step, 0.0);
     const Timing& coarse = slow.clock_step * fast.q1 > fast.clock_step * slow.q1 ? slow : fast;
-    if (coarse.clock_step > least_part * coarse.q1)
+    if (coarse.clock_step > least_part_of_a_step * coarse.q1)
         result.clock_step = coarse.clock_step;
-    result.has_few_digits = std::min(first.shortest, second.shortest) < 1.0 - least_part ||
-                            std::max(first.longest, second.longest) > 1.0 + least_part;
     const bool once = first.runs == 1 || second.runs == 1;
     result.distinguishable =
         result.ratio > (once ? least_ratio_of_one_run : least_time_ratio) && result.lowest > 1.0;

@@ -16,10 +16,6 @@ struct Timing {
     int runs = 0;            ///< 1: there are no quartiles to speak of, all four are the same
     double clock_step = 0.0; ///< by which its clock may be off; see clock_step_of
     int at_zero = 0;         ///< runs of which the clock shows 0 s
-    /// Of a time to reach an error: from so many times to so many times as long, as the errors that
-    /// it is from are known to the digits printed. 0 and infinity: nothing is known.
-    double shortest = 1.0;
-    double longest = 1.0;
 };
 
 /// Of one run or more. Quartiles lie between the sorted values as GSL has it: at (n − 1)/4 and
@@ -36,7 +32,6 @@ double clock_step_of(const std::vector<double>& seconds, double printed_unit = 0
 struct TimedError {
     double error = 0.0; ///< a norm or its square; NaN where the run failed, or no time was seen
     Timing timing;
-    double unit = 0.0; ///< of the last digit that the error was printed with; 0: it is a double
 };
 
 /// How near to the error of the coarsest or finest row is as good as that error: interpolated times
@@ -52,19 +47,16 @@ inline constexpr double same_error = 0.01;
 /// Where the error rises along the ladder, it counts as reached only from where no finer row
 /// exceeds it: a dip, by which two errors happen to cancel, is not a scheme's merit. Where a row
 /// finer than that takes less time, its time counts. Nothing is interpolated across a row without
-/// an error > 0, one that failed say. shortest and longest: of the same rows with all errors half a
-/// unit less, and half a unit more.
+/// an error > 0, one that failed say.
 std::optional<Timing> time_to_reach(std::span<const TimedError> rows, double error);
 
 /// Two times for the same thing. Quartiles reach a step of their clock further: a time of t may be
-/// of anything between t − step and t + step, as both its ends are seen late; and as far as the
-/// digits of the errors leave open.
+/// of anything between t − step and t + step, as both its ends are seen late.
 struct Comparison {
     double ratio = 1.0;           ///< median of the slower / median of the faster
     double lowest = 1.0;          ///< lower quartile of the slower / upper quartile of the faster
     double highest = 1.0;         ///< upper quartile of the slower / lower quartile of the faster
     double clock_step = 0.0;      ///< that of the two which is more of its time, from 1 % on
-    bool has_few_digits = false;  ///< those of the errors leave a time open by 1 % or more
     bool first_is_faster = false; ///< by the medians
     /// The ratio is above 1.2 and the quartiles are disjoint; where one of the two is of one run,
     /// the ratio is above 2, as nothing says how that time scatters.

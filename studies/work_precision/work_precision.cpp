@@ -272,15 +272,13 @@ private:
 
 /// Norm k along the ladder of one scheme.
 std::vector<TimedError> rows_of(const SchemeRuns& scheme, std::size_t k) {
-    const auto units = units_of(scheme.runs, k, false);
     std::vector<TimedError> rows;
     for (std::size_t i = 0; i < scheme.runs.size(); ++i) {
         const auto& errors = scheme.runs[i].errors;
         rows.push_back({.error = errors.empty() || !has_time(scheme.timings[i])
                                      ? std::numeric_limits<double>::quiet_NaN()
                                      : errors[k],
-                        .timing = scheme.timings[i].value_or(Timing{}),
-                        .unit = units.empty() ? 0.0 : units[i]});
+                        .timing = scheme.timings[i].value_or(Timing{})});
     }
     return rows;
 }

@@ -168,26 +168,6 @@ BOOST_AUTO_TEST_CASE(the_fewer_runs_of_two_rows_count) {
     BOOST_TEST(time_to_reach(rows, 5e-2)->runs == 1);
 }
 
-// The time at an error e between rows on a line of slope −1 goes like the errors of the rows.
-BOOST_AUTO_TEST_CASE(times_are_known_no_better_than_the_digits_of_the_errors) {
-    std::vector<TimedError> rows{row(2e-2, 1.0), row(1e-2, 2.0), row(5e-3, 4.0)};
-    BOOST_TEST(time_to_reach(rows, 1e-2)->longest == 1.0);
-    for (auto& one : rows)
-        one.unit = 2 * 0.1 * one.error;
-    const auto time = time_to_reach(rows, 1e-2);
-    BOOST_TEST(time->shortest == 0.9, tight);
-    BOOST_TEST(time->longest == 1.1, tight);
-    // At the ends nobody knows whether the error is reached.
-    BOOST_TEST(time_to_reach(rows, 5e-3)->longest == std::numeric_limits<double>::infinity());
-    BOOST_TEST(time_to_reach(rows, 2e-2)->shortest == 0.0);
-    const Comparison open = compare(*time, timing(2.7, 3.0, 3.3));
-    BOOST_TEST(open.has_few_digits);
-    BOOST_TEST(open.ratio == 1.5, tight);
-    BOOST_TEST(open.lowest == 2.7 / (2.2 * 1.1), tight);
-    BOOST_TEST(open.highest == 3.3 / (1.8 * 0.9), tight);
-    BOOST_TEST(!compare(timing(0.9, 1.0, 1.1), timing(2.7, 3.0, 3.3)).has_few_digits);
-}
-
 BOOST_AUTO_TEST_CASE(a_ratio_above_1_2_with_disjoint_quartiles_is_distinguishable) {
     const Comparison apart = compare(timing(0.9, 1.0, 1.1), timing(1.2, 1.3, 1.4));
     BOOST_TEST(apart.first_is_faster);
