@@ -80,10 +80,14 @@ RateJump rate_jump(const ProblemData& data, const Break& at) {
                                                               : ArrayXd::Zero(difference.size());
     };
     const auto jump = [&](const auto& of) -> ArrayXd {
-        double size = of(after).abs().maxCoeff();
-        for (const double t :
-             sample_points(0.0, at.t, looks)) // what vanishes there leaves rounding
-            size = std::max(size, of(t).abs().maxCoeff());
+        double size = 0;
+        const auto see = [&](double t) { // within a phase it may have no value there
+            if (const double found = of(t).abs().maxCoeff(); found > size)
+                size = found;
+        };
+        see(after);
+        for (const double t : sample_points(0.0, at.t, looks)) // what vanishes leaves rounding
+            see(t);
         if (at.is_phase_end)
             return noticed(of(after) - of(at.t), size);
         const auto row = [&](double t) -> Eigen::ArrayXXd { return of(t).transpose(); };
@@ -123,6 +127,15 @@ struct Costly {
     std::set<std::string> schemes; ///< of all runs
 };
 
+/// Whether a level of a run is there: a time within a phase is known to what its search allows.
+bool meets(const TimeLevels& levels, const Rung& rung, const Break& at) {
+    constexpr double searched = 1e-7;
+    if (levels.meet(at.t) || at.is_phase_end)
+        return levels.meet(at.t);
+    const auto nearest = std::clamp<std::int64_t>(std::llround(at.t / rung.dt), 0, rung.steps);
+    return std::abs(levels.time(nearest) - at.t) <= searched * at.t;
+}
+
 Costly costly_steps(const Scene& scene, const ProblemData& data, const Break& at) {
     Costly costly;
     for (const auto& series : scene.series())
@@ -132,7 +145,7 @@ Costly costly_steps(const Scene& scene, const ProblemData& data, const Break& at
             costly.schemes.insert(time.name);
             if (!(at.t < levels.time(rung.steps)))
                 continue;
-            if (!levels.meet(at.t))
+            if (!meets(levels, rung, at))
                 costly.inside.insert(rung.dt);
             else if (time.history > 0 && at.is_phase_end) // within one the run fails
                 costly.behind.insert(rung.dt);

@@ -245,36 +245,13 @@ private:
         }
     }
 
-    /// Where a function is asked for: a boundary value without a place on every face.
-    [[nodiscard]] std::vector<DomainPart> parts_for(const DerivedFunction& function) const {
-        const DomainPart& domain = derived_.system.domain;
-        const auto at = [&](const std::string& name, double value) {
-            DomainPart part = domain;
+    /// Where a function is asked for; a boundary value without a place anywhere, as boundaries may
+    /// be within: of a hole, or of a curved domain.
+    [[nodiscard]] DomainPart part_for(const DerivedFunction& function) const {
+        DomainPart part = derived_.system.domain;
+        for (const auto& [name, value] : function.at)
             part[name] = {value, value};
-            return part;
-        };
-        if (!function.at.empty())
-            return {at(function.at.begin()->first, function.at.begin()->second)};
-        if (function.role != Role::boundary)
-            return {domain};
-        std::vector<DomainPart> faces;
-        for (int i = 0; i < derived_.system.dimension; ++i) {
-            const std::string& name = coordinate_names()[static_cast<std::size_t>(i)];
-            const DomainInterval range = domain.at(name);
-            faces.push_back(at(name, range.begin));
-            faces.push_back(at(name, range.end));
-        }
-        return faces;
-    }
-
-    [[nodiscard]] std::vector<Singularity> worst_of(const Program& program,
-                                                    const DerivedFunction& function) const {
-        std::vector<Singularity> worst;
-        for (const DomainPart& part : parts_for(function))
-            if (auto found = singularities_of(program, derived_, part);
-                !found.empty() && (worst.empty() || found.front().kind < worst.front().kind))
-                worst = std::move(found);
-        return worst;
+        return part;
     }
 
     /// What the exact values have is not said of their derivatives again, unless these have worse,
@@ -285,7 +262,7 @@ private:
             if (const auto said = said_.find(field->unknown); said != said_.end())
                 known.insert(known.end(), said->second.begin(), said->second.end());
         const Program program = located_program({function.formula}, derived_.fields, function);
-        for (const auto& found : worst_of(program, function)) {
+        for (const auto& found : singularities_of(program, derived_, part_for(function))) {
             using Kind = Singularity::Kind;
             // Where one could not be excluded is of no account: it may be anywhere.
             if (std::ranges::any_of(known, [&](const Singularity& said) {

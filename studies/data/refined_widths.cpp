@@ -93,9 +93,9 @@ std::string together_with(const DataColumn& other, const DataColumn& width) {
 }
 
 void put_the_refined_first(const std::vector<DataColumn>& widths, std::vector<std::size_t>& used) {
-    // Steps that a stability limit couples to h fall like h² or h⁴: what falls like h⁵ and faster
-    // is refined for itself.
-    constexpr double beyond_coupling = 5.0;
+    // Steps that a stability limit couples to h fall like h² or h⁴, those that hide the time error
+    // of elements of order p like h^(p+1): what falls faster than h⁶ is refined for itself.
+    constexpr double beyond_coupling = 6.5;
     for (std::size_t k = 1; k < used.size(); ++k)
         if (beyond_coupling * log_range(widths[used.front()]) <= log_range(widths[used[k]]) &&
             change_together(widths[used.front()], widths[used[k]]))

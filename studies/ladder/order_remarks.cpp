@@ -205,6 +205,16 @@ std::string from_pairs(const Measure& norm, std::span<const Refinement> roots,
     return text + departure(norm, roots, {known.begin(), leaves, known.end()}, explained);
 }
 
+/// Whether a model has the errors of the ladder: one whose terms it does not know has others where
+/// it takes the wrong one for the larger.
+bool follows(const LadderForecast& view, std::span<const Refinement> roots) {
+    constexpr double closely = 0.1;
+    for (std::size_t i = 0; i < roots.size(); ++i)
+        if (!(std::abs(view.rows[i].error - roots[i].error) <= closely * roots[i].error))
+            return false;
+    return true;
+}
+
 /// Of a ladder that refines one width alone: what the error of the other one, which stays, comes
 /// to.
 std::string from_what_stays(const Measure& norm, std::span<const Refinement> roots,
@@ -278,8 +288,8 @@ std::string from_model(const Measure& norm, std::span<const Refinement> roots,
     const auto nearer_one = [](double share) { return std::min(share, 1 / share); };
     const bool has_size =
         std::max(nearer_one(at_first), nearer_one(at_last)) >= small || known.has_sizes();
-    if (!(knows_faster && knows_slower) && !(knows_faster && at_last <= small) &&
-        !(knows_slower && at_first * small >= 1))
+    if (!(knows_faster && knows_slower) && !follows(view, roots) &&
+        !(knows_faster && at_last <= small) && !(knows_slower && at_first * small >= 1))
         return size_not_known(norm, space_is_faster == !knows_faster);
     if (at_last < 1.0)
         text += fmt::format("the order {}{} is that of the {} error; the {} error, of order {} "

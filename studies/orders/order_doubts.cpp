@@ -319,11 +319,13 @@ std::optional<FittedNumber> OrderEnsemble::order_of_steps(Index width) const {
 /// terms that are at right angles have steps of twice the order where the other one dominates.
 /// Against a reference, which has a part of each, steps are as they would be: it says nothing.
 std::string OrderEnsemble::steps_contradict(const std::vector<OrderInterval>& orders) const {
-    constexpr double at_right_angles = 0.3;
-    const EnsembleMember* fit = steadiest();
-    if (rows_.widths() != 2 || rows_.log_reference.size() > 0 || fit == nullptr)
+    constexpr double to_rounding = 1e-6;
+    if (rows_.widths() != 2 || rows_.log_reference.size() > 0 ||
+        std::ranges::any_of(members_, [&](const EnsembleMember& member) {
+            return member.is_of_all_rows() &&
+                   member.fit.scale <= std::max(to_rounding, 3 * rows_.scatter);
+        }))
         return {};
-    const bool may_double = std::abs(fit->fit.correlation(0, 1).value) < at_right_angles;
     for (Index i = 0; i < 2; ++i) {
         const OrderInterval& order = orders[static_cast<std::size_t>(i)];
         const auto seen = order.determined ? order_of_steps(i) : std::nullopt;
@@ -331,7 +333,7 @@ std::string OrderEnsemble::steps_contradict(const std::vector<OrderInterval>& or
             continue;
         const double margin = 2 * tuning_.narrowest + 2 * seen->error;
         if (std::max(order.low - seen->value, seen->value - order.high) > margin &&
-            !(may_double && std::abs(seen->value - 2 * order.value) <= margin))
+            std::abs(seen->value - 2 * order.value) > margin)
             return fmt::format("along lines of the grid the errors step with order {:.2f}, and no "
                                "sum of a term in each width follows all: a term depends on both",
                                seen->value);

@@ -68,7 +68,7 @@ BOOST_AUTO_TEST_CASE(a_run_that_failed_has_no_figures_in_a_sweep_and_in_a_record
     const auto rows = nlohmann::json::parse(all.json()).at("rows");
     BOOST_TEST(rows.at(0).at("u@1.last").is_null());
     BOOST_TEST(rows.at(1).at("u@1.last").is_number());
-    BOOST_TEST(has(sweep_csv(sweep, results), "\n0.01,,,,,"));
+    BOOST_TEST(has(sweep_csv(sweep, results), "\n0.01,nan,nan,nan,nan,"));
     for (const auto& plot : all.plots())
         for (const auto& block : plot.drawing.blocks())
             BOOST_TEST(!has(block.rows, "0.01 "), block.rows);
