@@ -180,7 +180,7 @@ void add_switch_reasons(const ExpectedOrders& known, const Beam& beam,
         const bool has_heat = change.theta_t_jump > 0.0;
         const bool has_bending = change.u_xxt_jump > 0.0;
         if (has_heat && has_bending && beam.alpha != 0.0)
-            add(change, heat + " and " + bending, true);
+            add(change, fmt::format("{} and {}", heat, bending), true);
         else {
             if (has_heat)
                 add(change, heat, true);
