@@ -1,6 +1,5 @@
 #include "mms/equations/system_checks.hpp"
 
-#include "mms/equations/equation_names.hpp"
 #include "mms/equations/infix.hpp"
 #include "mms/equations/program.hpp"
 #include "mms/equations/rounded.hpp"
@@ -15,8 +14,6 @@
 #include <map>
 #include <numbers>
 #include <optional>
-#include <utility>
-#include <vector>
 
 namespace tvbeam {
 

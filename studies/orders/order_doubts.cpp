@@ -286,12 +286,12 @@ std::optional<FittedNumber> OrderEnsemble::order_of_steps(Index width) const {
     constexpr double nearly = 0.3; // of an order
     constexpr double the_same = 1.1;
     std::map<std::vector<int>, std::map<double, double>> lines; // ln width, error
+    const double unit = rows_.log_errors.maxCoeff();
     for (Index r = 0; r < rows_.size(); ++r) {
         std::vector<int> others;
         for (Index i = 0; i < rows_.widths(); ++i)
             others.push_back(i == width ? 0 : place_of(i, rows_.log_widths(r, i)));
-        lines[others][rows_.log_widths(r, width)] =
-            std::exp(rows_.log_errors[r] - rows_.log_errors.maxCoeff());
+        lines[others][rows_.log_widths(r, width)] = std::exp(rows_.log_errors[r] - unit);
     }
     std::vector<double> orders;
     std::vector<double> sizes;
@@ -334,8 +334,9 @@ std::string OrderEnsemble::steps_contradict(const std::vector<OrderInterval>& or
         const double margin = 2 * tuning_.narrowest + 2 * seen->error;
         if (std::max(order.low - seen->value, seen->value - order.high) > margin &&
             std::abs(seen->value - 2 * order.value) > margin)
-            return fmt::format("along lines of the grid the errors step with order {:.2f}, and no "
-                               "sum of a term in each width follows all: a term depends on both",
+            return fmt::format("along lines of the grid the errors step with order {:.2f}, which "
+                               "models of a term in each width do not have: a term may depend on "
+                               "both",
                                seen->value);
     }
     return {};

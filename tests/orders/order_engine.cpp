@@ -673,6 +673,24 @@ BOOST_AUTO_TEST_CASE(a_term_that_grows_as_the_other_width_falls_has_no_wrong_ord
     }
 }
 
+// e² = A² + A B + B², A = 10 h and B = 5 Δt on close levels: steps along lines have an order
+// between p and 2p, and models follow to rounding.
+BOOST_AUTO_TEST_CASE(steps_of_two_terms_with_a_correlation_speak_against_none) {
+    std::vector<ErrorRow> rows;
+    for (int i = 0; i < 4; ++i)
+        for (int k = 0; k < 4; ++k) {
+            const double h = 0.1 / std::pow(1.26, i);
+            const double dt = 0.1 / std::pow(1.26, k);
+            const double a = 10 * h;
+            const double b = 5 * dt;
+            rows.push_back({{h, dt}, std::sqrt(a * a + a * b + b * b)});
+        }
+    for (const auto& order : estimate_orders(rows)) {
+        BOOST_TEST(order.determined, order.status);
+        BOOST_TEST(holds(order, 1.0));
+    }
+}
+
 // Next to where |h^p − c h^q| cancels models have orders, of which a quarter was wrong.
 BOOST_AUTO_TEST_CASE(errors_that_cancel_near_the_finest_have_no_wrong_order) {
     const auto order = [](double p, double q, double zero, double coarsest, int levels) {
