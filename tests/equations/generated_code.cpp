@@ -529,14 +529,14 @@ BOOST_AUTO_TEST_CASE(what_is_used_once_is_not_named_and_what_is_zero_is_not_adde
                "}");
 }
 
-BOOST_AUTO_TEST_CASE(the_readme_shows_what_is_derived) {
-    std::ifstream stream(TVBEAM_README);
-    const std::string readme(std::istreambuf_iterator<char>(stream), {});
+BOOST_AUTO_TEST_CASE(the_manual_shows_what_is_derived) {
+    std::ifstream stream(TVBEAM_MANUAL);
+    const std::string manual(std::istreambuf_iterator<char>(stream), {});
     const auto block = [&](const std::string& opening, std::size_t from) {
-        const std::size_t begin = readme.find(opening, from) + opening.find('\n') + 1;
-        return readme.substr(begin, readme.find("```", begin) - begin);
+        const std::size_t begin = manual.find(opening, from) + opening.find('\n') + 1;
+        return manual.substr(begin, manual.find("```", begin) - begin);
     };
-    const std::size_t section = readme.find("## Equations of your own");
+    const std::size_t section = manual.find("## Equations of your own");
     BOOST_REQUIRE(section != std::string::npos);
     const auto derived =
         derive_system(parse_equation_system(block("```toml\n", section), "rod.toml"));

@@ -1,4 +1,4 @@
-// The listing of the README is a file that is compiled and run.
+// The listing of the manual of solutions is a file that is compiled and run.
 
 #include <boost/test/unit_test.hpp>
 
@@ -16,9 +16,9 @@ std::string contents(const std::string& file) {
 
 } // namespace
 
-BOOST_AUTO_TEST_CASE(the_readme_lists_the_solution_in_cpp_as_it_is_compiled) {
+BOOST_AUTO_TEST_CASE(the_manual_lists_the_solution_in_cpp_as_it_is_compiled) {
     const std::string listing = contents(TVBEAM_LISTING);
     BOOST_REQUIRE(!listing.empty());
-    BOOST_TEST((contents(TVBEAM_README).find("```cpp\n" + listing + "```\n") != std::string::npos),
-               "README.md does not hold " TVBEAM_LISTING);
+    BOOST_TEST((contents(TVBEAM_MANUAL).find("```cpp\n" + listing + "```\n") != std::string::npos),
+               "mms/README.md does not hold " TVBEAM_LISTING);
 }
