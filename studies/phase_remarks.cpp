@@ -31,6 +31,7 @@ namespace {
 constexpr double tolerance = 1e-9; ///< of a jump, relative to what jumps, in all the time before
 constexpr Eigen::Index looks = 9;  ///< at that time
 constexpr std::size_t most_listed = 5;
+constexpr std::size_t most_told = 4; ///< times, where there are more than one more
 
 /// A time at which rates may jump, or have an infinite slope.
 struct Break {
@@ -291,19 +292,22 @@ std::string remark(const Scene& scene, const RateJump& jump, const Orders& order
 std::vector<std::string> phase_remarks(const Scene& scene, const ProblemData& data) {
     std::vector<std::string> remarks;
     std::optional<ExpectedOrders> theory;
+    double last = 0.0;
     for (const Break& at : breaks_of(scene, data)) {
         const Costly costly = costly_steps(scene, data, at);
         if (costly.inside.empty() && costly.behind.empty())
             continue;
         const RateJump jump = rate_jump(data, at);
         if (jump.heat == 0.0 && jump.bending == 0.0) {
-            if (const double power = at.is_phase_end ? 1.0 : cusp_power(data, at.t); power < 1.0)
+            if (const double power = at.is_phase_end ? 1.0 : cusp_power(data, at.t); power < 1.0) {
                 remarks.push_back(
                     at.text() +
                     fmt::format("a rate has an infinite slope, like s^{:.3g}, s the time to it: "
                                 "errors that it enters have a part of the order {:.3g} in dt, "
                                 "which changes with its place in the step.",
                                 power, 1.0 + power));
+                last = at.t;
+            }
             continue;
         }
         // What the step that holds the end does to the stress shows in it, or behind it.
@@ -317,8 +321,17 @@ std::vector<std::string> phase_remarks(const Scene& scene, const ProblemData& da
         const auto orders = [&](const std::set<std::string>& schemes) {
             return orders_text(scene, theory, schemes, losses);
         };
-        if (!orders(costly.schemes).empty())
+        if (!orders(costly.schemes).empty()) {
             remarks.push_back(remark(scene, jump, orders, costly, at));
+            last = at.t;
+        }
+    }
+    if (remarks.size() > most_told + 1) {
+        const std::size_t more = remarks.size() - most_told;
+        remarks.resize(most_told);
+        remarks.push_back(fmt::format("So are {} later times, each with jumps or a slope of its "
+                                      "own, to t = {}.",
+                                      more, message_text(last)));
     }
     return remarks;
 }

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 namespace tvbeam {
 
@@ -147,6 +148,21 @@ constexpr const char* within_a_phase =
     " That is within a phase: formulas may have no value there, and runs fail of which it is a "
     "time level; where a phase ends there, none does.";
 
+constexpr std::size_t most_told = 4; // times, where there are more than one more
+
+template <typename Event>
+std::span<const Event> told(const std::vector<Event>& events) {
+    return std::span(events).first(events.size() > most_told + 1 ? most_told : events.size());
+}
+
+/// Of the events that are not told one by one.
+template <typename Event>
+void add_count(const std::vector<Event>& events, const char* what, std::vector<std::string>& text) {
+    if (const std::size_t more = events.size() - told(events).size(); more > 0)
+        text.push_back(fmt::format("{} so at {} other times, to t = {}.", what, more,
+                                   number_text(std::ranges::max(events, {}, &Event::t).t)));
+}
+
 void add_switch_reasons(const ExpectedOrders& known, const Beam& beam,
                         std::vector<std::string>& text) {
     const auto add = [&](const Switch& change, const std::string& jumps, bool of_theta) {
@@ -173,7 +189,11 @@ void add_switch_reasons(const ExpectedOrders& known, const Beam& beam,
                               " linear in t on both sides") +
             ". Norms with a maximum over time show it late." + (within ? within_a_phase : ""));
     };
-    for (const Switch& change : known.switches) {
+    std::vector<Switch> jumps = known.switches;
+    std::erase_if(jumps, [](const Switch& change) {
+        return change.theta_t_jump == 0.0 && change.u_xxt_jump == 0.0;
+    });
+    for (const Switch& change : told(jumps)) {
         const std::string heat =
             heat_rate(beam) + " jumps by up to " + number_text(change.theta_t_jump, 2);
         const std::string bending = "u_xxt jumps by up to " + number_text(change.u_xxt_jump, 2);
@@ -188,11 +208,12 @@ void add_switch_reasons(const ExpectedOrders& known, const Beam& beam,
                 add(change, bending, false);
         }
     }
+    add_count(jumps, "Rates jump", text);
 }
 
 void add_cusp_reasons(const ExpectedOrders& known, const Beam& beam,
                       std::vector<std::string>& text) {
-    for (const Cusp& cusp : known.cusps)
+    for (const Cusp& cusp : told(known.cusps))
         for (const bool of_theta : {true, false})
             if (const double power = of_theta ? cusp.theta_t_power : cusp.u_xxt_power;
                 !std::isinf(power))
@@ -202,6 +223,7 @@ void add_cusp_reasons(const ExpectedOrders& known, const Beam& beam,
                     "show it late.{}",
                     number_text(cusp.t), of_theta ? heat_rate(beam) : "u_xxt", power, 1.0 + power,
                     in_field(beam, of_theta), cusp.is_within_phase ? within_a_phase : ""));
+    add_count(known.cusps, "Slopes are infinite", text);
 }
 
 } // namespace
