@@ -329,9 +329,10 @@ std::vector<std::string> phase_remarks(const Scene& scene, const ProblemData& da
     if (remarks.size() > most_told + 1) {
         const std::size_t more = remarks.size() - most_told;
         remarks.resize(most_told);
-        remarks.push_back(fmt::format("So are {} later times, each with jumps or a slope of its "
-                                      "own, to t = {}.",
-                                      more, message_text(last)));
+        remarks.push_back(
+            fmt::format("There are {} later times like these, each with jumps or a slope of its "
+                        "own, to t = {}.",
+                        more, message_text(last)));
     }
     return remarks;
 }
