@@ -494,6 +494,21 @@ BOOST_AUTO_TEST_CASE(the_examples_of_the_readme_run_as_they_stand) {
     const Called in_phases = call(directory, "run " + directory.write("in-phases.toml", blocks[1]));
     BOOST_TEST(in_phases.exit == 0, in_phases.errors);
     BOOST_TEST(has(in_phases.output, "theta_L2L2: order 1.99 to 2.00"), in_phases.output);
+    // It shows what is said of another k, in lines of its own.
+    const auto in_one_line = [](const std::string& lines) {
+        std::istringstream words(lines);
+        std::string result;
+        for (std::string word; words >> word;)
+            result += word + " ";
+        return result;
+    };
+    directory.write("mine.toml", blocks[0].substr(0, blocks[0].find("k = ")) + "k = 0.1\n");
+    const Called refused = call(directory, "run " + (directory.path() / "in-phases.toml").string());
+    BOOST_TEST(refused.exit == 2);
+    const auto condition = refused.errors.find("(6): ");
+    BOOST_REQUIRE(condition != std::string::npos);
+    BOOST_TEST(has(in_one_line(text), in_one_line(refused.errors.substr(condition))),
+               refused.errors);
     directory.write("mine.toml", blocks[0]);
     const std::string scene = directory.write("my-scene.toml", blocks[1] + blocks[3]);
     for (const std::string form : {"", " --short"}) {
