@@ -10,6 +10,9 @@
 
 namespace tvbeam {
 
+/// Of the JSON result of a sweep.
+inline constexpr const char* sweep_schema = "tvbeam-sweep/1";
+
 /// A key that a scene is run with several values of: --set beam.alpha=0.1,1,10.
 struct Sweep {
     std::string key;
@@ -24,6 +27,9 @@ struct Sweep {
     /// What the directory of value i is called: the value, or "2-of-3" where that is no word.
     [[nodiscard]] std::string directory(std::size_t i) const;
 };
+
+/// Letters, digits and . - + _ alone, one or more: what needs no quotes.
+bool is_plain_word(const std::string& text);
 
 /// The sweep among overrides: the value is two or more numbers, words without blanks, texts in
 /// quotes or lists in brackets, separated by commas. None: there is none. Throws InputError where
