@@ -7,6 +7,7 @@
 #include "mms/rough_times.hpp"
 #include "mms/sample_points.hpp"
 #include "mms/text/error_text.hpp"
+#include "mms/text/timed_remarks.hpp"
 #include "mms/text/toml_reader.hpp"
 #include "studies/evolution/evolution_block.hpp"
 #include "studies/runs/beam_runs.hpp"
@@ -31,7 +32,6 @@ namespace {
 constexpr double tolerance = 1e-9; ///< of a jump, relative to what jumps, in all the time before
 constexpr Eigen::Index looks = 9;  ///< at that time
 constexpr std::size_t most_listed = 5;
-constexpr std::size_t most_told = 4; ///< times, where there are more than one more
 
 /// A time at which rates may jump, or have an infinite slope.
 struct Break {
@@ -266,48 +266,53 @@ std::string orders_text(const Scene& scene, const std::optional<ExpectedOrders>&
 
 /// orders: those by these schemes.
 template <typename Orders>
-std::string remark(const Scene& scene, const RateJump& jump, const Orders& orders,
+TimedRemark remark(const Scene& scene, const RateJump& jump, const Orders& orders,
                    const Costly& costly, const Break& at) {
     // The greatest over x is that of the points that were looked at.
-    const auto about = [](double size) { return fmt::format("about {:.2g}", size); };
     std::vector<std::string> jumps;
-    if (jump.heat > 0.0)
-        jumps.push_back((scene.beam.alpha != 0.0 ? "theta_t - alpha u_xxt by " : "theta_t by ") +
-                        about(jump.heat));
-    if (jump.bending > 0.0)
-        jumps.push_back("zeta u_xxt by " + about(jump.bending));
-    std::string text = at.text() + "rates jump: " + list_of(jumps) + ".";
+    std::vector<double> sizes;
+    const auto add = [&](const char* rate, double size) {
+        if (size > 0.0) {
+            jumps.push_back(fmt::format("{} by about {:.2g}", rate, size));
+            sizes.push_back(size);
+        }
+    };
+    add(scene.beam.alpha != 0.0 ? "theta_t - alpha u_xxt" : "theta_t", jump.heat);
+    add("zeta u_xxt", jump.bending);
+    std::string costs;
     if (const std::string every = orders(costly.schemes); !costly.inside.empty())
-        text += " In a run of which no time level is there (" + steps_text(costly.inside) +
-                ") every time scheme has " + every +
-                ", and an error that changes with the place in the step.";
+        costs += " In a run of which no time level is there (" + steps_text(costly.inside) +
+                 ") every time scheme has " + every +
+                 ", and an error that changes with the place in the step.";
     if (!costly.behind.empty())
-        text += " Where it is a level (" + steps_text(costly.behind) +
-                "), BDF2 still looks back across it and has " + orders({"bdf2"}) + ".";
-    return text;
+        costs += " Where it is a level (" + steps_text(costly.behind) +
+                 "), BDF2 still looks back across it and has " + orders({"bdf2"}) + ".";
+    return {fmt::format("{} {} {} {}", at.is_phase_end, jump.heat > 0.0, jump.bending > 0.0, costs),
+            message_text(at.t), at.text() + "rates jump: " + list_of(jumps) + "." + costs, sizes};
+}
+
+TimedRemark cusp_remark(double power, const Costly& costly, const Break& at) {
+    const std::string slope =
+        fmt::format("a rate has an infinite slope, like s^{:.3g}, s the time to it: errors that it "
+                    "enters have a part of the order {:.3g} in dt, which changes with its place in "
+                    "the step.",
+                    power, 1.0 + power);
+    return {slope + steps_text(costly.inside), message_text(at.t), at.text() + slope};
 }
 
 } // namespace
 
 std::vector<std::string> phase_remarks(const Scene& scene, const ProblemData& data) {
-    std::vector<std::string> remarks;
+    std::vector<TimedRemark> remarks;
     std::optional<ExpectedOrders> theory;
-    double last = 0.0;
     for (const Break& at : breaks_of(scene, data)) {
         const Costly costly = costly_steps(scene, data, at);
         if (costly.inside.empty() && costly.behind.empty())
             continue;
         const RateJump jump = rate_jump(data, at);
         if (jump.heat == 0.0 && jump.bending == 0.0) {
-            if (const double power = at.is_phase_end ? 1.0 : cusp_power(data, at.t); power < 1.0) {
-                remarks.push_back(
-                    at.text() +
-                    fmt::format("a rate has an infinite slope, like s^{:.3g}, s the time to it: "
-                                "errors that it enters have a part of the order {:.3g} in dt, "
-                                "which changes with its place in the step.",
-                                power, 1.0 + power));
-                last = at.t;
-            }
+            if (const double power = at.is_phase_end ? 1.0 : cusp_power(data, at.t); power < 1.0)
+                remarks.push_back(cusp_remark(power, costly, at));
             continue;
         }
         // What the step that holds the end does to the stress shows in it, or behind it.
@@ -321,20 +326,10 @@ std::vector<std::string> phase_remarks(const Scene& scene, const ProblemData& da
         const auto orders = [&](const std::set<std::string>& schemes) {
             return orders_text(scene, theory, schemes, losses);
         };
-        if (!orders(costly.schemes).empty()) {
+        if (!orders(costly.schemes).empty())
             remarks.push_back(remark(scene, jump, orders, costly, at));
-            last = at.t;
-        }
     }
-    if (remarks.size() > most_told + 1) {
-        const std::size_t more = remarks.size() - most_told;
-        remarks.resize(most_told);
-        remarks.push_back(
-            fmt::format("There are {} later times like these, each with jumps or a slope of its "
-                        "own, to t = {}.",
-                        more, message_text(last)));
-    }
-    return remarks;
+    return told(remarks);
 }
 
 } // namespace tvbeam

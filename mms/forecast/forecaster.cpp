@@ -8,6 +8,7 @@
 #include "mms/forecast/expected_orders.hpp"
 #include "mms/sample_points.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>

@@ -2,12 +2,13 @@
 
 #include "mms/contact_history.hpp"
 #include "mms/text/number_text.hpp"
+#include "mms/text/timed_remarks.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <span>
+#include <iterator>
 
 namespace tvbeam {
 
@@ -148,82 +149,76 @@ constexpr const char* within_a_phase =
     " That is within a phase: formulas may have no value there, and runs fail of which it is a "
     "time level; where a phase ends there, none does.";
 
-constexpr std::size_t most_told = 4; // times, where there are more than one more
-
-template <typename Event>
-std::span<const Event> told(const std::vector<Event>& events) {
-    return std::span(events).first(events.size() > most_told + 1 ? most_told : events.size());
-}
-
-/// Of the events that are not told one by one.
-template <typename Event>
-void add_count(const std::vector<Event>& events, const char* what, std::vector<std::string>& text) {
-    if (const std::size_t more = events.size() - told(events).size(); more > 0)
-        text.push_back(fmt::format("{} so at {} other times, to t = {}.", what, more,
-                                   number_text(std::ranges::max(events, {}, &Event::t).t)));
-}
-
 void add_switch_reasons(const ExpectedOrders& known, const Beam& beam,
                         std::vector<std::string>& text) {
-    const auto add = [&](const Switch& change, const std::string& jumps, bool of_theta) {
+    std::vector<TimedRemark> remarks;
+    const auto add = [&](const Switch& change, const std::string& jumps, bool of_theta,
+                         const std::vector<double>& sizes) {
         const std::string where = in_field(beam, of_theta);
-        if (change.where == Switch::Where::at_a_place) {
-            text.push_back(
-                "about t = " + number_text(change.t, 3) + " " + jumps +
-                " at a place within a phase: BDF2 and SDIRK2 have an order of 1 to 2 in dt" +
-                where + ".");
+        if (change.where == Switch::Where::at_a_place) { // a front jumps at other times, too
+            const std::string time = number_text(change.t, 3);
+            remarks.push_back(
+                {"", time,
+                 "about t = " + time + " " + jumps +
+                     " at a place within a phase: BDF2 and SDIRK2 have an order of 1 to 2 in dt" +
+                     where + "."});
             return;
         }
         const bool within = change.where == Switch::Where::within_phase;
         const bool is_linear =
             of_theta ? known.theta_is_linear_in_pieces : known.u_is_linear_in_pieces;
-        text.push_back(
-            "at t = " + number_text(change.t) + " " + jumps + ": BDF2 has the order 1 in dt" +
-            where + ", and more only where the time is the middle of a step; " +
-            (!is_linear ? "SDIRK2 has 1 unless the time is a time level, where it has 2"
-                        : "Euler and SDIRK2 have it, too, unless the time is a time level, where "
-                          "they are exact: " +
-                              std::string(beam.alpha != 0.0 ? "all is"
-                                          : of_theta        ? "theta is"
-                                                            : "u_xx is") +
-                              " linear in t on both sides") +
-            ". Norms with a maximum over time show it late." + (within ? within_a_phase : ""));
+        const std::string time = number_text(change.t);
+        remarks.push_back(
+            {fmt::format("{} {} {}", of_theta, sizes.size(), within), time,
+             "at t = " + time + " " + jumps + ": BDF2 has the order 1 in dt" + where +
+                 ", and more only where the time is the middle of a step; " +
+                 (!is_linear
+                      ? "SDIRK2 has 1 unless the time is a time level, where it has 2"
+                      : "Euler and SDIRK2 have it, too, unless the time is a time level, where "
+                        "they are exact: " +
+                            std::string(beam.alpha != 0.0 ? "all is"
+                                        : of_theta        ? "theta is"
+                                                          : "u_xx is") +
+                            " linear in t on both sides") +
+                 ". Norms with a maximum over time show it late." + (within ? within_a_phase : ""),
+             sizes});
     };
-    std::vector<Switch> jumps = known.switches;
-    std::erase_if(jumps, [](const Switch& change) {
-        return change.theta_t_jump == 0.0 && change.u_xxt_jump == 0.0;
-    });
-    for (const Switch& change : told(jumps)) {
+    for (const Switch& change : known.switches) {
         const std::string heat =
             heat_rate(beam) + " jumps by up to " + number_text(change.theta_t_jump, 2);
         const std::string bending = "u_xxt jumps by up to " + number_text(change.u_xxt_jump, 2);
         const bool has_heat = change.theta_t_jump > 0.0;
         const bool has_bending = change.u_xxt_jump > 0.0;
         if (has_heat && has_bending && beam.alpha != 0.0)
-            add(change, fmt::format("{} and {}", heat, bending), true);
+            add(change, fmt::format("{} and {}", heat, bending), true,
+                {change.theta_t_jump, change.u_xxt_jump});
         else {
             if (has_heat)
-                add(change, heat, true);
+                add(change, heat, true, {change.theta_t_jump});
             if (has_bending)
-                add(change, bending, false);
+                add(change, bending, false, {change.u_xxt_jump});
         }
     }
-    add_count(jumps, "Rates jump", text);
+    std::ranges::copy(told(remarks), std::back_inserter(text));
 }
 
 void add_cusp_reasons(const ExpectedOrders& known, const Beam& beam,
                       std::vector<std::string>& text) {
-    for (const Cusp& cusp : told(known.cusps))
+    std::vector<TimedRemark> remarks;
+    for (const Cusp& cusp : known.cusps)
         for (const bool of_theta : {true, false})
             if (const double power = of_theta ? cusp.theta_t_power : cusp.u_xxt_power;
-                !std::isinf(power))
-                text.push_back(fmt::format(
-                    "at t = {} {} has an infinite slope, like s^{:.3g}, s the time to it: BDF2 "
-                    "and SDIRK2 have the order {:.3g} in dt{}. Norms with a maximum over time may "
-                    "show it late.{}",
-                    number_text(cusp.t), of_theta ? heat_rate(beam) : "u_xxt", power, 1.0 + power,
-                    in_field(beam, of_theta), cusp.is_within_phase ? within_a_phase : ""));
-    add_count(known.cusps, "Slopes are infinite", text);
+                !std::isinf(power)) {
+                const std::string time = number_text(cusp.t);
+                const std::string slope = fmt::format(
+                    "{} has an infinite slope, like s^{:.3g}, s the time to it: BDF2 and SDIRK2 "
+                    "have the order {:.3g} in dt{}. Norms with a maximum over time may show it "
+                    "late.{}",
+                    of_theta ? heat_rate(beam) : "u_xxt", power, 1.0 + power,
+                    in_field(beam, of_theta), cusp.is_within_phase ? within_a_phase : "");
+                remarks.push_back({slope, time, "at t = " + time + " " + slope});
+            }
+    std::ranges::copy(told(remarks), std::back_inserter(text));
 }
 
 } // namespace

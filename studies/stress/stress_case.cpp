@@ -101,9 +101,9 @@ public:
                 throw std::domain_error("round-off of the Hermite form grows like h^-4: its "
                                         "predicted floor is " +
                                         text_of(floor) +
-                                        " of the curvature, and the ten of these that are allowed "
-                                        "are too much to certify anything; use the direct "
-                                        "algorithm");
+                                        " of the curvature; ten times that is allowed for, which "
+                                        "is above 1e-3 of the curvature: nothing could be "
+                                        "certified; use the direct algorithm");
             options_.least_size = 1.0;
         }
         // What is made of these is to be in the range of floating point, too.
