@@ -297,7 +297,8 @@ TimedRemark cusp_remark(double power, const Costly& costly, const Break& at) {
                     "enters have a part of the order {:.3g} in dt, which changes with its place in "
                     "the step.",
                     power, 1.0 + power);
-    return {slope + steps_text(costly.inside), message_text(at.t), at.text() + slope};
+    return {fmt::format("{:.2f} {}", power, steps_text(costly.inside)), message_text(at.t),
+            at.text() + slope};
 }
 
 } // namespace

@@ -216,7 +216,10 @@ void add_cusp_reasons(const ExpectedOrders& known, const Beam& beam,
                     "late.{}",
                     of_theta ? heat_rate(beam) : "u_xxt", power, 1.0 + power,
                     in_field(beam, of_theta), cusp.is_within_phase ? within_a_phase : "");
-                remarks.push_back({slope, time, "at t = " + time + " " + slope});
+                // Powers are known to about a hundredth.
+                remarks.push_back(
+                    {fmt::format("{} {:.2f} {}", of_theta, power, cusp.is_within_phase), time,
+                     "at t = " + time + " " + slope});
             }
     std::ranges::copy(told(remarks), std::back_inserter(text));
 }
