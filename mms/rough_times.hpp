@@ -14,20 +14,20 @@ namespace tvbeam {
 std::vector<double> rough_times(const PhaseExpressions& phase, double final_time);
 
 /// How far functions jump across such a time: from a side of it to the other, at 1e-7 of a length
-/// from it, or nothing where that is less than at 1e-5, as of what is smooth or has a slope without
-/// a bound. at: their values at a time; shape: one row a function, one column a place.
+/// from it, or nothing where that is less than at 1e-6 or 1e-5, as of what is smooth or has a slope
+/// without a bound: at one of these it may cancel with the rest. at: their values at a time; shape:
+/// one row a function, one column a place.
 template <typename At>
 Eigen::ArrayXXd jump_across(const At& at, double t, double length) {
     constexpr double beside = 1e-7;
-    constexpr double further = 1e-5;
     constexpr double same = 0.8;
     const auto difference = [&](double part) -> Eigen::ArrayXXd {
         return at(t + part * length) - at(t - part * length);
     };
     Eigen::ArrayXXd jump = difference(beside);
-    const Eigen::ArrayXXd change = difference(further);
+    const Eigen::ArrayXXd change = difference(1e-6).abs().max(difference(1e-5).abs());
     for (Eigen::Index row = 0; row < jump.rows(); ++row)
-        if (!(jump.row(row).abs().maxCoeff() > same * change.row(row).abs().maxCoeff()))
+        if (!(jump.row(row).abs().maxCoeff() > same * change.row(row).maxCoeff()))
             jump.row(row) = 0.0;
     return jump;
 }

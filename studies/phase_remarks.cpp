@@ -106,6 +106,10 @@ double cusp_power(const ProblemData& data, double t) {
     const ArrayXd x = sample_points(0.0, 1.0);
     double least = std::numeric_limits<double>::infinity();
     const auto see = [&](const auto& of) {
+        double size = 0;
+        for (const double s : sample_points(0.0, t, looks)) // it may have no value at some
+            if (const double found = of(s).abs().maxCoeff(); found > size)
+                size = found;
         for (const double direction : {-1.0, 1.0})
             least =
                 std::min(least, power_below_one(
@@ -114,7 +118,7 @@ double cusp_power(const ProblemData& data, double t) {
                                             .abs()
                                             .maxCoeff();
                                     },
-                                    t, of(0.5 * t).abs().maxCoeff()));
+                                    t, size));
     };
     see([&](double s) -> ArrayXd { return values(data, data.heat_source, x, s); });
     see([&](double s) { return bending_rate(data, x, s); });

@@ -113,8 +113,9 @@ std::vector<Switch> switches_within(const PiecewiseTape& tape, const ArrayXd& si
                                     double final_time) {
     const ArrayXd x = sample_points(0.0, 1.0);
     const double length = std::min(phase.end_value, final_time) - phase.begin_value;
+    const std::vector<double> rough = rough_times(phase, final_time);
     std::vector<Switch> result;
-    for (const double t : rough_times(phase, final_time)) {
+    for (const double t : rough) {
         Switch change{.t = t, .where = Switch::Where::within_phase};
         const Eigen::ArrayXXd jumps =
             jump_across([&](double at) { return tape.at(x, at); }, t, length);
@@ -129,7 +130,14 @@ std::vector<Switch> switches_within(const PiecewiseTape& tape, const ArrayXd& si
         const auto jump = rate_jumps.at(static_cast<std::size_t>(row));
         if (std::ranges::any_of(result, [&](const Switch& known) { return known.*jump > 0.0; }))
             continue;
-        if (const auto found = jump_within(tape.of_phase(i).only({row}), phase, final_time)) {
+        // What is rough all over the beam is told of all of it, as a slope without a bound is.
+        constexpr double near = 1e-6;
+        const auto is_known = [&](double at) {
+            return std::ranges::any_of(rough,
+                                       [&](double t) { return std::abs(t - at) <= near * length; });
+        };
+        if (const auto found = jump_within(tape.of_phase(i).only({row}), phase, final_time);
+            found && !is_known(found->at)) {
             result.push_back({.t = found->at, .where = Switch::Where::at_a_place});
             result.back().*jump = std::abs(found->size);
         }
