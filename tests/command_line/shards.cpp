@@ -437,4 +437,15 @@ BOOST_AUTO_TEST_CASE(a_script_asks_for_the_heaviest_shard) {
                    script(reference, shards, "--slurm"));
 }
 
+BOOST_AUTO_TEST_CASE(a_scene_that_is_named_from_beside_it_is_found_from_anywhere) {
+    const TemporaryDirectory directory;
+    directory.write("mine.toml", solver);
+    const std::string there = "cd " + directory.path().string() + " && ";
+    const Called made = call(directory, "run mine.toml --quiet --shard 1/1 --out parts", there);
+    BOOST_TEST(made.exit == 0, made.errors);
+    const Called merged =
+        call(directory, "merge " + (directory.path() / "parts").string(), "cd / && ");
+    BOOST_TEST(merged.exit == 0, merged.errors);
+}
+
 BOOST_AUTO_TEST_SUITE_END()
