@@ -72,6 +72,16 @@ ArrayXd bending_rate(const ProblemData& data, const ArrayXd& x, double t) {
     return stress * (1.0 - x) - load;
 }
 
+/// The greatest size at times up to t: within a phase it may have no value at some of them.
+template <typename Function>
+double greatest_until(double t, const Function& of) {
+    double size = 0;
+    for (const double s : sample_points(0.0, t, looks))
+        if (const double found = of(s).abs().maxCoeff(); found > size)
+            size = found;
+    return size;
+}
+
 RateJump rate_jump(const ProblemData& data, const Break& at) {
     const GaussRule rule = GaussRule::of(48);
     const ArrayXd& x = rule.points;
@@ -81,14 +91,8 @@ RateJump rate_jump(const ProblemData& data, const Break& at) {
                                                               : ArrayXd::Zero(difference.size());
     };
     const auto jump = [&](const auto& of) -> ArrayXd {
-        double size = 0;
-        const auto see = [&](double t) { // within a phase it may have no value there
-            if (const double found = of(t).abs().maxCoeff(); found > size)
-                size = found;
-        };
-        see(after);
-        for (const double t : sample_points(0.0, at.t, looks)) // what vanishes leaves rounding
-            see(t);
+        // What vanishes leaves rounding.
+        const double size = std::max(greatest_until(at.t, of), greatest_until(after, of));
         if (at.is_phase_end)
             return noticed(of(after) - of(at.t), size);
         const auto row = [&](double t) -> Eigen::ArrayXXd { return of(t).transpose(); };
@@ -106,10 +110,7 @@ double cusp_power(const ProblemData& data, double t) {
     const ArrayXd x = sample_points(0.0, 1.0);
     double least = std::numeric_limits<double>::infinity();
     const auto see = [&](const auto& of) {
-        double size = 0;
-        for (const double s : sample_points(0.0, t, looks)) // it may have no value at some
-            if (const double found = of(s).abs().maxCoeff(); found > size)
-                size = found;
+        const double size = greatest_until(t, of);
         for (const double direction : {-1.0, 1.0})
             least =
                 std::min(least, power_below_one(

@@ -34,15 +34,15 @@ std::vector<std::string> told(const std::vector<TimedRemark>& remarks) {
     for (const TimedRemark& remark : remarks)
         if (!remark.kind.empty())
             kinds[remark.kind].push_back(&remark);
+    std::map<std::string, std::size_t> seen;
     std::vector<std::string> texts;
     for (const TimedRemark& remark : remarks) {
         const auto found = kinds.find(remark.kind);
         const bool is_cut = found != kinds.end() && found->second.size() > most_told + 1;
-        const auto place =
-            is_cut ? std::ranges::find(found->second, &remark) - found->second.begin() : 0;
-        if (static_cast<std::size_t>(place) < most_told)
+        const std::size_t place = is_cut ? ++seen[remark.kind] : 1;
+        if (place <= most_told)
             texts.push_back(remark.text);
-        if (is_cut && static_cast<std::size_t>(place) + 1 == most_told)
+        if (is_cut && place == most_told)
             texts.back() += " " + summary(found->second);
     }
     return texts;
