@@ -219,7 +219,7 @@ void add_cusp_reasons(const ExpectedOrders& known, const Beam& beam,
                 // Powers are known to about a hundredth.
                 remarks.push_back(
                     {fmt::format("{} {:.2f} {}", of_theta, power, cusp.is_within_phase), time,
-                     "at t = " + time + " " + slope});
+                     fmt::format("at t = {} {}", time, slope)});
             }
     std::ranges::copy(told(remarks), std::back_inserter(text));
 }
