@@ -275,14 +275,18 @@ private:
 
 ArrayXd telling_times(const Tape& tape, const std::vector<Index>& rows, double begin, double end) {
     const ArrayXd even = ArrayXd::LinSpaced(time_points, begin, end);
-    const ArrayXXd values = tape.evaluate(ArrayXd::Ones(even.size()), even);
     std::vector<double> times(even.begin(), even.end());
     for (const Index row : rows) {
-        const ArrayXd seen = values.row(row).isFinite().select(values.row(row), 0.0);
+        const Tape alone = tape.only({row});
+        const auto values_at = [&](const ArrayXd& x, const ArrayXd& t) -> ArrayXd {
+            return alone.evaluate(x, t).row(0);
+        };
+        const ArrayXd values = values_at(ArrayXd::Ones(1), even);
+        const ArrayXd seen = values.isFinite().select(values, 0.0);
         for (const double sign : {1.0, -1.0}) {
             const double most = (sign * seen).maxCoeff();
             const auto beyond = [&](const ArrayXd& x, const ArrayXd& t) -> ArrayXd {
-                return (sign * tape.evaluate(x, t).row(row).transpose() - most).max(0.0);
+                return (sign * values_at(x, t) - most).max(0.0);
             };
             const LargestPoint found = largest_point(beyond, {1.0, 1.0}, {begin, end});
             if (found.size > nothing * (found.size + seen.abs().maxCoeff()))

@@ -298,7 +298,7 @@ public:
     GivenTexts(const Names& names, double final_time)
         : constants_(names.constants), points_(points_to_compare(0.0, final_time, true)) {}
 
-    [[nodiscard]] const SamplePoints& points() const { return points_; }
+    [[nodiscard]] const Points& points() const { return points_; }
 
     /// Throws InputError where the values are not those of ∂_x^order of the expression.
     void require(const Given& data, int order, const std::string& what,
@@ -331,7 +331,7 @@ public:
 
 private:
     std::map<std::string, BoundedJet<long double>> constants_;
-    SamplePoints points_;
+    Points points_;
 };
 
 /// defect: what is given is added to another problem.

@@ -1,5 +1,7 @@
 #include "mms/largest_size.hpp"
 
+#include "core/point_grid.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -16,23 +18,13 @@ struct Sample {
     double distance_x = 0.0, distance_t = 0.0; ///< up to which a larger one is looked for
 };
 
-/// Points in space and time.
-struct Points {
-    std::vector<double> x, t;
-
-    void add(double at_x, double at_t) {
-        x.push_back(at_x);
-        t.push_back(at_t);
-    }
-};
-
 ArrayXd points_of(const CloseLook& span) {
     return span.begin < span.end ? sample_points(span.begin, span.end)
                                  : ArrayXd::Constant(1, span.begin);
 }
 
 /// Those of points_of, and towards both ends ever closer ones.
-std::vector<double> times_of(const CloseLook& span) {
+ArrayXd times_of(const CloseLook& span) {
     const ArrayXd even = points_of(span);
     std::vector<double> times(even.begin(), even.end());
     constexpr int closer = 6;
@@ -42,25 +34,19 @@ std::vector<double> times_of(const CloseLook& span) {
         times.push_back(span.begin + distance);
         times.push_back(span.end - distance);
     }
-    return times;
+    return Eigen::Map<const ArrayXd>(times.data(), static_cast<Index>(times.size()));
 }
 
+/// The fractional parts of the multiples of the golden ratio stay apart from one another; times at
+/// so much of the way between two are no zeros of a sine.
 Points scattered(const CloseLook& x, const CloseLook& t) {
-    Points points;
-    for (const double at_t : times_of(t))
-        for (const double at_x : points_of(x))
-            points.add(at_x, at_t);
-    // The fractional parts of the multiples of the golden ratio stay apart from one another; times
-    // at so much of the way between two are no zeros of a sine.
-    constexpr int count = 2048;
+    constexpr Index count = 2048;
     constexpr double golden_ratio = 0.6180339887498949;
-    for (int k = 0; k < count; ++k) {
-        const double place = k + golden_ratio;
-        const double multiple = place * golden_ratio;
-        points.add(x.begin + (multiple - std::floor(multiple)) * (x.end - x.begin),
-                   t.begin + place / count * (t.end - t.begin));
-    }
-    return points;
+    const ArrayXd places =
+        ArrayXd::LinSpaced(count, 0.0, static_cast<double>(count - 1)) + golden_ratio;
+    const ArrayXd multiples = places * golden_ratio;
+    return {x.begin + (multiples - multiples.floor()) * (x.end - x.begin),
+            t.begin + places / static_cast<double>(count) * (t.end - t.begin)};
 }
 
 class LargestSize {
@@ -91,8 +77,8 @@ public:
     }
 
 private:
-    [[nodiscard]] ArrayXd sizes(const ArrayXd& x, const ArrayXd& t) const {
-        const ArrayXd values = g_(x, t);
+    [[nodiscard]] ArrayXd sizes(const Points& points) const {
+        const ArrayXd values = g_(points.x, points.t);
         return values.isFinite().select(values.abs(), 0.0);
     }
 
@@ -108,16 +94,15 @@ private:
                                                                       (at - span.begin) / length))
                        : std::size_t{0};
         };
-        const Points points = scattered(x_, t_);
-        const auto count = static_cast<Index>(points.x.size());
-        const ArrayXd found = sizes(Eigen::Map<const ArrayXd>(points.x.data(), count),
-                                    Eigen::Map<const ArrayXd>(points.t.data(), count));
         std::vector<Sample> largest(parts_x * parts_t);
-        for (std::size_t k = 0; k < points.x.size(); ++k) {
-            Sample& known =
-                largest[parts_t * part(x_, parts_x, points.x[k]) + part(t_, parts_t, points.t[k])];
-            if (const double size = found(static_cast<Index>(k)); size > known.size)
-                known = {points.x[k], points.t[k], size, spacing(x_), spacing(t_)};
+        for (const Points& points : {point_grid(points_of(x_), times_of(t_)), scattered(x_, t_)}) {
+            const ArrayXd found = sizes(points);
+            for (Index k = 0; k < found.size(); ++k) {
+                Sample& known = largest[parts_t * part(x_, parts_x, points.x(k)) +
+                                        part(t_, parts_t, points.t(k))];
+                if (found(k) > known.size)
+                    known = {points.x(k), points.t(k), found(k), spacing(x_), spacing(t_)};
+            }
         }
         std::erase_if(largest, [](const Sample& sample) { return sample.size == 0.0; });
         return largest;
@@ -138,8 +123,7 @@ private:
     void look_closer(Sample& best) const {
         const ArrayXd x = x_.next_to(best.x, best.distance_x).samples();
         const ArrayXd t = t_.next_to(best.t, best.distance_t).samples();
-        const ArrayXd found =
-            sizes(x.replicate(t.size(), 1), t.transpose().replicate(x.size(), 1).reshaped());
+        const ArrayXd found = sizes(point_grid(x, t));
         Index at = 0;
         const double size = found.maxCoeff(&at);
         const bool moves = size > best.size;

@@ -80,7 +80,7 @@ PlainSolution::PlainSolution(const Solution& solution, const DerivedSolution& de
 PlainSolution::Samples PlainSolution::sampled(const PhaseExpressions& phase, bool first,
                                               double final_time) const {
     // Where a phase begins, the one before still holds.
-    const SamplePoints points =
+    const Points points =
         points_to_compare(phase.begin_value, std::min(phase.end_value, final_time), first);
     const Index size = points.x.size();
     Samples samples{points.x, points.t, {}};

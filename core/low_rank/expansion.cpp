@@ -1,6 +1,7 @@
 #include "core/low_rank/expansion.hpp"
 
 #include "core/low_rank/chebyshev.hpp"
+#include "core/point_grid.hpp"
 
 #include <fmt/format.h>
 
@@ -92,8 +93,7 @@ private:
     /// The functions at the places y in [−1, 1] of x and these times; shape of each: places ×
     /// times. A reason where they are not finite.
     std::vector<MatrixXd> values_at(const ArrayXd& y, const ArrayXd& times) {
-        const ArrayXd x = (0.5 * (1.0 + y)).replicate(times.size(), 1);
-        const ArrayXd t = times.transpose().replicate(y.size(), 1).reshaped();
+        const auto [x, t] = point_grid(0.5 * (1.0 + y), times);
         const Eigen::ArrayXXd all = functions_(x, t);
         if (!all.isFinite().all())
             result_.reason = "it is not finite everywhere";

@@ -5,6 +5,7 @@
 #include "core/low_rank/chebyshev.hpp"
 #include "core/low_rank/expansion.hpp"
 #include "core/norms/norm_sums.hpp"
+#include "core/point_grid.hpp"
 
 #include <Eigen/QR>
 #include <fmt/format.h>
@@ -252,8 +253,8 @@ double residual_of(const Expansion& expansion, const JointFunctions& functions,
                 const Index n = std::min(most_at_once, (rest + shifts - 1) / shifts);
                 const ArrayXd times = t(Eigen::seqN(first + shift, n, shifts));
                 const auto at = static_cast<std::size_t>(shift);
-                const Eigen::ArrayXXd exact = functions(
-                    x[at].replicate(n, 1), times.transpose().replicate(places, 1).reshaped());
+                const Points points = point_grid(x[at], times);
+                const Eigen::ArrayXXd exact = functions(points.x, points.t);
                 if (!exact.isFinite().all())
                     return std::numeric_limits<double>::infinity();
                 const MatrixXd of_all = amplitudes.at(times);

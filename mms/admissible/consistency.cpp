@@ -1,5 +1,6 @@
 #include "mms/admissible/consistency.hpp"
 
+#include "core/point_grid.hpp"
 #include "core/space/mesh.hpp"
 #include "core/space/point_values.hpp"
 #include "core/space/quadrature.hpp"
@@ -97,16 +98,15 @@ struct MeshForms {
           weights(thermal_mass_matrix(mesh, ThermalMass::lumped).diagonal) {}
 };
 
-/// The two residuals in space at one time; late: of the phase that begins there.
-Residual space_residual(const PiecewiseTape& tape, const Beam& beam, const MeshForms& forms,
-                        double t, bool late) {
+/// The two residuals in space at one time; values: the rows at forms.points, nodal: at the nodes.
+Residual space_residual(const Eigen::Ref<const Eigen::ArrayXXd>& values,
+                        const Eigen::Ref<const Eigen::ArrayXXd>& nodal, const Beam& beam,
+                        const MeshForms& forms) {
     const Mesh& mesh = forms.mesh;
     const Index s = mesh.elements();
-    const Eigen::ArrayXXd values = tape.at(forms.points, t, late);
     const auto projected = [&](const auto& row) {
         return project(mesh, PointValues(row.reshaped(element_rule_size, s)));
     };
-    const Eigen::ArrayXXd nodal = tape.at(mesh.nodes, t, late);
     const VectorXd homogeneous =
         (nodal.row(theta).transpose() - beam.theta_A * (1.0 - mesh.nodes)).matrix();
     const VectorXd rate = nodal.row(theta_t).transpose().matrix();
@@ -136,6 +136,24 @@ Residual space_residual(const PiecewiseTape& tape, const Beam& beam, const MeshF
             .beam_order = std::nullopt,
             .heat_is_known = true,
             .beam_is_known = true};
+}
+
+/// Those of a phase's formulas at these times.
+std::vector<Residual> space_residuals_at(const Tape& tape, const Beam& beam, const MeshForms& forms,
+                                         const ArrayXd& times) {
+    const auto values_at = [&](const ArrayXd& x) {
+        const Points points = point_grid(x, times);
+        return tape.evaluate(points.x, points.t);
+    };
+    const Index at_points = forms.points.size();
+    const Index at_nodes = forms.mesh.nodes.size();
+    const Eigen::ArrayXXd values = values_at(forms.points);
+    const Eigen::ArrayXXd nodal = values_at(forms.mesh.nodes);
+    std::vector<Residual> residuals;
+    for (Index n = 0; n < times.size(); ++n)
+        residuals.push_back(space_residual(values.middleCols(n * at_points, at_points),
+                                           nodal.middleCols(n * at_nodes, at_nodes), beam, forms));
+    return residuals;
 }
 
 bool vanishes_in_all(const DerivedSolution& derived, double final_time, const auto& formula) {
@@ -187,8 +205,7 @@ ArrayXd times_to_look_at(const DerivedPhase& phase, const CloseLook& span) {
 /// of the times given.
 template <typename ResidualAt>
 Residual largest_residual(const CloseLook& phase, const ArrayXd& times, const ResidualAt& at) {
-    std::vector<Residual> sampled;
-    std::transform(times.begin(), times.end(), std::back_inserter(sampled), at);
+    const std::vector<Residual> sampled = at(times);
     Residual largest = sampled.front();
     for (const auto size : {&Residual::heat, &Residual::beam}) {
         const auto greatest = std::ranges::max_element(sampled, {}, size);
@@ -198,10 +215,13 @@ Residual largest_residual(const CloseLook& phase, const ArrayXd& times, const Re
         bool grows = true;
         for (double distance = times(1) - times(0); grows; distance *= 0.25) {
             const double before = largest.*size;
-            for (const double t : phase.next_to(best, distance).samples())
-                if (const double here = at(t).*size; here > largest.*size) {
+            const ArrayXd closer = phase.next_to(best, distance).samples();
+            const std::vector<Residual> residuals = at(closer);
+            for (Index n = 0; n < closer.size(); ++n)
+                if (const double here = residuals[static_cast<std::size_t>(n)].*size;
+                    here > largest.*size) {
                     largest.*size = here;
-                    best = t;
+                    best = closer(n);
                 }
             grows = largest.*size > (1.0 + least_growth) * before;
         }
@@ -219,50 +239,78 @@ bool has_levels_of(std::int64_t finer, std::int64_t coarse) {
     return finer % coarse == 0 && std::has_single_bit(static_cast<std::uint64_t>(finer / coarse));
 }
 
-/// θ̃, u_xx and their rates in the steps of one refinement.
-class Steps {
-public:
-    /// levels: at the ends of these steps, or of a multiple of them; shape of each: points × 4.
-    Steps(const PiecewiseTape& tape, const ArrayXd& x, const std::vector<Eigen::ArrayXXd>& levels,
-          double final_time, std::int64_t steps)
-        : tape_(tape), x_(x), levels_(levels), final_time_(final_time), steps_(steps),
-          stride_(static_cast<std::int64_t>(levels.size() - 1) / steps) {}
+} // namespace
 
-    [[nodiscard]] const Eigen::ArrayXXd& at(std::int64_t level) const {
-        return levels_[static_cast<std::size_t>(level * stride_)];
+/// θ̃ over x and, below it, u_xx, column by column at the levels or stages of all steps.
+struct StepStates {
+    Eigen::ArrayXXd values, rates; ///< shape of each: twice the points × levels
+
+    StepStates(const PiecewiseTape& tape, const ArrayXd& x, const ArrayXd& times)
+        : values(2 * x.size(), times.size()), rates(2 * x.size(), times.size()) {
+        const Eigen::ArrayXXd all = tape.at_all(x, times);
+        const auto row = [&](Index k) { return all.row(k).reshaped(x.size(), times.size()); };
+        values << row(theta), row(u_xx);
+        rates << row(theta_t), row(u_xxt);
+    }
+};
+
+namespace {
+
+/// The levels of so many steps, or of a multiple of them.
+class Steps {
+    /// The columns of the ends of the steps from this one on.
+    [[nodiscard]] auto ends(Index step) const {
+        return Eigen::seqN(step * stride_, steps_ - step + 1, stride_);
     }
 
-    /// The defects of θ̃ and u_xx in the step that ends at level n; shape: points × 2.
-    [[nodiscard]] Eigen::ArrayXXd defect(const TimeScheme& scheme, std::int64_t n) const {
+public:
+    Steps(const PiecewiseTape& tape, const ArrayXd& x, const StepStates& levels, double final_time,
+          std::int64_t steps)
+        : tape_(tape), x_(x), final_time_(final_time), steps_(steps),
+          stride_((levels.values.cols() - 1) / steps), levels_(levels) {}
+
+    /// Those of θ̃ and u_xx at the ends of the steps, the start left out.
+    [[nodiscard]] Eigen::ArrayXXd values() const { return levels_.values(Eigen::all, ends(1)); }
+
+    /// The defects of both in the steps that the scheme does not leave to its starter; shape:
+    /// StepStates::values's rows × these steps.
+    [[nodiscard]] Eigen::ArrayXXd defects(const TimeScheme& scheme) const {
         const double dt = final_time_ / static_cast<double>(steps_);
-        const auto difference = [&](std::int64_t level) -> Eigen::ArrayXXd {
-            return at(level).leftCols(2) - at(level - 1).leftCols(2);
-        };
+        const auto history = static_cast<Index>(scheme.history);
+        const Index count = steps_ - history;
+        const Eigen::ArrayXXd differences =
+            levels_.values(Eigen::all, ends(1)) -
+            levels_.values(Eigen::all, Eigen::seqN(0, steps_, stride_));
         std::vector<Eigen::ArrayXXd> increments;
-        for (int j = 1; j <= scheme.history; ++j)
-            increments.push_back(difference(n - j));
+        for (Index j = 1; j <= history; ++j)
+            increments.emplace_back(differences.middleCols(history - j, count));
         for (const Stage& stage : scheme.stages) {
-            Eigen::ArrayXXd increment = dt / stage.leading * rates(n, stage.fraction);
+            Eigen::ArrayXXd increment = dt / stage.leading * rates(history + 1, stage.fraction);
             for (std::size_t j = 0; j < stage.weights.size(); ++j)
                 increment += stage.weights[j] * increments[j];
-            increments.push_back(increment);
+            increments.push_back(std::move(increment));
         }
-        return scheme.stages.back().leading / dt * (increments.back() - difference(n));
+        return scheme.stages.back().leading / dt *
+               (increments.back() - differences.rightCols(count));
     }
 
 private:
-    [[nodiscard]] Eigen::ArrayXXd rates(std::int64_t n, double fraction) const {
+    /// In a stage of the steps from this one on.
+    [[nodiscard]] Eigen::ArrayXXd rates(Index first, double fraction) const {
         if (fraction == 1.0)
-            return at(n).rightCols(2);
-        const double level = static_cast<double>(n) - (1.0 - fraction);
-        return tape_.at(x_, level_time(final_time_, level, steps_)).bottomRows(2).transpose();
+            return levels_.rates(Eigen::all, ends(first));
+        ArrayXd times(steps_ - first + 1);
+        for (Index k = 0; k < times.size(); ++k)
+            times(k) =
+                level_time(final_time_, static_cast<double>(first + k) - (1.0 - fraction), steps_);
+        return StepStates(tape_, x_, times).rates;
     }
 
     const PiecewiseTape& tape_;
     const ArrayXd& x_;
-    const std::vector<Eigen::ArrayXXd>& levels_;
     double final_time_;
-    std::int64_t steps_, stride_;
+    Index steps_, stride_;
+    const StepStates& levels_;
 };
 
 double norm(const GaussRule& rule, const ArrayXd& values) {
@@ -276,7 +324,7 @@ std::vector<Residual> space_residuals(const AdmissibleSolution& solution, Therma
                                       const std::vector<std::int64_t>& elements) {
     const Beam& beam = solution.beam();
     const double final_time = solution.final_time();
-    const PiecewiseTape tape = rows(solution, true);
+    const PiecewiseTape tapes = rows(solution, true);
     const ArrayXd grid = sample_points(0.0, 1.0);
     std::vector<Residual> result(elements.size());
     std::vector<Sizes> terms(elements.size());
@@ -288,13 +336,13 @@ std::vector<Residual> space_residuals(const AdmissibleSolution& solution, Therma
         const CloseLook span{phase.begin_value, std::min(phase.end_value, final_time)};
         const ArrayXd times = located(solution.place(), "the solution",
                                       [&] { return times_to_look_at(derived.derived[k], span); });
-        ArrayXd sizes = ArrayXd::Zero(stress + 1);
-        for (const double t : times)
-            sizes = sizes.max(tape.at(grid, t, t == span.begin).abs().rowwise().maxCoeff());
+        const Tape& tape = tapes.of_phase(k);
+        const Points everywhere = point_grid(grid, times);
+        const ArrayXd sizes = tape.evaluate(everywhere.x, everywhere.t).abs().rowwise().maxCoeff();
         for (std::size_t i = 0; i < elements.size(); ++i) {
             const MeshForms forms(elements[i], mass);
-            const Residual here = largest_residual(span, times, [&](double t) {
-                return space_residual(tape, beam, forms, t, t == span.begin);
+            const Residual here = largest_residual(span, times, [&](const ArrayXd& at) {
+                return space_residuals_at(tape, beam, forms, at);
             });
             // K has entries of the size s, and the norm multiplies by s once more.
             const auto s = static_cast<double>(elements[i]);
@@ -336,11 +384,10 @@ TimeResiduals::TimeResiduals(const AdmissibleSolution& solution, std::vector<std
         });
         if (among_finer || levels_.contains(count))
             continue;
-        auto& levels = levels_[count];
-        for (std::int64_t n = 0; n <= count; ++n)
-            levels.emplace_back(
-                exact_->at(rule_.points, level_time(final_time_, static_cast<double>(n), count))
-                    .transpose());
+        ArrayXd times(count + 1);
+        for (Index n = 0; n <= count; ++n)
+            times(n) = level_time(final_time_, static_cast<double>(n), count);
+        levels_.emplace(count, std::make_unique<StepStates>(*exact_, rule_.points, times));
     }
 }
 
@@ -357,15 +404,21 @@ std::vector<Residual> TimeResiduals::of(const std::string& scheme) const {
         const double dt = final_time_ / static_cast<double>(count);
         const auto known = std::ranges::find_if(
             levels_, [&](const auto& one) { return has_levels_of(one.first, count); });
-        const Steps exact(*exact_, rule_.points, known->second, final_time_, count);
-        for (std::int64_t n = 1 + method.history; n <= count; ++n) {
-            const Eigen::ArrayXXd defect = exact.defect(method, n);
+        const Steps exact(*exact_, rule_.points, *known->second, final_time_, count);
+        const Index points = rule_.points.size();
+        const Eigen::ArrayXXd defects = exact.defects(method);
+        for (const auto& defect : defects.colwise()) {
+            const ArrayXd of_beam = defect.tail(points);
             residual.heat =
-                std::max(residual.heat, norm(rule_, defect.col(0) - beam_.alpha * defect.col(1)));
-            residual.beam = std::max(residual.beam, beam_.zeta * norm(rule_, defect.col(1)));
-            const ArrayXd sizes = exact.at(n).abs().colwise().maxCoeff();
-            size.heat = std::max(size.heat, (sizes(theta) + beam_.alpha * sizes(u_xx)) / dt);
-            size.beam = std::max(size.beam, beam_.zeta * sizes(u_xx) / dt);
+                std::max(residual.heat, norm(rule_, defect.head(points) - beam_.alpha * of_beam));
+            residual.beam = std::max(residual.beam, beam_.zeta * norm(rule_, of_beam));
+        }
+        const Eigen::ArrayXXd levels = exact.values();
+        for (const auto& values : levels.colwise()) {
+            const double of_beam = values.tail(points).abs().maxCoeff();
+            size.heat = std::max(
+                size.heat, (values.head(points).abs().maxCoeff() + beam_.alpha * of_beam) / dt);
+            size.beam = std::max(size.beam, beam_.zeta * of_beam / dt);
         }
         result.push_back(residual);
         terms.push_back(size);

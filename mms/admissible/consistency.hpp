@@ -15,6 +15,7 @@
 namespace tvbeam {
 
 class PiecewiseTape;
+struct StepStates;
 
 /// What is left of the two discrete equations when the exact solution is put into them. It tells,
 /// without a run, from which h and dt on a scheme sees the solution as smooth, and that f, G and m
@@ -74,8 +75,8 @@ private:
     /// The least number of derivatives in t by which θ̃ − α u_xx, and ζ u_xx, vanish in every phase.
     int heat_degree_, beam_degree_;
     GaussRule rule_; ///< of the norm over x
-    /// exact_ at the levels of a number of steps; shape of each: points × 4.
-    std::map<std::int64_t, std::vector<Eigen::ArrayXXd>> levels_;
+    /// exact_ at the levels of a number of steps.
+    std::map<std::int64_t, std::unique_ptr<const StepStates>> levels_;
 };
 
 } // namespace tvbeam

@@ -40,7 +40,7 @@ Number written(double value) {
     return {decimal_value, std::abs(decimal_value)};
 }
 
-SamplePoints points_to_compare(double begin, double end, bool with_begin) {
+Points points_to_compare(double begin, double end, bool with_begin) {
     // The fractional parts of multiples of these fill the unit square evenly: 1/p and 1/p² for the
     // root p of p³ = p + 1.
     constexpr double step_x = 0.7548776662466927;
@@ -50,7 +50,7 @@ SamplePoints points_to_compare(double begin, double end, bool with_begin) {
         times.push_back(begin + std::fmod(0.5 + k * step_t, 1.0) * (end - begin));
     if (with_begin)
         times.push_back(begin);
-    SamplePoints points;
+    Points points;
     points.x.resize(points_a_time * static_cast<Index>(times.size()));
     points.t.resize(points.x.size());
     for (Index k = 0; k < points.x.size(); ++k) {

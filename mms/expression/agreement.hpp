@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/point_grid.hpp"
 #include "mms/expression/plain_evaluation.hpp"
 #include "mms/text/source_text.hpp"
 
@@ -26,14 +27,9 @@ struct ComputedValues {
 /// The decimal that a double stands for (exact_rational), in long double: 0.017 is 17/1000.
 Bounded<long double> written(double value);
 
-/// Points in space and time.
-struct SamplePoints {
-    Eigen::ArrayXd x, t;
-};
-
 /// Points that no user chose: both ends of the beam and two quasi-random points inside, at the end
 /// of an interval of time, at two quasi-random times in it and, if asked for, at its beginning.
-SamplePoints points_to_compare(double begin, double end, bool with_begin);
+Points points_to_compare(double begin, double end, bool with_begin);
 inline constexpr Eigen::Index points_a_time = 4; ///< x = 0, x = 1, two inside
 
 /// The first point at which what was computed in doubles is not what the text says: where it is

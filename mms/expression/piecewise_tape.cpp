@@ -1,5 +1,6 @@
 #include "mms/expression/piecewise_tape.hpp"
 
+#include "core/point_grid.hpp"
 #include "mms/expression/tape_compiler.hpp"
 
 namespace tvbeam {
@@ -13,11 +14,29 @@ PiecewiseTape::PiecewiseTape(
     }
 }
 
-Eigen::ArrayXXd PiecewiseTape::at(const Eigen::ArrayXd& x, double t, bool late) const {
+std::size_t PiecewiseTape::phase_of(double t, bool late) const {
     std::size_t phase = 0;
     while (phase + 1 < ends_.size() && (t > ends_[phase] || (late && t == ends_[phase])))
         ++phase;
-    return tapes_[phase].evaluate(x, Eigen::ArrayXd::Constant(1, t));
+    return phase;
+}
+
+Eigen::ArrayXXd PiecewiseTape::at(const Eigen::ArrayXd& x, double t, bool late) const {
+    return tapes_[phase_of(t, late)].evaluate(x, Eigen::ArrayXd::Constant(1, t));
+}
+
+Eigen::ArrayXXd PiecewiseTape::at_all(const Eigen::ArrayXd& x, const Eigen::ArrayXd& times) const {
+    Eigen::ArrayXXd values(tapes_.front().output_count(), x.size() * times.size());
+    for (Eigen::Index first = 0, count = 0; first < times.size(); first += count) {
+        const std::size_t phase = phase_of(times(first), false);
+        count = 1;
+        while (first + count < times.size() && phase_of(times(first + count), false) == phase)
+            ++count;
+        const Points points = point_grid(x, times.segment(first, count));
+        values.middleCols(first * x.size(), points.x.size()) =
+            tapes_[phase].evaluate(points.x, points.t);
+    }
+    return values;
 }
 
 } // namespace tvbeam

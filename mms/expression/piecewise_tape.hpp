@@ -21,10 +21,16 @@ public:
     /// phase belongs to it; `late`: to the phase that begins there.
     [[nodiscard]] Eigen::ArrayXXd at(const Eigen::ArrayXd& x, double t, bool late = false) const;
 
+    /// At one time after the other, as in point_grid; none is late.
+    [[nodiscard]] Eigen::ArrayXXd at_all(const Eigen::ArrayXd& x,
+                                         const Eigen::ArrayXd& times) const;
+
     /// Those of one phase, at any time.
     [[nodiscard]] const Tape& of_phase(std::size_t phase) const { return tapes_[phase]; }
 
 private:
+    [[nodiscard]] std::size_t phase_of(double t, bool late) const;
+
     std::vector<double> ends_;
     std::vector<Tape> tapes_;
 };

@@ -1,8 +1,10 @@
 #include "mms/expression/tape.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cfenv>
 #include <cmath>
+#include <cstdint>
 #include <iterator>
 #include <stdexcept>
 #include <utility>
@@ -183,44 +185,123 @@ void Tape::repeat_what_left_range(const Eigen::ArrayXd& x, const Eigen::ArrayXd&
     }
 }
 
+namespace {
+
+/// The number of places where the points are all places of a grid at one time after the other, to
+/// the last bit; 0 where they are not.
+Eigen::Index places_of_grid(const Eigen::ArrayXd& x, const Eigen::ArrayXd& t) {
+    if (x.size() == 1 || t.size() == 1)
+        return x.size();
+    const auto same = [](double one, double other) {
+        return std::bit_cast<std::uint64_t>(one) == std::bit_cast<std::uint64_t>(other);
+    };
+    const auto is_first = [&](double at) { return same(at, t(0)); };
+    const auto places = std::ranges::find_if_not(t, is_first) - t.begin();
+    if (t.size() % places != 0)
+        return 0;
+    for (auto begin = places; begin < t.size(); begin += places)
+        if (!std::equal(x.begin(), x.begin() + places, x.begin() + begin, same) ||
+            !std::all_of(t.begin() + begin, t.begin() + begin + places,
+                         [&](double at) { return same(at, t(begin)); }))
+            return 0;
+    return places;
+}
+
+} // namespace
+
+template <typename Real>
+auto Tape::registers_of(Eigen::Index points) const -> Registers<Real> {
+    Registers<Real> registers(std::min(points, block_size), register_count_);
+    for (const Constant& constant : constants_)
+        registers.col(constant.target).setConstant(static_cast<Real>(constant.value));
+    return registers;
+}
+
+template <typename Real>
+void Tape::run_all(std::size_t begin, std::size_t end, Registers<Real>& registers,
+                   Eigen::Index size) const {
+    for (std::size_t i = begin; i < end; ++i)
+        run(instructions_[i], registers, size);
+}
+
+/// The outputs at so many points from a register's place, in the columns from `at`.
+template <typename Real>
+void Tape::store(const Registers<Real>& registers, Eigen::Index from, Eigen::Index size,
+                 Eigen::ArrayXXd& values, Eigen::Index at) const {
+    for (Eigen::Index k = 0; k < output_count(); ++k) {
+        const Real* const result =
+            registers.col(outputs_[static_cast<std::size_t>(k)]).data() + from;
+        double* target = values.data() + at * output_count() + k;
+        for (Eigen::Index i = 0; i < size; ++i, target += output_count())
+            *target = static_cast<double>(result[i]);
+    }
+}
+
 template <typename Real>
 void Tape::evaluate_in(const Eigen::ArrayXd& x, const Eigen::ArrayXd& t,
                        Eigen::ArrayXXd& values) const {
     const Eigen::Index points = values.cols();
-    const Eigen::Index rows = std::min(points, block_size);
-    Registers<Real> registers(rows, register_count_);
-    for (const Constant& constant : constants_)
-        registers.col(constant.target).setConstant(static_cast<Real>(constant.value));
-    if (x.size() == 1)
-        registers.col(0).setConstant(static_cast<Real>(x(0)));
-    const bool one_time = t.size() == 1;
-    if (one_time) {
-        registers(0, 1) = t(0);
-        for (std::size_t i = 0; i < time_only_count_; ++i)
-            run(instructions_[i], registers, 1);
-        for (const int persistent : persistent_)
-            registers.col(persistent).setConstant(Real(registers(0, persistent)));
+    if (const Eigen::Index places = places_of_grid(x, t); points > 1 && places > 0)
+        return evaluate_on_grid<Real>(
+            x.head(places), t.size() == 1 ? t : t(Eigen::seqN(0, points / places, places)), values);
+    auto registers = registers_of<Real>(points);
+    for (Eigen::Index begin = 0; begin < points; begin += registers.rows()) {
+        const Eigen::Index size = std::min(registers.rows(), points - begin);
+        registers.col(0).head(size) = x.segment(begin, size).cast<Real>();
+        registers.col(1).head(size) = t.segment(begin, size).cast<Real>();
+        run_all(0, instructions_.size(), registers, size);
+        store(registers, 0, size, values, begin);
     }
+}
 
-    for (Eigen::Index begin = 0; begin < points; begin += rows) {
-        const Eigen::Index size = std::min(rows, points - begin);
-        if (x.size() > 1)
-            registers.col(0).head(size) = x.segment(begin, size).cast<Real>();
-        if (!one_time)
-            registers.col(1).head(size) = t.segment(begin, size).cast<Real>();
-        for (std::size_t i = one_time ? time_only_count_ : 0; i < instructions_.size(); ++i)
-            run(instructions_[i], registers, size);
-        if (output_count() == 1)
-            std::transform(registers.col(outputs_.front()).data(),
-                           registers.col(outputs_.front()).data() + size, values.data() + begin,
-                           [](Real value) { return static_cast<double>(value); });
-        else
-            for (Eigen::Index k = 0; k < output_count(); ++k)
-                values.row(k).segment(begin, size) =
-                    registers.col(outputs_[static_cast<std::size_t>(k)])
-                        .head(size)
-                        .transpose()
-                        .template cast<double>();
+// Column of the place i at the time j: j · places + i.
+template <typename Real>
+void Tape::evaluate_on_grid(const Eigen::ArrayXd& places, const Eigen::ArrayXd& times,
+                            Eigen::ArrayXXd& values) const {
+    const Eigen::Index count = times.size();
+    auto registers = registers_of<Real>(values.cols());
+    const Eigen::Index rows = registers.rows();
+    const std::size_t of_both = time_only_count_ + place_only_count_;
+    Registers<Real> at_times(count, static_cast<Eigen::Index>(of_time_.size()));
+    for (Eigen::Index begin = 0; begin < count; begin += rows) {
+        const Eigen::Index size = std::min(rows, count - begin);
+        registers.col(1).head(size) = times.segment(begin, size).cast<Real>();
+        run_all(0, time_only_count_, registers, size);
+        for (std::size_t k = 0; k < of_time_.size(); ++k)
+            at_times.col(static_cast<Eigen::Index>(k)).segment(begin, size) =
+                registers.col(of_time_[k]).head(size);
+    }
+    for (Eigen::Index first = 0; first < places.size(); first += rows) {
+        const Eigen::Index width = std::min(rows, places.size() - first);
+        const Eigen::Index at_once = std::min(count, rows / width);
+        registers.col(0).head(width) = places.segment(first, width).cast<Real>();
+        run_all(time_only_count_, of_both, registers, width);
+        for (const int of_place : of_place_) {
+            Real* const value = registers.col(of_place).data();
+            if (width == 1)
+                std::fill_n(value, at_once, *value);
+            else
+                for (Eigen::Index j = 1; j < at_once; ++j)
+                    std::copy_n(value, width, value + j * width);
+        }
+        for (Eigen::Index time = 0; time < count; time += at_once) {
+            const Eigen::Index now = std::min(at_once, count - time);
+            for (std::size_t k = 0; k < of_time_.size(); ++k) {
+                const Real* const from = &at_times(time, static_cast<Eigen::Index>(k));
+                Real* const value = registers.col(of_time_[k]).data();
+                if (width == 1)
+                    std::copy_n(from, now, value);
+                else
+                    for (Eigen::Index j = 0; j < now; ++j)
+                        std::fill_n(value + j * width, width, from[j]);
+            }
+            run_all(of_both, instructions_.size(), registers, now * width);
+            if (width == places.size())
+                store(registers, 0, now * width, values, time * width);
+            else
+                for (Eigen::Index j = 0; j < now; ++j)
+                    store(registers, j * width, width, values, (time + j) * places.size() + first);
+        }
     }
 }
 
@@ -234,11 +315,15 @@ Tape Tape::only(const std::vector<Eigen::Index>& outputs) const {
         result.outputs_.push_back(outputs_.at(static_cast<std::size_t>(output)));
         needed[static_cast<std::size_t>(result.outputs_.back())] = true;
     }
+    const std::size_t of_both = time_only_count_ + place_only_count_;
     // Backwards: what is read later must have been written last before.
-    for (std::size_t i = instructions_.size(); i > 0; --i) {
-        if (i == time_only_count_)
-            std::copy_if(persistent_.begin(), persistent_.end(),
-                         std::back_inserter(result.persistent_), is_needed);
+    for (std::size_t i = instructions_.size();; --i) {
+        if (i == of_both) {
+            std::ranges::copy_if(of_time_, std::back_inserter(result.of_time_), is_needed);
+            std::ranges::copy_if(of_place_, std::back_inserter(result.of_place_), is_needed);
+        }
+        if (i == 0)
+            break;
         const Instruction& instruction = instructions_[i - 1];
         if (!is_needed(instruction.target))
             continue;
@@ -247,7 +332,10 @@ Tape Tape::only(const std::vector<Eigen::Index>& outputs) const {
         if (instruction.right >= 0)
             needed[static_cast<std::size_t>(instruction.right)] = true;
         result.instructions_.push_back(instruction);
-        result.time_only_count_ += i <= time_only_count_ ? 1 : 0;
+        if (i <= time_only_count_)
+            ++result.time_only_count_;
+        else if (i <= of_both)
+            ++result.place_only_count_;
     }
     std::reverse(result.instructions_.begin(), result.instructions_.end());
     std::copy_if(constants_.begin(), constants_.end(), std::back_inserter(result.constants_),

@@ -19,7 +19,9 @@ class Tape {
 public:
     /// The values of the expressions at the points (x_i, t_i); shape: one row an expression, one
     /// column a point. x and t have the same size, or one of them has size 1 and stands for every
-    /// point. A value depends on its point only, not on where in the array the point stands.
+    /// point. A value depends on its point only, not on where in the array the point stands. Where
+    /// the points are a grid, all its places at one time after the other, what depends on x or on t
+    /// alone is computed once for each.
     [[nodiscard]] Eigen::ArrayXXd evaluate(const Eigen::ArrayXd& x, const Eigen::ArrayXd& t) const;
 
     /// The same, each operation in long double: where large terms cancel, steps of rounding are
@@ -96,19 +98,32 @@ private:
     template <typename Real>
     void evaluate_in(const Eigen::ArrayXd& x, const Eigen::ArrayXd& t,
                      Eigen::ArrayXXd& values) const;
+    template <typename Real>
+    void evaluate_on_grid(const Eigen::ArrayXd& places, const Eigen::ArrayXd& times,
+                          Eigen::ArrayXXd& values) const;
+    template <typename Real>
+    [[nodiscard]] Registers<Real> registers_of(Eigen::Index points) const;
+    template <typename Real>
+    void run_all(std::size_t begin, std::size_t end, Registers<Real>& registers,
+                 Eigen::Index size) const;
+    template <typename Real>
+    void store(const Registers<Real>& registers, Eigen::Index from, Eigen::Index size,
+               Eigen::ArrayXXd& values, Eigen::Index at) const;
     void repeat_what_left_range(const Eigen::ArrayXd& x, const Eigen::ArrayXd& t,
                                 Eigen::Ref<Eigen::ArrayXXd> values) const;
     template <typename Real>
     [[nodiscard]] Enclosure enclose_in(Eigen::Index output, double x, double begin,
                                        double end) const;
 
-    // Registers 0 and 1 hold x and t. The instructions that do not need x come first: for many x at
-    // one time they run once. Registers in `persistent` are read by the rest and never written by
-    // it.
+    // Registers 0 and 1 hold x and t. The instructions that do not need x come first, then those
+    // that do not need t: at the points of a grid each runs once a time, or once a place. Registers
+    // in of_time_ and of_place_ are read by the rest, or are outputs, and never written by it.
     std::vector<Constant> constants_;
     std::vector<Instruction> instructions_;
     std::size_t time_only_count_ = 0;
-    std::vector<int> persistent_;
+    std::size_t place_only_count_ = 0;
+    std::vector<int> of_time_;
+    std::vector<int> of_place_;
     std::vector<int> outputs_; ///< the register of each expression's value
     int register_count_ = 2;
     bool wide_ = false; ///< computed in long double, whose range is 1e±4932

@@ -55,6 +55,7 @@ public:
     TapeCompiler() {
         values_.resize(2);
         values_[0].needs_x = true;
+        values_[1].needs_t = true;
     }
 
     Tape compile(const std::vector<ex>& expressions) {
@@ -93,6 +94,9 @@ private:
         int left = -1; ///< −1 for x, t and constants
         int right = -1;
         bool needs_x = false;
+        bool needs_t = false;
+
+        [[nodiscard]] bool needs_both() const { return needs_x && needs_t; }
     };
 
     static std::size_t index(int value) { return static_cast<std::size_t>(value); }
@@ -193,10 +197,11 @@ private:
         if (commutes && right < left)
             std::swap(left, right);
         const bool needs_x = a.needs_x || b.needs_x;
+        const bool needs_t = a.needs_t || b.needs_t;
         const auto [entry, is_new] =
             by_operation_.try_emplace({operation, left, right}, int(values_.size()));
         if (is_new)
-            values_.push_back({std::nullopt, operation, left, right, needs_x});
+            values_.push_back({std::nullopt, operation, left, right, needs_x, needs_t});
         return entry->second;
     }
 
@@ -323,12 +328,12 @@ private:
         return needed;
     }
 
-    /// The operations in an order in which their operands come first, those without x before all
-    /// others, and when each value is read.
+    /// The operations in an order in which their operands come first, those of t alone and then
+    /// those of x alone before all others, and when each value is read.
     struct Schedule {
         std::vector<int> order;
         std::vector<std::size_t> last_use; ///< place in the order; its size: an output
-        std::vector<bool> read_with_x;
+        std::vector<bool> read_with_both;  ///< by an operation of both x and t
 
         [[nodiscard]] bool is_output(std::size_t value) const {
             return last_use[value] == order.size();
@@ -340,9 +345,12 @@ private:
         Schedule result{{},
                         std::vector<std::size_t>(values_.size(), 0),
                         std::vector<bool>(values_.size(), false)};
-        for (const bool with_x : {false, true})
+        const auto group = [](const Value& value) {
+            return value.needs_both() ? 2 : value.needs_x ? 1 : 0;
+        };
+        for (const int wanted : {0, 1, 2})
             for (std::size_t i = 2; i < values_.size(); ++i)
-                if (needed[i] && !values_[i].constant && values_[i].needs_x == with_x)
+                if (needed[i] && !values_[i].constant && group(values_[i]) == wanted)
                     result.order.push_back(static_cast<int>(i));
         for (std::size_t at = 0; at < result.order.size(); ++at) {
             const Value& value = values_[index(result.order[at])];
@@ -350,8 +358,8 @@ private:
                 if (operand < 0)
                     continue;
                 result.last_use[index(operand)] = at;
-                if (value.needs_x)
-                    result.read_with_x[index(operand)] = true;
+                if (value.needs_both())
+                    result.read_with_both[index(operand)] = true;
             }
         }
         for (const int output : outputs)
@@ -359,10 +367,11 @@ private:
         return result;
     }
 
-    /// Whether a value is of t alone and read after the operations without x: its register is then
-    /// its own to the end, as a constant's is.
+    /// Whether a value is of t or of x alone and read after the operations of that one: its
+    /// register is then its own to the end, as a constant's is.
     [[nodiscard]] bool persists(std::size_t value, const Schedule& when) const {
-        return !values_[value].needs_x && (when.read_with_x[value] || when.is_output(value));
+        return !values_[value].needs_both() &&
+               (when.read_with_both[value] || when.is_output(value));
     }
 
     [[nodiscard]] Tape allocate(const std::vector<int>& outputs) const {
@@ -401,10 +410,12 @@ private:
                                           value.right < 0 ? -1 : registers[index(value.right)]});
             if (!value.needs_x)
                 ++tape.time_only_count_;
+            else if (!value.needs_t)
+                ++tape.place_only_count_;
         }
-        for (std::size_t i = 1; i < values_.size(); ++i)
+        for (std::size_t i = 0; i < values_.size(); ++i)
             if (registers[i] >= 0 && !values_[i].constant && persists(i, when))
-                tape.persistent_.push_back(registers[i]);
+                (values_[i].needs_x ? tape.of_place_ : tape.of_time_).push_back(registers[i]);
         for (const int output : outputs)
             tape.outputs_.push_back(registers[index(output)]);
         return tape;

@@ -112,6 +112,7 @@ BOOST_AUTO_TEST_CASE(chosen_expressions_keep_their_values_and_what_they_need) {
         expressions.push_back(parsed(formula));
     expressions.push_back(parsed("exp(t)"));
     expressions.push_back(parsed("3"));
+    expressions.push_back(parsed("cos(x)"));
     const Tape all = compile_tape(expressions);
     const ArrayXd x = random_array(300, 0.05, 1.0, 3);
     const ArrayXd t = random_array(300, 0.05, 2.0, 4);
@@ -150,6 +151,54 @@ BOOST_AUTO_TEST_CASE(a_value_does_not_depend_on_its_place_in_the_array) {
         BOOST_TEST((over_x.col(i) == tape.evaluate(point, one).col(0)).all());
         BOOST_TEST((over_t.col(i) == tape.evaluate(one, point).col(0)).all());
     }
+}
+
+/// Whether the values of one tape are, at these points, those that it has at them in reverse order,
+/// which is no grid that starts with a place.
+void require_values_of_points(const Tape& tape, const ArrayXd& x, const ArrayXd& t) {
+    const ArrayXd extra = ArrayXd::LinSpaced(x.size(), 0.3, 0.4);
+    ArrayXd mixed_x(2 * x.size());
+    ArrayXd mixed_t(2 * x.size());
+    mixed_x << x.reverse(), extra;
+    mixed_t << t.reverse(), extra.reverse();
+    const Eigen::ArrayXXd expected = tape.evaluate(mixed_x, mixed_t).leftCols(x.size());
+    BOOST_TEST((tape.evaluate(x, t) == expected.rowwise().reverse()).all());
+}
+
+// Fewer points than a block and more, blocks that hold several times and parts of one; and what is
+// no grid but for one place, or one time.
+BOOST_AUTO_TEST_CASE(points_of_a_grid_have_the_values_that_they_have_alone) {
+    std::vector<GiNaC::ex> expressions;
+    expressions.reserve(formulas.size() + 1);
+    for (const std::string& formula : formulas)
+        expressions.push_back(parsed(formula));
+    expressions.push_back(parsed("sin(x) + cos(2*x)"));
+    for (const Tape& tape : {compile_tape(expressions), compile_tape({parsed("x*sin(x*t)")}),
+                             compile_tape({parsed("x^2")}), compile_tape({parsed("t^2")})})
+        for (const Eigen::Index places : {1, 2, 9, 127, 128, 129, 300})
+            for (const Eigen::Index times : {1, 2, 9, 150}) {
+                const ArrayXd x = random_array(places, 0.05, 1.0, 5).replicate(times, 1);
+                const ArrayXd t =
+                    random_array(times, 0.05, 2.0, 6).transpose().replicate(places, 1).reshaped();
+                require_values_of_points(tape, x, t);
+                for (const Eigen::Index moved : {Eigen::Index{0}, x.size() / 2, x.size() - 1}) {
+                    ArrayXd other = x;
+                    other(moved) = 0.5;
+                    require_values_of_points(tape, other, t);
+                    other = t;
+                    other(moved) = 0.5;
+                    require_values_of_points(tape, x, other);
+                }
+            }
+}
+
+// Without any operation of t alone, too.
+BOOST_AUTO_TEST_CASE(a_chosen_expression_of_both_has_its_values_at_one_time) {
+    const Tape all = compile_tape({parsed("sin(x*t)"), parsed("x*t^2*cos(x*t)")});
+    const ArrayXd x = random_array(300, 0.05, 1.0, 7);
+    const ArrayXd t = ArrayXd::Constant(1, 0.7);
+    for (const Eigen::Index k : {0, 1})
+        BOOST_TEST((all.only({k}).evaluate(x, t).row(0) == all.evaluate(x, t).row(k)).all());
 }
 
 BOOST_AUTO_TEST_CASE(no_points_give_no_values) {
