@@ -1,15 +1,19 @@
 #pragma once
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
 
 namespace tvbeam {
 
 /// β of a difference that goes to zero like s^β as s does, when that is below 1: from 1e-12 and
 /// 1e-10 of a length. It must not be less at 1e-8, as beside a layer, to which the slope is finite;
-/// more it may be, where what is smooth is large. Infinite when it is not below 1, or when the
-/// difference is rounding of the size. difference: at a distance s > 0, absolute.
+/// more it may be, where what is smooth is large: of c s^β + d s the three give β itself. Infinite
+/// when it is not below 1, or when the difference is rounding of the size. difference: at a
+/// distance s > 0, absolute.
 template <typename Difference>
 double power_below_one(const Difference& difference, double length, double size) {
     constexpr double ratio = 100;
@@ -26,7 +30,16 @@ double power_below_one(const Difference& difference, double length, double size)
     const double beta_further = std::log(far / further) / std::log(ratio);
     const bool is_power = near > rounding * size && beta > nearly_zero && beta < nearly_one &&
                           beta_further > beta - std::min(same, 0.5 * beta);
-    return is_power ? beta : std::numeric_limits<double>::infinity();
+    if (!is_power)
+        return std::numeric_limits<double>::infinity();
+    const double without_smooth =
+        std::log((far - ratio * further) / (further - ratio * near)) / std::log(ratio);
+    return std::abs(without_smooth - beta) < same ? without_smooth : beta;
+}
+
+/// To a hundredth, as it is known: "0.67".
+inline std::string local_power_text(double power) {
+    return fmt::format("{:g}", 0.01 * std::round(100.0 * power));
 }
 
 } // namespace tvbeam

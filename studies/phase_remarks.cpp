@@ -298,12 +298,12 @@ TimedRemark remark(const Scene& scene, const RateJump& jump, const Orders& order
 
 TimedRemark cusp_remark(double power, const Costly& costly, const Break& at) {
     const std::string slope =
-        fmt::format("a rate has an infinite slope, like s^{:.3g}, s the time to it: errors that it "
-                    "enters have a part of the order {:.3g} in dt, which changes with its place in "
+        fmt::format("a rate has an infinite slope, like s^{}, s the time to it: errors that it "
+                    "enters have a part of the order {} in dt, which changes with its place in "
                     "the step.",
-                    power, 1.0 + power);
-    return {fmt::format("{:.2f} {}", power, steps_text(costly.inside)), message_text(at.t),
-            at.text() + slope};
+                    local_power_text(power), local_power_text(1.0 + power));
+    return {fmt::format("{} {}", local_power_text(power), steps_text(costly.inside)),
+            message_text(at.t), at.text() + slope};
 }
 
 } // namespace

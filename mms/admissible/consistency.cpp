@@ -241,16 +241,22 @@ bool has_levels_of(std::int64_t finer, std::int64_t coarse) {
 
 } // namespace
 
+/// So many steps at a time stay in the cache.
+constexpr Index steps_at_once = 64;
+
 /// θ̃ over x and, below it, u_xx, column by column at the levels or stages of all steps.
 struct StepStates {
     Eigen::ArrayXXd values, rates; ///< shape of each: twice the points × levels
 
     StepStates(const PiecewiseTape& tape, const ArrayXd& x, const ArrayXd& times)
         : values(2 * x.size(), times.size()), rates(2 * x.size(), times.size()) {
-        const Eigen::ArrayXXd all = tape.at_all(x, times);
-        const auto row = [&](Index k) { return all.row(k).reshaped(x.size(), times.size()); };
-        values << row(theta), row(u_xx);
-        rates << row(theta_t), row(u_xxt);
+        for (Index first = 0; first < times.size(); first += steps_at_once) {
+            const Index count = std::min(steps_at_once, times.size() - first);
+            const Eigen::ArrayXXd all = tape.at_all(x, times.segment(first, count));
+            const auto row = [&](Index k) { return all.row(k).reshaped(x.size(), count); };
+            values.middleCols(first, count) << row(theta), row(u_xx);
+            rates.middleCols(first, count) << row(theta_t), row(u_xxt);
+        }
     }
 };
 
@@ -258,49 +264,48 @@ namespace {
 
 /// The levels of so many steps, or of a multiple of them.
 class Steps {
-    /// The columns of the ends of the steps from this one on.
-    [[nodiscard]] auto ends(Index step) const {
-        return Eigen::seqN(step * stride_, steps_ - step + 1, stride_);
-    }
-
 public:
     Steps(const PiecewiseTape& tape, const ArrayXd& x, const StepStates& levels, double final_time,
           std::int64_t steps)
         : tape_(tape), x_(x), final_time_(final_time), steps_(steps),
           stride_((levels.values.cols() - 1) / steps), levels_(levels) {}
 
-    /// Those of θ̃ and u_xx at the ends of the steps, the start left out.
-    [[nodiscard]] Eigen::ArrayXXd values() const { return levels_.values(Eigen::all, ends(1)); }
+    /// θ̃ and u_xx at the ends of so many steps from this one on.
+    [[nodiscard]] Eigen::ArrayXXd values(Index first, Index count) const {
+        return levels_.values(Eigen::all, ends(first, count));
+    }
 
-    /// The defects of both in the steps that the scheme does not leave to its starter; shape:
-    /// StepStates::values's rows × these steps.
-    [[nodiscard]] Eigen::ArrayXXd defects(const TimeScheme& scheme) const {
+    /// The defects of both in these steps, none of which the scheme leaves to its starter.
+    [[nodiscard]] Eigen::ArrayXXd defects(const TimeScheme& scheme, Index first,
+                                          Index count) const {
         const double dt = final_time_ / static_cast<double>(steps_);
-        const auto history = static_cast<Index>(scheme.history);
-        const Index count = steps_ - history;
-        const Eigen::ArrayXXd differences =
-            levels_.values(Eigen::all, ends(1)) -
-            levels_.values(Eigen::all, Eigen::seqN(0, steps_, stride_));
+        const auto difference = [&](Index step) -> Eigen::ArrayXXd {
+            return values(step, count) - values(step - 1, count);
+        };
         std::vector<Eigen::ArrayXXd> increments;
-        for (Index j = 1; j <= history; ++j)
-            increments.emplace_back(differences.middleCols(history - j, count));
+        for (Index j = 1; j <= scheme.history; ++j)
+            increments.push_back(difference(first - j));
         for (const Stage& stage : scheme.stages) {
-            Eigen::ArrayXXd increment = dt / stage.leading * rates(history + 1, stage.fraction);
+            Eigen::ArrayXXd increment = dt / stage.leading * rates(first, count, stage.fraction);
             for (std::size_t j = 0; j < stage.weights.size(); ++j)
                 increment += stage.weights[j] * increments[j];
             increments.push_back(std::move(increment));
         }
-        return scheme.stages.back().leading / dt *
-               (increments.back() - differences.rightCols(count));
+        return scheme.stages.back().leading / dt * (increments.back() - difference(first));
     }
 
 private:
-    /// In a stage of the steps from this one on.
-    [[nodiscard]] Eigen::ArrayXXd rates(Index first, double fraction) const {
+    [[nodiscard]] Eigen::ArithmeticSequence<Index, Index, Index> ends(Index first,
+                                                                      Index count) const {
+        return Eigen::seqN(first * stride_, count, stride_);
+    }
+
+    /// In a stage of these steps.
+    [[nodiscard]] Eigen::ArrayXXd rates(Index first, Index count, double fraction) const {
         if (fraction == 1.0)
-            return levels_.rates(Eigen::all, ends(first));
-        ArrayXd times(steps_ - first + 1);
-        for (Index k = 0; k < times.size(); ++k)
+            return levels_.rates(Eigen::all, ends(first, count));
+        ArrayXd times(count);
+        for (Index k = 0; k < count; ++k)
             times(k) =
                 level_time(final_time_, static_cast<double>(first + k) - (1.0 - fraction), steps_);
         return StepStates(tape_, x_, times).rates;
@@ -316,6 +321,32 @@ private:
 double norm(const GaussRule& rule, const ArrayXd& values) {
     return scaled_norm(
         values, [&](const ArrayXd& one) { return std::sqrt((rule.weights * one.square()).sum()); });
+}
+
+/// Of the defects of several steps, one a column.
+Sizes largest_norms(const GaussRule& rule, const Beam& beam, const Eigen::ArrayXXd& defects) {
+    const Index points = rule.points.size();
+    Sizes largest;
+    for (const auto& defect : defects.colwise()) {
+        const ArrayXd of_beam = defect.tail(points);
+        largest.heat =
+            std::max(largest.heat, norm(rule, defect.head(points) - beam.alpha * of_beam));
+        largest.beam = std::max(largest.beam, beam.zeta * norm(rule, of_beam));
+    }
+    return largest;
+}
+
+/// What they are differences of.
+Sizes largest_terms(const Beam& beam, const Eigen::ArrayXXd& values) {
+    const Index points = values.rows() / 2;
+    Sizes largest;
+    for (const auto& at_level : values.colwise()) {
+        const double of_beam = at_level.tail(points).abs().maxCoeff();
+        largest.heat =
+            std::max(largest.heat, at_level.head(points).abs().maxCoeff() + beam.alpha * of_beam);
+        largest.beam = std::max(largest.beam, beam.zeta * of_beam);
+    }
+    return largest;
 }
 
 } // namespace
@@ -405,20 +436,15 @@ std::vector<Residual> TimeResiduals::of(const std::string& scheme) const {
         const auto known = std::ranges::find_if(
             levels_, [&](const auto& one) { return has_levels_of(one.first, count); });
         const Steps exact(*exact_, rule_.points, *known->second, final_time_, count);
-        const Index points = rule_.points.size();
-        const Eigen::ArrayXXd defects = exact.defects(method);
-        for (const auto& defect : defects.colwise()) {
-            const ArrayXd of_beam = defect.tail(points);
-            residual.heat =
-                std::max(residual.heat, norm(rule_, defect.head(points) - beam_.alpha * of_beam));
-            residual.beam = std::max(residual.beam, beam_.zeta * norm(rule_, of_beam));
-        }
-        const Eigen::ArrayXXd levels = exact.values();
-        for (const auto& values : levels.colwise()) {
-            const double of_beam = values.tail(points).abs().maxCoeff();
-            size.heat = std::max(
-                size.heat, (values.head(points).abs().maxCoeff() + beam_.alpha * of_beam) / dt);
-            size.beam = std::max(size.beam, beam_.zeta * of_beam / dt);
+        for (Index first = 1 + method.history; first <= count; first += steps_at_once) {
+            const Index now = std::min(steps_at_once, count - first + 1);
+            const auto [heat, beam] =
+                largest_norms(rule_, beam_, exact.defects(method, first, now));
+            residual.heat = std::max(residual.heat, heat);
+            residual.beam = std::max(residual.beam, beam);
+            const Sizes sizes = largest_terms(beam_, exact.values(first, now));
+            size.heat = std::max(size.heat, sizes.heat / dt);
+            size.beam = std::max(size.beam, sizes.beam / dt);
         }
         result.push_back(residual);
         terms.push_back(size);

@@ -1,6 +1,7 @@
 #include "mms/forecast/order_reasons.hpp"
 
 #include "mms/contact_history.hpp"
+#include "mms/local_power.hpp"
 #include "mms/text/number_text.hpp"
 #include "mms/text/timed_remarks.hpp"
 
@@ -211,15 +212,15 @@ void add_cusp_reasons(const ExpectedOrders& known, const Beam& beam,
                 !std::isinf(power)) {
                 const std::string time = number_text(cusp.t);
                 const std::string slope = fmt::format(
-                    "{} has an infinite slope, like s^{:.3g}, s the time to it: BDF2 and SDIRK2 "
-                    "have the order {:.3g} in dt{}. Norms with a maximum over time may show it "
+                    "{} has an infinite slope, like s^{}, s the time to it: BDF2 and SDIRK2 "
+                    "have the order {} in dt{}. Norms with a maximum over time may show it "
                     "late.{}",
-                    of_theta ? heat_rate(beam) : "u_xxt", power, 1.0 + power,
-                    in_field(beam, of_theta), cusp.is_within_phase ? within_a_phase : "");
-                // Powers are known to about a hundredth.
-                remarks.push_back(
-                    {fmt::format("{} {:.2f} {}", of_theta, power, cusp.is_within_phase), time,
-                     fmt::format("at t = {} {}", time, slope)});
+                    of_theta ? heat_rate(beam) : "u_xxt", local_power_text(power),
+                    local_power_text(1.0 + power), in_field(beam, of_theta),
+                    cusp.is_within_phase ? within_a_phase : "");
+                remarks.push_back({fmt::format("{} {} {}", of_theta, local_power_text(power),
+                                               cusp.is_within_phase),
+                                   time, fmt::format("at t = {} {}", time, slope)});
             }
     std::ranges::copy(told(remarks), std::back_inserter(text));
 }

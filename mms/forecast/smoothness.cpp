@@ -276,8 +276,8 @@ std::optional<RoughEnd> find_rough_end(const DerivedSolution& derived, double fi
 }
 
 std::string words_of(const RoughEnd& end) {
-    return fmt::format("u_xxx goes to its value at x = {} like s^{:.3g}", number_text(end.x),
-                       end.power);
+    return fmt::format("u_xxx goes to its value at x = {} like s^{}", number_text(end.x),
+                       local_power_text(end.power));
 }
 
 std::string words_of(const Kink& kink) {

@@ -565,6 +565,24 @@ BOOST_AUTO_TEST_CASE(the_crossing_is_where_the_terms_are_equal) {
     BOOST_TEST(!forecast(adding, ladder({1, 3}, 1)).cancellation.has_value());
 }
 
+// A = h², B = 256 Δt² cross where h = 16 Δt: with Δt = h² at h = 1/16, Δt = 1/256, and where h
+// stays at 1/16, at that Δt.
+BOOST_AUTO_TEST_CASE(the_crossing_has_the_widths_that_the_ladder_has_there) {
+    const TwoTermModel model{.a = 1, .p = 2, .b = 256, .q = 2, .rho = -0.9};
+    std::vector<Refinement> parabolic;
+    std::vector<Refinement> in_time;
+    for (const double h : {1.0 / 5, 1.0 / 10, 1.0 / 20, 1.0 / 40}) {
+        parabolic.push_back({.h = h, .dt = h * h});
+        in_time.push_back({.h = 1.0 / 16, .dt = h / 10});
+    }
+    for (const auto& rows : {parabolic, in_time}) {
+        const auto view = forecast(model, rows);
+        BOOST_REQUIRE(view.cancellation.has_value());
+        BOOST_TEST(view.cancellation->h == 1.0 / 16, boost::test_tools::tolerance(1e-12));
+        BOOST_TEST(view.cancellation->dt == 1.0 / 256, boost::test_tools::tolerance(1e-12));
+    }
+}
+
 // With ρ = 0 and A/B = t the order of a row is (2t² + 1)/(t² + 1) = 1 + t²/(1 + t²) in the limit of
 // small ratios. It is within a tenth of 1 for t < 1/3. Δt = h: t = 16 h, so from h = 1/48 on.
 BOOST_AUTO_TEST_CASE(the_asymptotic_order_shows_from_where_the_algebra_says) {

@@ -147,6 +147,23 @@ BOOST_AUTO_TEST_CASE(orders_that_agree_on_their_way_to_another_one_are_not_asymp
     BOOST_TEST(word(judge(ladder, {.expected_order = 1.15, .order = &open})) != "pppppp");
 }
 
+// What is left out leaves the others their deviations.
+BOOST_AUTO_TEST_CASE(a_row_that_is_not_resolved_does_not_move_the_deviations_of_others) {
+    const std::vector<double> errors{1.0, 0.26, 0.06, 0.0157, 0.0039};
+    const std::vector<double> sigma{0.5, 0.01, 1e-3, 1e-4, 1e-5};
+    std::vector<Refinement> ladder;
+    for (std::size_t k = 0; k < errors.size(); ++k)
+        ladder.push_back({.h = std::exp2(-static_cast<double>(k)), .error = errors[k]});
+    ladder.front().uncertainty = 1.0;
+    BOOST_REQUIRE(!ladder.front().is_resolved());
+    const OrderInterval all = order_along(ladder, sigma).order;
+    const OrderInterval rest =
+        order_along(std::span(ladder).subspan(1), std::span(sigma).subspan(1)).order;
+    BOOST_REQUIRE(rest.determined);
+    BOOST_TEST(all.low == rest.low);
+    BOOST_TEST(all.high == rest.high);
+}
+
 BOOST_AUTO_TEST_CASE(each_row_of_the_window_shows_the_order_that_all_levels_determine) {
     const OrderInterval order{.value = 2.0, .low = 1.95, .high = 2.05, .determined = true};
     // 1.79 agrees with the orders beside it and with their mean, and not with 2.00.

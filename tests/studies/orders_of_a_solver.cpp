@@ -120,6 +120,19 @@ BOOST_AUTO_TEST_CASE(a_run_that_throws_is_one_that_failed_and_keeps_its_reason) 
     BOOST_TEST(std::isfinite(second.records[3].error));
 }
 
+BOOST_AUTO_TEST_CASE(an_error_that_the_first_run_does_not_give_is_analysed) {
+    const auto fails_first = [](double h, double dt) -> Errors {
+        if (dt == 1.0 / 8)
+            throw std::runtime_error("no step is that long");
+        return ordinary(h, dt);
+    };
+    const SolverAnalysis analysis = analyse(fails_first, steps(8, 6));
+    BOOST_REQUIRE(analysis.errors.contains("midpoint"));
+    const RecordAnalysis& found = analysis.errors.at("midpoint");
+    BOOST_TEST(std::isnan(found.records.front().error));
+    BOOST_TEST(std::abs(found.along.order.value - 2.0) <= found.along.order.half_width());
+}
+
 // A method with a defect: what must not pass for convergence.
 BOOST_AUTO_TEST_CASE(an_error_that_stands_still_is_not_asymptotic) {
     const auto stuck = [](double h, double dt) -> Errors {
