@@ -11,8 +11,13 @@ struct Points {
 
 /// All places at one time after the other: the place i at the time j is point j · places + i.
 inline Points point_grid(const Eigen::ArrayXd& places, const Eigen::ArrayXd& times) {
-    return {places.replicate(times.size(), 1),
-            times.transpose().replicate(places.size(), 1).reshaped()};
+    const Eigen::Index count = places.size();
+    Points points{Eigen::ArrayXd(count * times.size()), Eigen::ArrayXd(count * times.size())};
+    for (Eigen::Index j = 0; j < times.size(); ++j) {
+        points.x.segment(j * count, count) = places;
+        points.t.segment(j * count, count).setConstant(times(j));
+    }
+    return points;
 }
 
 } // namespace tvbeam

@@ -26,15 +26,18 @@ Eigen::ArrayXXd PiecewiseTape::at(const Eigen::ArrayXd& x, double t, bool late) 
 }
 
 Eigen::ArrayXXd PiecewiseTape::at_all(const Eigen::ArrayXd& x, const Eigen::ArrayXd& times) const {
-    Eigen::ArrayXXd values(tapes_.front().output_count(), x.size() * times.size());
+    Eigen::ArrayXXd values;
     for (Eigen::Index first = 0, count = 0; first < times.size(); first += count) {
         const std::size_t phase = phase_of(times(first), false);
         count = 1;
         while (first + count < times.size() && phase_of(times(first + count), false) == phase)
             ++count;
         const Points points = point_grid(x, times.segment(first, count));
-        values.middleCols(first * x.size(), points.x.size()) =
-            tapes_[phase].evaluate(points.x, points.t);
+        Eigen::ArrayXXd of_phase = tapes_[phase].evaluate(points.x, points.t);
+        if (count == times.size())
+            return of_phase;
+        values.resize(of_phase.rows(), x.size() * times.size()); // nothing, but at first
+        values.middleCols(first * x.size(), points.x.size()) = of_phase;
     }
     return values;
 }
