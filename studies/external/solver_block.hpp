@@ -1,7 +1,7 @@
 #pragma once
 
+#include "studies/external/figure_source.hpp"
 #include "studies/external/placeholders.hpp"
-#include "studies/external/readings.hpp"
 #include "studies/scene/study_keys.hpp"
 
 #include <filesystem>

@@ -11,7 +11,7 @@ namespace {
 
 using Entries = std::vector<KeyEntry>;
 
-constexpr const char* required = "required";
+constexpr const char* must_be_given = "required";
 
 Entries of_expectations() {
     return {
@@ -158,11 +158,13 @@ Entries of_expectations() {
          "as in [expect.ladder.NORM]"},
         {"expect.work_precision.sooner", KeyType::tables, "anything",
          "how much sooner one scheme reaches an error than another"},
-        {"expect.work_precision.sooner.norm", KeyType::text, required, "of which the error is"},
-        {"expect.work_precision.sooner.error", KeyType::number, required,
+        {"expect.work_precision.sooner.norm", KeyType::text, must_be_given,
+         "of which the error is"},
+        {"expect.work_precision.sooner.error", KeyType::number, must_be_given,
          "that both reach: a power of ten, or one of the targets"},
-        {"expect.work_precision.sooner.faster", KeyType::text, required, "the name of a scheme"},
-        {"expect.work_precision.sooner.slower", KeyType::text, required, "of another"},
+        {"expect.work_precision.sooner.faster", KeyType::text, must_be_given,
+         "the name of a scheme"},
+        {"expect.work_precision.sooner.slower", KeyType::text, must_be_given, "of another"},
         {"expect.work_precision.sooner.ratio", KeyType::band, "anything",
          "of the time of slower over that of faster"},
         {"expect.work_precision.sooner.distinguishable", KeyType::flag, "anything",
@@ -245,7 +247,7 @@ Entries of_what_is_refused() {
          "the keys that are changed: \"KEY=VALUE\""},
         {"expect.refused.solution", KeyType::text, "the scene's",
          "the text of a solution that stands in its place"},
-        {"expect.refused.says", KeyType::texts, required,
+        {"expect.refused.says", KeyType::texts, must_be_given,
          "words that the message holds, all of them"},
     };
 }
@@ -254,7 +256,7 @@ Entries of_what_is_analysed() {
     return {
         {"expect.analyse", KeyType::tables, "anything",
          "tables of anyone's errors or values, and what `tvbeam analyse` finds in them"},
-        {"expect.analyse.file", KeyType::text, required, "the table, relative to the scene"},
+        {"expect.analyse.file", KeyType::text, must_be_given, "the table, relative to the scene"},
         {"expect.analyse.size", KeyType::texts, "h or elements",
          "columns of mesh widths, or of numbers of cells, unknowns, ..."},
         {"expect.analyse.dimension", KeyType::number, "sizes are widths",
@@ -268,7 +270,7 @@ Entries of_what_is_analysed() {
         {"expect.analyse.where", KeyType::texts, "all rows",
          "only rows whose column has this text or number: \"scheme=Euler\"; \"seed=*\": rows "
          "that the column tells apart are one series"},
-        {"expect.analyse.holds", KeyType::text, required,
+        {"expect.analyse.holds", KeyType::text, must_be_given,
          "what is expected of the columns, as `tvbeam analyse --expect` takes it: \"L2.order = "
          "[1.9, 2.1]\""},
     };
@@ -296,7 +298,7 @@ Entries of_commands() {
     return {
         {"expect.commands", KeyType::tables, "anything",
          "commands of tvbeam, one after the other in one directory, which is empty at first"},
-        {"expect.commands.run", KeyType::texts, required, "the words that follow tvbeam"},
+        {"expect.commands.run", KeyType::texts, must_be_given, "the words that follow tvbeam"},
         {"expect.commands.files", KeyType::table, "none", "what is written there before"},
         {"expect.commands.files.NAME", KeyType::text, "", "the text of the file"},
         {"expect.commands.exit", KeyType::integer, "0", "the code that it ends with"},

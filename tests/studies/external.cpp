@@ -2,11 +2,11 @@
 // how they are ended, and what knows a run again.
 
 #include "studies/external/external_runs.hpp"
+#include "studies/external/figure_source.hpp"
 #include "studies/external/keeper.hpp"
 #include "studies/external/output.hpp"
 #include "studies/external/placeholders.hpp"
 #include "studies/external/process.hpp"
-#include "studies/external/readings.hpp"
 #include "studies/ladder/ladder.hpp"
 #include "studies/scene/scene.hpp"
 #include "studies/study.hpp"

@@ -1,23 +1,13 @@
-/// How numbers are read of what a program wrote.
 #pragma once
 
 #include "mms/text/input_error.hpp"
-#include "studies/data/printed_digits.hpp"
+#include "studies/external/read_figure.hpp"
 
-#include <filesystem>
 #include <optional>
 #include <regex>
 #include <string>
-#include <vector>
 
 namespace tvbeam {
-
-/// A number that was read, or why there is none.
-struct ReadFigure {
-    std::optional<double> value; ///< finite
-    std::string failure;         ///< e.g. "L2 is nan"
-    PrintedDigits printed = {};
-};
 
 /// A regular expression (ECMAScript, without back references) with one group, for lines of standard
 /// output.
@@ -49,18 +39,5 @@ private:
     std::string power_of_ten_;  ///< likewise, as a factor
     std::string begins_before_; ///< likewise, where it leaves its first part out
 };
-
-/// Where numbers are read by their names: on standard output, or in a file in the directory of the
-/// run, an object of JSON or the last row of a CSV file with a header.
-struct FigureSource {
-    std::vector<OutputPattern> patterns = {};
-    std::string file = {}; ///< *.json or *.csv; then any name may be in it
-
-    [[nodiscard]] bool is_file() const { return !file.empty(); }
-    [[nodiscard]] const OutputPattern* pattern(const std::string& name) const;
-};
-
-/// The number of a name in such a file.
-ReadFigure figure_in(const std::filesystem::path& file, const std::string& name);
 
 } // namespace tvbeam
