@@ -256,8 +256,10 @@ private:
         const double inwards = t == phase.begin ? 1.0 : -1.0;
         const double at_end = value(phase, t, row);
         const double beta = power_below_one(
-            [&](double s) { return std::abs(value(phase, t + inwards * s, row) - at_end); },
-            phase.end - phase.begin, size);
+            [&](double s) -> ArrayXd {
+                return ArrayXd::Constant(1, value(phase, t + inwards * s, row) - at_end);
+            },
+            t, phase.end - phase.begin, size);
         return std::min(beta, 1.0);
     }
 

@@ -37,8 +37,9 @@ ArrayXd times_of(const CloseLook& span) {
     return Eigen::Map<const ArrayXd>(times.data(), static_cast<Index>(times.size()));
 }
 
-/// The fractional parts of the multiples of the golden ratio stay apart from one another; times at
-/// so much of the way between two are no zeros of a sine.
+/// Points of which no two have the same x or t: the fractional parts of the multiples of the golden
+/// ratio stay apart from one another, and times at so much of the way between two are no zeros of a
+/// sine.
 Points scattered(const CloseLook& x, const CloseLook& t) {
     constexpr Index count = 2048;
     constexpr double golden_ratio = 0.6180339887498949;

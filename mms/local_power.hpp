@@ -1,53 +1,56 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <string>
 
 namespace tvbeam {
 
-/// β of a difference that goes to zero like s^β as s does, when that is below 1: from 1e-12 and
-/// 1e-10 of a length. It must not be less at 1e-8, as beside a layer, to which the slope is finite;
-/// more it may be, where what is smooth is large. Of c s^β + d s three give β itself, and where d
-/// makes it less, it must be the same of another three. Infinite when it is not below 1, or when
-/// the difference is rounding of the size. difference: at a distance s > 0, absolute.
+/// β of differences c s^β + d s, when that is below 1: from five distances s, each ten times the
+/// one before, the nearest 1e-12 of a length, or a thousand steps of rounding of the place `at`
+/// that they are taken from. What is left of two neighbours without d, v(10 s) − 10 v(s), is c s^β
+/// (10^β − 10); the three ratios of these must give the same β. Infinite where they do not, as
+/// beside a layer, however thin, where β is not below 1, or where the rest is rounding of the size.
+/// difference: at a distance s > 0 with which at ± s is exact, at one or more places. They are
+/// looked at where the nearest two leave most.
 template <typename Difference>
-double power_below_one(const Difference& difference, double length, double size) {
-    constexpr double ratio = 100;
-    constexpr double nearest = 1e-12; // of the length
-    constexpr double rounding =
-        1e-12; // of the size; what is smooth is nearest · length · its slope
+double power_below_one(const Difference& difference, double at, double length, double size) {
+    constexpr double nearest = 1e-12;     // of the length
+    constexpr double most_rounded = 1e-3; // of the distance
+    constexpr double rounding = 1e-12;    // of the size
+    constexpr double nearly_zero = 5e-3;  // where the value at zero is another one than the limit
     constexpr double nearly_one = 0.95;
-    constexpr double same = 0.05;
-    constexpr double nearly_zero = 1e-3; // where the value at zero is another one than the limit
-    const auto allowed = [&](double beta) { return std::min(same, 0.5 * beta); };
-    const auto is_below_one = [](double beta) { return beta > nearly_zero && beta < nearly_one; };
-    const double near = difference(nearest * length);
-    const double further = difference(nearest * ratio * length);
-    const double far = difference(nearest * ratio * ratio * length);
-    const double beta = std::log(further / near) / std::log(ratio);
-    const double beta_further = std::log(far / further) / std::log(ratio);
-    if (!(near > rounding * size) || !is_below_one(beta))
-        return std::numeric_limits<double>::infinity();
-    // c s^β + d s at distances of one ratio r: without the latter, c s^β (r^β − r).
-    const auto without_slope = [](double one, double next, double last, double apart) {
-        return std::log((last - apart * next) / (next - apart * one)) / std::log(apart);
-    };
-    if (beta_further > beta - allowed(beta)) {
-        const double exact = without_slope(near, further, far, ratio);
-        return std::abs(exact - beta) < same ? exact : beta;
+    constexpr double same = 2e-3;
+    constexpr std::size_t count = 5;
+    const double infinity = std::numeric_limits<double>::infinity();
+    const double step = std::numeric_limits<double>::epsilon() * std::abs(at);
+    std::array<double, count> distance{};
+    std::array<Eigen::ArrayXd, count> found;
+    for (std::size_t k = 0; k < count; ++k) {
+        const double s = std::max(nearest * length, step / most_rounded) * std::pow(10.0, k);
+        distance[k] = (at + s) - at;
+        found[k] = difference(distance[k]);
     }
-    constexpr double closer = 10;
-    const double between = difference(nearest * closer * length);
-    const double beyond = difference(nearest * closer * ratio * length);
-    const double exact = without_slope(near, between, further, closer);
-    const double same_further = without_slope(between, further, beyond, closer);
-    const bool is_power = std::abs(between - closer * near) > rounding * size &&
-                          is_below_one(exact) && std::abs(same_further - exact) < allowed(exact);
-    return is_power ? exact : std::numeric_limits<double>::infinity();
+    const auto rest = [&](std::size_t k) -> Eigen::ArrayXd {
+        return found[k + 1] - distance[k + 1] / distance[k] * found[k];
+    };
+    Eigen::Index place = 0;
+    if (!(rest(0).abs().maxCoeff(&place) > rounding * size))
+        return infinity;
+    const auto beta = [&](std::size_t k) {
+        return std::log(rest(k + 1)(place) / rest(k)(place)) / std::log(10.0);
+    };
+    const double result = beta(0);
+    const bool is_power = result > nearly_zero && result < nearly_one &&
+                          std::abs(beta(1) - result) < same &&
+                          std::abs(beta(2) - result) < 2 * same;
+    return is_power ? result : infinity;
 }
 
 /// To a hundredth, as it is known: "0.67".

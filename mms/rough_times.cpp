@@ -54,10 +54,12 @@ void add_zeros(const Tape& base, double begin, double end, std::vector<double>& 
     const auto size = [&](const ArrayXd& t) { return sizes(places(0), t); };
     const ArrayXd times = ArrayXd::LinSpaced(samples, begin, end);
     const ArrayXd on_grid = size(times);
-    for (Index k = 1; k + 1 < samples; ++k) {
-        if (on_grid(k) > on_grid(k - 1) || on_grid(k) > on_grid(k + 1))
+    for (Index k = 0; k < samples; ++k) {
+        const Index before = std::max<Index>(k - 1, 0);
+        const Index after = std::min(k + 1, samples - 1);
+        if (on_grid(k) > on_grid(before) || on_grid(k) > on_grid(after))
             continue;
-        const ArrayXd at = ArrayXd::Constant(1, time_of_least(size, times(k - 1), times(k + 1)));
+        const ArrayXd at = ArrayXd::Constant(1, time_of_least(size, times(before), times(after)));
         if (std::all_of(places.begin(), places.end(), [&](double x) {
                 return sizes(x, at)(0) <= zero * sizes(x, times).maxCoeff();
             }))

@@ -36,7 +36,8 @@ constexpr std::size_t most_listed = 5;
 /// A time at which rates may jump, or have an infinite slope.
 struct Break {
     double t;
-    bool is_phase_end; ///< or within a phase
+    bool is_phase_end;        ///< or within a phase
+    double phase_length = {}; ///< of that one
 
     [[nodiscard]] std::string text() const {
         return "At t = " + message_text(t) +
@@ -106,7 +107,7 @@ RateJump rate_jump(const ProblemData& data, const Break& at) {
 }
 
 /// The least β < 1 such that rates go to their values within a phase like s^β, s the time to t.
-double cusp_power(const ProblemData& data, double t) {
+double cusp_power(const ProblemData& data, double t, double phase_length) {
     const ArrayXd x = sample_points(0.0, 1.0);
     double least = std::numeric_limits<double>::infinity();
     const auto see = [&](const auto& of) {
@@ -114,12 +115,10 @@ double cusp_power(const ProblemData& data, double t) {
         for (const double direction : {-1.0, 1.0})
             least =
                 std::min(least, power_below_one(
-                                    [&](double s) {
-                                        return (of(t + direction * s) - of(t + 2.0 * direction * s))
-                                            .abs()
-                                            .maxCoeff();
+                                    [&](double s) -> ArrayXd {
+                                        return of(t + direction * s) - of(t + 2.0 * direction * s);
                                     },
-                                    t, size));
+                                    t, phase_length, size));
     };
     see([&](double s) -> ArrayXd { return values(data, data.heat_source, x, s); });
     see([&](double s) { return bending_rate(data, x, s); });
@@ -162,14 +161,15 @@ Costly costly_steps(const Scene& scene, const ProblemData& data, const Break& at
 std::vector<Break> breaks_of(const Scene& scene, const ProblemData& data) {
     std::vector<Break> breaks;
     for (const double end : data.phase_ends)
-        breaks.push_back({end, true});
+        breaks.push_back({.t = end, .is_phase_end = true});
     if (const auto* solution = std::get_if<Solution>(&scene.problem);
         solution != nullptr && !solution->phases.empty()) {
         const double final_time = scene.longest_time();
         for (const PhaseExpressions& phase : expressions_on(*solution, scene.beam).phases)
             if (phase.begin_value < final_time)
                 for (const double t : rough_times(phase, final_time))
-                    breaks.push_back({t, false});
+                    breaks.push_back(
+                        {t, false, std::min(phase.end_value, final_time) - phase.begin_value});
     }
     std::ranges::sort(breaks, {}, &Break::t);
     return breaks;
@@ -317,7 +317,9 @@ std::vector<std::string> phase_remarks(const Scene& scene, const ProblemData& da
             continue;
         const RateJump jump = rate_jump(data, at);
         if (jump.heat == 0.0 && jump.bending == 0.0) {
-            if (const double power = at.is_phase_end ? 1.0 : cusp_power(data, at.t); power < 1.0)
+            if (const double power =
+                    at.is_phase_end ? 1.0 : cusp_power(data, at.t, at.phase_length);
+                power < 1.0)
                 remarks.push_back(cusp_remark(power, costly, at));
             continue;
         }

@@ -35,7 +35,7 @@ constexpr double rounding = 1e-14;
 
 enum Row : Index { theta, u_xx, theta_t, u_xxt, f, mu, stress };
 
-/// The rows, where `wanted` begins; those behind it are left out.
+/// The rows; f, μ and the stress only with loads.
 PiecewiseTape rows(const AdmissibleSolution& solution, bool with_loads) {
     return located(solution.place(), "the solution", [&] {
         return PiecewiseTape(solution.derived(), [&](const DerivedPhase& phase) {

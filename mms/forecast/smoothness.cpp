@@ -184,14 +184,12 @@ std::vector<Cusp> find_cusps(const DerivedSolution& derived, const Beam& beam, d
         const Eigen::ArrayXXd at_end = tape.at(x, t, late);
         const auto power = [&](Eigen::Index row) {
             return power_below_one(
-                [&](double s) {
+                [&](double s) -> ArrayXd {
                     const Eigen::ArrayXXd other =
                         within ? tape.at(x, t + 2.0 * direction * s) : at_end;
-                    return (tape.at(x, t + direction * s).row(row) - other.row(row))
-                        .abs()
-                        .maxCoeff();
+                    return (tape.at(x, t + direction * s).row(row) - other.row(row)).transpose();
                 },
-                length, sizes(row));
+                t, length, sizes(row));
         };
         const Cusp cusp{t, within, power(0), power(1)};
         if (std::isinf(cusp.theta_t_power) && std::isinf(cusp.u_xxt_power))
@@ -262,10 +260,10 @@ std::optional<RoughEnd> find_rough_end(const DerivedSolution& derived, double fi
                 const double size = at(sample_points(0.0, 1.0)).abs().maxCoeff();
                 const double value = at(ArrayXd::Constant(1, x))(0);
                 double power = power_below_one(
-                    [&](double s) {
-                        return std::abs(at(ArrayXd::Constant(1, std::abs(x - s)))(0) - value);
+                    [&](double s) -> ArrayXd {
+                        return at(ArrayXd::Constant(1, std::abs(x - s))) - value;
                     },
-                    1.0, size);
+                    x, 1.0, size);
                 if (std::abs(power - RoughEnd::highest_power) < measured)
                     power = RoughEnd::highest_power;
                 if (power <= RoughEnd::highest_power && !(roughest && roughest->power <= power))
