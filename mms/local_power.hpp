@@ -14,11 +14,12 @@ namespace tvbeam {
 
 /// β of differences c s^β + d s, when that is below 1: from five distances s, each ten times the
 /// one before, the nearest 1e-12 of a length, or a thousand steps of rounding of the place `at`
-/// that they are taken from. What is left of two neighbours without d, v(10 s) − 10 v(s), is c s^β
-/// (10^β − 10); the three ratios of these must give the same β. Infinite where they do not, as
-/// beside a layer, however thin, where β is not below 1, or where the rest is rounding of the size.
-/// difference: at a distance s > 0 with which at ± s is exact, at one or more places. They are
-/// looked at where the nearest two leave most.
+/// that they are taken from. What is left of two neighbours without d, v(10 s) − 10 v(s), is
+/// c s^β (10^β − 10); the three ratios of these must give nearly the same β: with a logarithm, or
+/// two powers of one size, it is one near theirs. Infinite where they do not, as beside a layer,
+/// however thin, where β is not below 1, or where the rest is rounding of the size. difference: at
+/// a distance s > 0 with which at ± s is exact, at one or more places, of which the one is looked
+/// at where the nearest two leave most.
 template <typename Difference>
 double power_below_one(const Difference& difference, double at, double length, double size) {
     constexpr double nearest = 1e-12;     // of the length
@@ -26,7 +27,7 @@ double power_below_one(const Difference& difference, double at, double length, d
     constexpr double rounding = 1e-12;    // of the size
     constexpr double nearly_zero = 5e-3;  // where the value at zero is another one than the limit
     constexpr double nearly_one = 0.95;
-    constexpr double same = 2e-3;
+    constexpr double same = 1e-2;
     constexpr std::size_t count = 5;
     const double infinity = std::numeric_limits<double>::infinity();
     const double step = std::numeric_limits<double>::epsilon() * std::abs(at);
@@ -47,9 +48,10 @@ double power_below_one(const Difference& difference, double at, double length, d
         return std::log(rest(k + 1)(place) / rest(k)(place)) / std::log(10.0);
     };
     const double result = beta(0);
+    const double allowed = std::min(same, 0.1 * result);
     const bool is_power = result > nearly_zero && result < nearly_one &&
-                          std::abs(beta(1) - result) < same &&
-                          std::abs(beta(2) - result) < 2 * same;
+                          std::abs(beta(1) - result) < allowed &&
+                          std::abs(beta(2) - result) < 2 * allowed;
     return is_power ? result : infinity;
 }
 
