@@ -286,7 +286,8 @@ void Tape::evaluate_on_grid(const Eigen::ArrayXd& places, const Eigen::ArrayXd& 
         }
         for (Eigen::Index time = 0; time < count; time += at_once) {
             const Eigen::Index now = std::min(at_once, count - time);
-            for (std::size_t k = 0; k < of_time_.size(); ++k) {
+            // Of one time they stand there since the first block, which no other is longer than.
+            for (std::size_t k = 0; k < of_time_.size() && (count > 1 || first == 0); ++k) {
                 const Real* const from = &at_times(time, static_cast<Eigen::Index>(k));
                 Real* const value = registers.col(of_time_[k]).data();
                 if (width == 1)
