@@ -17,9 +17,9 @@ namespace tvbeam {
 /// that they are taken from. What is left of two neighbours without d, v(10 s) − 10 v(s), is
 /// c s^β (10^β − 10); the three ratios of these must give nearly the same β: with a logarithm, or
 /// two powers of one size, it is one near theirs. Infinite where they do not, as beside a layer,
-/// however thin, where β is not below 1, or where the rest is rounding of the size. difference: at
-/// a distance s > 0 with which at ± s is exact, at one or more places, of which the one is looked
-/// at where the nearest two leave most.
+/// however thin, where β is not below 1, where the rest is rounding of the size, or where the
+/// furthest would leave the length. difference: at a distance s > 0 with which at ± s is exact, at
+/// one or more places, of which the one is looked at where the nearest two leave most.
 template <typename Difference>
 double power_below_one(const Difference& difference, double at, double length, double size) {
     constexpr double nearest = 1e-12;     // of the length
@@ -32,12 +32,13 @@ double power_below_one(const Difference& difference, double at, double length, d
     const double infinity = std::numeric_limits<double>::infinity();
     const double step = std::numeric_limits<double>::epsilon() * std::abs(at);
     std::array<double, count> distance{};
+    for (std::size_t k = 0; k < count; ++k)
+        distance[k] =
+            (at + std::max(nearest * length, step / most_rounded) * std::pow(10.0, k)) - at;
+    if (2.0 * distance.back() > length) // beyond it stands something else
+        return infinity;
     std::array<Eigen::ArrayXd, count> found;
-    for (std::size_t k = 0; k < count; ++k) {
-        const double s = std::max(nearest * length, step / most_rounded) * std::pow(10.0, k);
-        distance[k] = (at + s) - at;
-        found[k] = difference(distance[k]);
-    }
+    std::ranges::transform(distance, found.begin(), difference);
     const auto rest = [&](std::size_t k) -> Eigen::ArrayXd {
         return found[k + 1] - distance[k + 1] / distance[k] * found[k];
     };

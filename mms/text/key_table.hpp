@@ -45,6 +45,9 @@ struct KeyEntry {
     std::vector<std::string> words = {}; ///< of a choice, in their order
     std::string like = {};               ///< of a table: the path of one with the same keys
 
+    /// `otherwise` begins so where it must not be absent.
+    static constexpr const char* required = "required";
+
     [[nodiscard]] bool is_table() const {
         return type == KeyType::table || type == KeyType::tables;
     }

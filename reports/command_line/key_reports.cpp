@@ -17,8 +17,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr const char* required = "required";
-
 /// "one of 'euler', 'bdf2'", "a number".
 std::string type_of(const KeyEntry& entry) {
     std::string text = words_of(entry.type);
@@ -29,7 +27,7 @@ std::string type_of(const KeyEntry& entry) {
 
 /// "a number, required", "a number; absent: 0".
 std::string type_and_default(const KeyEntry& entry) {
-    const bool needed = entry.otherwise.starts_with(required);
+    const bool needed = entry.otherwise.starts_with(KeyEntry::required);
     return type_of(entry) + (entry.otherwise.empty() ? ""
                              : needed                ? ", " + entry.otherwise
                                                      : "; absent: " + entry.otherwise);
@@ -118,7 +116,7 @@ Json table_schema(const KeyTable::Node& node, bool whole) {
         if (&inner == &node)
             continue; // it is not in itself
         schema["properties"][name] = node_schema(inner, whole && inner.entry->path != "short");
-        if (inner.entry->otherwise == required)
+        if (inner.entry->otherwise == KeyEntry::required)
             needed.push_back(name);
     }
     if (whole && !needed.empty())

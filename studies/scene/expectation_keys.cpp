@@ -11,8 +11,6 @@ namespace {
 
 using Entries = std::vector<KeyEntry>;
 
-constexpr const char* must_be_given = "required";
-
 Entries of_expectations() {
     return {
         {"expect", KeyType::table, "nothing", "what `tvbeam check` holds the result against"},
@@ -158,13 +156,13 @@ Entries of_expectations() {
          "as in [expect.ladder.NORM]"},
         {"expect.work_precision.sooner", KeyType::tables, "anything",
          "how much sooner one scheme reaches an error than another"},
-        {"expect.work_precision.sooner.norm", KeyType::text, must_be_given,
+        {"expect.work_precision.sooner.norm", KeyType::text, KeyEntry::required,
          "of which the error is"},
-        {"expect.work_precision.sooner.error", KeyType::number, must_be_given,
+        {"expect.work_precision.sooner.error", KeyType::number, KeyEntry::required,
          "that both reach: a power of ten, or one of the targets"},
-        {"expect.work_precision.sooner.faster", KeyType::text, must_be_given,
+        {"expect.work_precision.sooner.faster", KeyType::text, KeyEntry::required,
          "the name of a scheme"},
-        {"expect.work_precision.sooner.slower", KeyType::text, must_be_given, "of another"},
+        {"expect.work_precision.sooner.slower", KeyType::text, KeyEntry::required, "of another"},
         {"expect.work_precision.sooner.ratio", KeyType::band, "anything",
          "of the time of slower over that of faster"},
         {"expect.work_precision.sooner.distinguishable", KeyType::flag, "anything",
@@ -247,7 +245,7 @@ Entries of_what_is_refused() {
          "the keys that are changed: \"KEY=VALUE\""},
         {"expect.refused.solution", KeyType::text, "the scene's",
          "the text of a solution that stands in its place"},
-        {"expect.refused.says", KeyType::texts, must_be_given,
+        {"expect.refused.says", KeyType::texts, KeyEntry::required,
          "words that the message holds, all of them"},
     };
 }
@@ -256,7 +254,8 @@ Entries of_what_is_analysed() {
     return {
         {"expect.analyse", KeyType::tables, "anything",
          "tables of anyone's errors or values, and what `tvbeam analyse` finds in them"},
-        {"expect.analyse.file", KeyType::text, must_be_given, "the table, relative to the scene"},
+        {"expect.analyse.file", KeyType::text, KeyEntry::required,
+         "the table, relative to the scene"},
         {"expect.analyse.size", KeyType::texts, "h or elements",
          "columns of mesh widths, or of numbers of cells, unknowns, ..."},
         {"expect.analyse.dimension", KeyType::number, "sizes are widths",
@@ -270,7 +269,7 @@ Entries of_what_is_analysed() {
         {"expect.analyse.where", KeyType::texts, "all rows",
          "only rows whose column has this text or number: \"scheme=Euler\"; \"seed=*\": rows "
          "that the column tells apart are one series"},
-        {"expect.analyse.holds", KeyType::text, must_be_given,
+        {"expect.analyse.holds", KeyType::text, KeyEntry::required,
          "what is expected of the columns, as `tvbeam analyse --expect` takes it: \"L2.order = "
          "[1.9, 2.1]\""},
     };
@@ -298,7 +297,7 @@ Entries of_commands() {
     return {
         {"expect.commands", KeyType::tables, "anything",
          "commands of tvbeam, one after the other in one directory, which is empty at first"},
-        {"expect.commands.run", KeyType::texts, must_be_given, "the words that follow tvbeam"},
+        {"expect.commands.run", KeyType::texts, KeyEntry::required, "the words that follow tvbeam"},
         {"expect.commands.files", KeyType::table, "none", "what is written there before"},
         {"expect.commands.files.NAME", KeyType::text, "", "the text of the file"},
         {"expect.commands.exit", KeyType::integer, "0", "the code that it ends with"},

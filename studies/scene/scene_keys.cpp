@@ -16,8 +16,6 @@ namespace {
 
 using Entries = std::vector<KeyEntry>;
 
-constexpr const char* required = "required";
-
 const std::vector<std::string> masses{"consistent", "lumped"};
 const std::vector<std::string> algorithms{"direct", "fixed-point"};
 
@@ -36,9 +34,9 @@ Entries of_the_whole() {
 Entries of_the_beam() {
     return {
         {"beam", KeyType::table, "", "the beam; a scene has this block or [solver]"},
-        {"beam.alpha", KeyType::number, required,
+        {"beam.alpha", KeyType::number, KeyEntry::required,
          "thermal expansion, without unit, >= 0; 0: heat and bending are two problems"},
-        {"beam.zeta", KeyType::number, required, "viscosity, a time, >= 0"},
+        {"beam.zeta", KeyType::number, KeyEntry::required, "viscosity, a time, >= 0"},
         {"beam.theta_A", KeyType::number, "0", "temperature at the clamped end"},
         {"beam.stops", KeyType::numbers, "no stops",
          "[g1, g2], g1 < 0 < g2, between which the tip moves; -inf or inf: none on that side"},
@@ -73,9 +71,9 @@ Entries of_the_beam() {
         {"data.body_force", KeyType::expression, "0", "q(x, t) in sigma_x = q"},
         {"reference", KeyType::table, "the exact solution",
          "errors are measured against a run as fine as this"},
-        {"reference.elements", KeyType::integer, required,
+        {"reference.elements", KeyType::integer, KeyEntry::required,
          "a multiple of every number of elements in the studies"},
-        {"reference.dt", KeyType::number, required, "divides every dt in the studies"},
+        {"reference.dt", KeyType::number, KeyEntry::required, "divides every dt in the studies"},
         {"reference.richardson", KeyType::flag, "false",
          "extrapolate from it and two coarser runs to what they tend to"},
         {"defect", KeyType::table, "none",
@@ -92,7 +90,7 @@ Entries of_the_solver() {
     return {
         {"solver", KeyType::table, "",
          "a program of your own, run once a level in place of the beam"},
-        {"solver.command", KeyType::texts, required,
+        {"solver.command", KeyType::texts, KeyEntry::required,
          "the program and its arguments, no shell; {elements}, {h}, {dt}, {steps}, {final_time}, "
          "{level} and the parameters are filled in, {{ is a brace"},
         {"solver.files", KeyType::texts, "none",
@@ -146,8 +144,9 @@ Entries of_ladders_and_grids() {
         {"orders", KeyType::table, "",
          "a grid, elements x dt, to which a h^p + b dt^q + ... is fitted"},
         {"orders.final_time", KeyType::number, "required for the beam", "when the runs end, > 0"},
-        {"orders.elements", KeyType::integers, required, "the meshes"},
-        {"orders.dt", KeyType::numbers, required, "the time steps, each run on every mesh"},
+        {"orders.elements", KeyType::integers, KeyEntry::required, "the meshes"},
+        {"orders.dt", KeyType::numbers, KeyEntry::required,
+         "the time steps, each run on every mesh"},
         {"orders.norms", KeyType::texts, "required without values",
          "as in [ladder], without squares"},
         {"orders.values", KeyType::texts, "none", "names of [solver.values]"},
@@ -164,14 +163,14 @@ Entries of_ladders_and_grids() {
          "the run times of schemes for the errors that they reach"},
         {"work_precision.final_time", KeyType::number, "required for the beam",
          "when the runs end, > 0"},
-        {"work_precision.norms", KeyType::texts, required, "as in [ladder]"},
+        {"work_precision.norms", KeyType::texts, KeyEntry::required, "as in [ladder]"},
         {"work_precision.runs", KeyType::integer, "20",
          "timed ones of each level; of those above 25 ms as many as fill half a second, five at "
          "least"},
         {"work_precision.targets", KeyType::table, "powers of ten alone",
          "errors at which times are compared, too"},
         {"work_precision.targets.NORM", KeyType::numbers, "none", "errors of this norm"},
-        {"work_precision.scheme", KeyType::tables, required,
+        {"work_precision.scheme", KeyType::tables, KeyEntry::required,
          "the schemes, each with a ladder of its own"},
         {"work_precision.scheme.name", KeyType::text, "from its keys", "what it is called"},
         {"work_precision.scheme.elements", KeyType::integers, "required for the beam",
@@ -198,10 +197,10 @@ Entries of_ladders_and_grids() {
 Entries of_other_studies() {
     return {
         {"evolution", KeyType::table, "", "one run over time"},
-        {"evolution.final_time", KeyType::number, required, "when the run ends, > 0"},
-        {"evolution.elements", KeyType::integer, required, "of its mesh"},
-        {"evolution.dt", KeyType::number, required, "its time step"},
-        {"evolution.probes", KeyType::texts, required,
+        {"evolution.final_time", KeyType::number, KeyEntry::required, "when the run ends, > 0"},
+        {"evolution.elements", KeyType::integer, KeyEntry::required, "of its mesh"},
+        {"evolution.dt", KeyType::number, KeyEntry::required, "its time step"},
+        {"evolution.probes", KeyType::texts, KeyEntry::required,
          "what is looked at: theta@X and u@X with X from 0 to 1, stress, energy, which is half of "
          "the integrals of (theta - theta_A*(1 - x))^2, with the lumped mass matrix as a sum over "
          "the nodes, and of u_xx^2"},
@@ -211,10 +210,10 @@ Entries of_other_studies() {
         {"sensitivity", KeyType::table, "", "how small a defect the scene's expectations catch"},
         {"sensitivity.range", KeyType::band, "[1e-8, 1]",
          "of the factors that the defects are scaled by"},
-        {"sensitivity.defect", KeyType::table, required, "the defects by name"},
+        {"sensitivity.defect", KeyType::table, KeyEntry::required, "the defects by name"},
         {"sensitivity.defect.NAME",
          KeyType::table,
-         required,
+         KeyEntry::required,
          "with the keys of [defect]",
          {},
          "defect"},
@@ -258,13 +257,13 @@ Entries of_other_studies() {
          "elements times steps of a case, at most, but for its first two steps"},
         {"stress.contraction", KeyType::table, "none",
          "a map of the fixed point's contraction over alpha and dt"},
-        {"stress.contraction.alpha", KeyType::table, required, "values in equal ratios"},
-        {"stress.contraction.alpha.from", KeyType::number, required, "the first, > 0"},
-        {"stress.contraction.alpha.to", KeyType::number, required, "the last, > 0"},
+        {"stress.contraction.alpha", KeyType::table, KeyEntry::required, "values in equal ratios"},
+        {"stress.contraction.alpha.from", KeyType::number, KeyEntry::required, "the first, > 0"},
+        {"stress.contraction.alpha.to", KeyType::number, KeyEntry::required, "the last, > 0"},
         {"stress.contraction.alpha.count", KeyType::integer, "20", "how many"},
         {"stress.contraction.dt",
          KeyType::table,
-         required,
+         KeyEntry::required,
          "values in equal ratios",
          {},
          "stress.contraction.alpha"},

@@ -59,6 +59,11 @@ BOOST_AUTO_TEST_CASE(what_has_a_slope_has_no_power_below_one_however_steep_it_is
             is_none([](double s) { return std::log1p(s) / 30.0; });
             is_none([](double s) { return std::asinh(s) / 30.0; });
         }
+    // A sine that has turned may seem a power by two ratios of three.
+    for (double decade = -16.0; decade < -9.0; decade += 2e-4) {
+        const double width = std::pow(10.0, decade);
+        BOOST_TEST(std::isinf(power_of([&](double s) { return std::sin(s / width); })), width);
+    }
     BOOST_TEST(std::isinf(power_of([](double s) { return s; })));
     BOOST_TEST(std::isinf(power_of([](double s) { return s * s; })));
     BOOST_TEST(std::isinf(power_of([](double /*s*/) { return 0.0; })));
@@ -98,7 +103,42 @@ BOOST_AUTO_TEST_CASE(a_smooth_pulse_of_a_late_and_short_phase_has_a_slope) {
     }
 }
 
-BOOST_AUTO_TEST_CASE(places_are_not_mixed) {
+// At t = 1000 doubles are 1e-13 apart.
+BOOST_AUTO_TEST_CASE(a_power_is_known_late_in_time) {
+    for (const double begin : {1.0, 30.0, 1000.0})
+        for (const double beta : {0.1, 0.5, 0.7})
+            for (const double direction : {1.0, -1.0}) {
+                const double found = power_below_one(
+                    [&](double s) -> ArrayXd {
+                        const double apart = std::abs(begin + direction * s - begin);
+                        return ArrayXd::Constant(1, std::pow(apart, beta));
+                    },
+                    begin, 1.0, 1.0);
+                BOOST_TEST(std::abs(found - beta) < 1e-3, begin << ": " << found);
+            }
+}
+
+BOOST_AUTO_TEST_CASE(what_stands_beyond_the_phase_is_not_read) {
+    for (const double length : {1.0, 1e-3, 1e-6, 1e-9})
+        power_below_one(
+            [&](double s) -> ArrayXd {
+                BOOST_TEST(2.0 * s <= length);
+                return ArrayXd::Constant(1, std::sqrt(s));
+            },
+            1000.0, length, 1.0);
+}
+
+// At the first place the power is the greater one at the nearest distance alone.
+BOOST_AUTO_TEST_CASE(powers_of_different_places_are_not_mixed) {
+    const double found = power_below_one(
+        [](double s) -> ArrayXd {
+            return ArrayXd{{6e-3 * std::sqrt(s), 1e3 * std::pow(s, 0.9)}};
+        },
+        0.3, 1.0, 1.0);
+    BOOST_TEST(std::abs(found - 0.5) < 1e-3);
+}
+
+BOOST_AUTO_TEST_CASE(a_power_is_known_beside_a_slope_at_another_place) {
     const double found = power_below_one(
         [](double s) -> ArrayXd {
             return ArrayXd{{0.0, std::pow(s, 0.8), 100.0 * s, 0.5 * std::pow(s, 0.8) - 200.0 * s}};
