@@ -16,6 +16,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <functional>
 #include <iterator>
 #include <utility>
 
@@ -33,19 +34,10 @@ constexpr Index time_samples = 17;
 /// Below so much of the terms that a residual is the sum of, it is rounding: zero.
 constexpr double rounding = 1e-14;
 
-enum Row : Index { theta, u_xx, theta_t, u_xxt, f, mu, stress };
-
-/// The rows; f, μ and the stress only with loads.
-PiecewiseTape rows(const AdmissibleSolution& solution, bool with_loads) {
-    return located(solution.place(), "the solution", [&] {
-        return PiecewiseTape(solution.derived(), [&](const DerivedPhase& phase) {
-            std::vector<ex> result = {phase.theta, phase.u_xx, phase.theta_t, phase.u_xxt};
-            if (with_loads)
-                result.insert(result.end(),
-                              {phase.heat_source, phase.moment_load, phase.contact_stress});
-            return result;
-        });
-    });
+PiecewiseTape tape_of(const AdmissibleSolution& solution,
+                      const std::function<GiNaC::exvector(const DerivedPhase&)>& formulas) {
+    return located(solution.place(), "the solution",
+                   [&] { return PiecewiseTape(solution.derived(), formulas); });
 }
 
 /// The size of the terms that the residuals of one refinement are sums of.
@@ -85,6 +77,16 @@ double scaled_norm(const auto& values, const auto& norm) {
     return largest > 0.0 && std::isfinite(largest) ? largest * norm(values / largest) : largest;
 }
 
+/// What is asked for at nodes, and within elements.
+enum NodalRow : Index { theta, theta_t, stress };
+enum InnerRow : Index { u_xx, u_xxt, f, mu };
+
+/// Both of one phase.
+struct SpaceTapes {
+    const Tape& nodal;
+    const Tape& inner;
+};
+
 /// What the residuals of one mesh are made with.
 struct MeshForms {
     Mesh mesh;
@@ -98,7 +100,8 @@ struct MeshForms {
           weights(thermal_mass_matrix(mesh, ThermalMass::lumped).diagonal) {}
 };
 
-/// The two residuals in space at one time; values: the rows at forms.points, nodal: at the nodes.
+/// The two residuals in space at one time; values: the inner rows at forms.points, nodal: the nodal
+/// ones at the nodes.
 Residual space_residual(const Eigen::Ref<const Eigen::ArrayXXd>& values,
                         const Eigen::Ref<const Eigen::ArrayXXd>& nodal, const Beam& beam,
                         const MeshForms& forms) {
@@ -139,16 +142,16 @@ Residual space_residual(const Eigen::Ref<const Eigen::ArrayXXd>& values,
 }
 
 /// Those of a phase's formulas at these times.
-std::vector<Residual> space_residuals_at(const Tape& tape, const Beam& beam, const MeshForms& forms,
-                                         const ArrayXd& times) {
-    const auto values_at = [&](const ArrayXd& x) {
+std::vector<Residual> space_residuals_at(const SpaceTapes& tapes, const Beam& beam,
+                                         const MeshForms& forms, const ArrayXd& times) {
+    const auto values_at = [&](const Tape& tape, const ArrayXd& x) {
         const Points points = point_grid(x, times);
         return tape.evaluate(points.x, points.t);
     };
     const Index at_points = forms.points.size();
     const Index at_nodes = forms.mesh.nodes.size();
-    const Eigen::ArrayXXd values = values_at(forms.points);
-    const Eigen::ArrayXXd nodal = values_at(forms.mesh.nodes);
+    const Eigen::ArrayXXd values = values_at(tapes.inner, forms.points);
+    const Eigen::ArrayXXd nodal = values_at(tapes.nodal, forms.mesh.nodes);
     std::vector<Residual> residuals;
     for (Index n = 0; n < times.size(); ++n)
         residuals.push_back(space_residual(values.middleCols(n * at_points, at_points),
@@ -248,14 +251,15 @@ constexpr Index steps_at_once = 64;
 struct StepStates {
     Eigen::ArrayXXd values, rates; ///< shape of each: twice the points × levels
 
+    /// tape: θ̃, u_xx and their rates.
     StepStates(const PiecewiseTape& tape, const ArrayXd& x, const ArrayXd& times)
         : values(2 * x.size(), times.size()), rates(2 * x.size(), times.size()) {
         for (Index first = 0; first < times.size(); first += steps_at_once) {
             const Index count = std::min(steps_at_once, times.size() - first);
             const Eigen::ArrayXXd all = tape.at_all(x, times.segment(first, count));
             const auto row = [&](Index k) { return all.row(k).reshaped(x.size(), count); };
-            values.middleCols(first, count) << row(theta), row(u_xx);
-            rates.middleCols(first, count) << row(theta_t), row(u_xxt);
+            values.middleCols(first, count) << row(0), row(1);
+            rates.middleCols(first, count) << row(2), row(3);
         }
     }
 };
@@ -336,17 +340,13 @@ Sizes largest_norms(const GaussRule& rule, const Beam& beam, const Eigen::ArrayX
     return largest;
 }
 
-/// What they are differences of.
+/// What they are differences of, at the largest.
 Sizes largest_terms(const Beam& beam, const Eigen::ArrayXXd& values) {
     const Index points = values.rows() / 2;
-    Sizes largest;
-    for (const auto& at_level : values.colwise()) {
-        const double of_beam = at_level.tail(points).abs().maxCoeff();
-        largest.heat =
-            std::max(largest.heat, at_level.head(points).abs().maxCoeff() + beam.alpha * of_beam);
-        largest.beam = std::max(largest.beam, beam.zeta * of_beam);
-    }
-    return largest;
+    const ArrayXd largest = values.abs().rowwise().maxCoeff();
+    const double of_beam = largest.tail(points).maxCoeff();
+    return {.heat = largest.head(points).maxCoeff() + beam.alpha * of_beam,
+            .beam = beam.zeta * of_beam};
 }
 
 } // namespace
@@ -355,7 +355,12 @@ std::vector<Residual> space_residuals(const AdmissibleSolution& solution, Therma
                                       const std::vector<std::int64_t>& elements) {
     const Beam& beam = solution.beam();
     const double final_time = solution.final_time();
-    const PiecewiseTape tapes = rows(solution, true);
+    const PiecewiseTape nodal = tape_of(solution, [](const DerivedPhase& phase) -> GiNaC::exvector {
+        return {phase.theta, phase.theta_t, phase.contact_stress};
+    });
+    const PiecewiseTape inner = tape_of(solution, [](const DerivedPhase& phase) -> GiNaC::exvector {
+        return {phase.u_xx, phase.u_xxt, phase.heat_source, phase.moment_load};
+    });
     const ArrayXd grid = sample_points(0.0, 1.0);
     std::vector<Residual> result(elements.size());
     std::vector<Sizes> terms(elements.size());
@@ -367,19 +372,23 @@ std::vector<Residual> space_residuals(const AdmissibleSolution& solution, Therma
         const CloseLook span{phase.begin_value, std::min(phase.end_value, final_time)};
         const ArrayXd times = located(solution.place(), "the solution",
                                       [&] { return times_to_look_at(derived.derived[k], span); });
-        const Tape& tape = tapes.of_phase(k);
+        const SpaceTapes tapes{nodal.of_phase(k), inner.of_phase(k)};
         const Points everywhere = point_grid(grid, times);
-        const ArrayXd sizes = tape.evaluate(everywhere.x, everywhere.t).abs().rowwise().maxCoeff();
+        const auto largest = [&](const Tape& tape) -> ArrayXd {
+            return tape.evaluate(everywhere.x, everywhere.t).abs().rowwise().maxCoeff();
+        };
+        const ArrayXd at_nodes = largest(tapes.nodal);
+        const ArrayXd inside = largest(tapes.inner);
         for (std::size_t i = 0; i < elements.size(); ++i) {
             const MeshForms forms(elements[i], mass);
             const Residual here = largest_residual(span, times, [&](const ArrayXd& at) {
-                return space_residuals_at(tape, beam, forms, at);
+                return space_residuals_at(tapes, beam, forms, at);
             });
             // K has entries of the size s, and the norm multiplies by s once more.
             const auto s = static_cast<double>(elements[i]);
             terms[i].heat =
-                std::max(terms[i].heat, sizes(theta_t) + sizes(f) + s * s * sizes(theta));
-            terms[i].beam = std::max(terms[i].beam, sizes(u_xx) + sizes(mu));
+                std::max(terms[i].heat, at_nodes(theta_t) + inside(f) + s * s * at_nodes(theta));
+            terms[i].beam = std::max(terms[i].beam, inside(u_xx) + inside(mu));
             result[i].count = here.count;
             result[i].heat = std::max(result[i].heat, here.heat);
             result[i].beam = std::max(result[i].beam, here.beam);
@@ -398,7 +407,11 @@ std::vector<Residual> space_residuals(const AdmissibleSolution& solution, Therma
 
 TimeResiduals::TimeResiduals(const AdmissibleSolution& solution, std::vector<std::int64_t> steps)
     : beam_(solution.beam()), final_time_(solution.final_time()), steps_(std::move(steps)),
-      exact_(std::make_unique<PiecewiseTape>(rows(solution, false))),
+      exact_(std::make_unique<PiecewiseTape>(
+          tape_of(solution,
+                  [](const DerivedPhase& phase) -> GiNaC::exvector {
+                      return {phase.theta, phase.u_xx, phase.theta_t, phase.u_xxt};
+                  }))),
       heat_degree_(derivatives_until_zero(solution.derived(), final_time_,
                                           [&](const DerivedPhase& phase) -> ex {
                                               return phase.theta -
@@ -430,7 +443,6 @@ std::vector<Residual> TimeResiduals::of(const std::string& scheme) const {
     std::vector<Sizes> terms;
     for (const std::int64_t count : steps_) {
         Residual residual;
-        Sizes size;
         residual.count = count;
         const double dt = final_time_ / static_cast<double>(count);
         const auto known = std::ranges::find_if(
@@ -442,12 +454,10 @@ std::vector<Residual> TimeResiduals::of(const std::string& scheme) const {
                 largest_norms(rule_, beam_, exact.defects(method, first, now));
             residual.heat = std::max(residual.heat, heat);
             residual.beam = std::max(residual.beam, beam);
-            const Sizes sizes = largest_terms(beam_, exact.values(first, now));
-            size.heat = std::max(size.heat, sizes.heat / dt);
-            size.beam = std::max(size.beam, sizes.beam / dt);
         }
         result.push_back(residual);
-        terms.push_back(size);
+        const Sizes size = largest_terms(beam_, known->second->values);
+        terms.push_back({.heat = size.heat / dt, .beam = size.beam / dt});
     }
     finish(result, terms, heat_degree_ <= method.order + 1, beam_degree_ <= method.order + 1);
     return result;

@@ -2,6 +2,7 @@
 
 #include "reports/document/result_document.hpp"
 #include "reports/formats/report_format.hpp"
+#include "studies/text/column_sizes.hpp"
 
 #include <boost/crc.hpp>
 #include <fmt/format.h>
@@ -121,7 +122,14 @@ std::string shape_of(const std::string& given) {
     return shape;
 }
 
-std::string file_of(const std::string& text) {
+/// Of data alone: numbers of a stress study are rounding.
+bool has_data(std::string_view name) {
+    return (name.ends_with(".dat") || name.ends_with(".csv")) &&
+           name.find("stress") == std::string_view::npos &&
+           name.find("round") == std::string_view::npos;
+}
+
+std::string file_of(const std::string& name, const std::string& text) {
     boost::crc_32_type sum;
     std::size_t lines = 0;
     std::string before;
@@ -137,7 +145,8 @@ std::string file_of(const std::string& text) {
         before = shape;
         ++lines;
     }
-    return fmt::format("{} lines, {:08x}", lines, sum.checksum());
+    return fmt::format("{} lines, {:08x}{}", lines, sum.checksum(),
+                       has_data(name) ? "," + column_sizes(text) : "");
 }
 
 } // namespace
@@ -174,7 +183,7 @@ Json files_said_by(const StudyResult& result) {
     for (const auto& format : report_formats())
         if (format->name() != "json" && format->name() != "pdf")
             for (const auto& [name, text] : format->write({all, plots, drawn}))
-                files[name] = file_of(text.whole());
+                files[name] = file_of(name, text.whole());
     return files;
 }
 

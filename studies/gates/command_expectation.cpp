@@ -2,6 +2,7 @@
 
 #include "mms/text/toml_reader.hpp"
 #include "studies/external/process.hpp"
+#include "studies/text/column_sizes.hpp"
 
 #include <boost/algorithm/string/join.hpp>
 #include <boost/algorithm/string/trim.hpp>
@@ -95,19 +96,23 @@ Ended run(const AskedCommand& command, const std::string& program, const Keeper&
     return ended;
 }
 
-/// The files of a directory by their names, each with how many lines it has.
+/// The files of a directory by their names, each with how many lines it has, and how large the
+/// numbers of data are.
 std::string files_in(const fs::path& directory) {
     std::set<std::string> files;
     for (const auto& entry : fs::recursive_directory_iterator(directory)) {
         if (!entry.is_regular_file())
             continue;
         std::ifstream file(entry.path(), std::ios::binary);
-        const auto lines = std::count(std::istreambuf_iterator<char>(file), {}, '\n');
+        const std::string text(std::istreambuf_iterator<char>(file), {});
+        const auto lines = std::ranges::count(text, '\n');
         const std::string kind = entry.path().extension().string();
         const std::string name = entry.path().lexically_relative(directory).string();
         // Pictures are as long as what draws them makes them, and so are notes for --resume.
         const bool is_text = kind == ".csv" || kind == ".toml" || kind == ".py" || kind == ".md";
-        files.insert(is_text ? fmt::format("{}: {} lines", name, lines) : name);
+        const std::string sizes = kind == ".csv" || kind == ".dat" ? column_sizes(text) : "";
+        files.insert((is_text ? fmt::format("{}: {} lines", name, lines) : name) +
+                     (sizes.empty() ? "" : "," + sizes));
     }
     return boost::algorithm::join(files, "\n");
 }

@@ -13,7 +13,8 @@ namespace tvbeam {
 /// of `says`, wherever its lines break; lines of more than OutputLines::longest_line are passed
 /// over. program: tvbeam's own file; empty: none can be run, and no expectation holds. What is
 /// examined is what it wrote, without columns of seconds, and which files stand there then, with
-/// the number of their lines. Throws InputError as the other tables do.
+/// the number of their lines and the column_sizes of data. Throws InputError as the other tables
+/// do.
 void expect_commands(TableReader& expect, const std::string& program,
                      std::vector<Expectation>& expectations);
 
