@@ -57,8 +57,8 @@ Eigen::MatrixXd root_of_covariance(const Eigen::MatrixXd& jacobian, double s) {
 class Search {
 public:
     Search(const ModelFunction& model, const Eigen::VectorXd& y, const Eigen::VectorXd& weights,
-           Eigen::Index size, double scatter)
-        : model_(model), y_(y), scatter_(scatter),
+           Eigen::Index size, double scatter, const std::vector<Eigen::Index>& correlations)
+        : model_(model), y_(y), scatter_(scatter), correlations_(correlations),
           root_weights_(weights.cwiseSqrt()), here_{Eigen::VectorXd(size),
                                                     Eigen::VectorXd(y.size()),
                                                     Eigen::MatrixXd(y.size(), size), infinity},
@@ -79,19 +79,28 @@ public:
         for (int k = 0; k < most_trials && !joins_the_best(); ++k) {
             Matrix damped = normal_;
             damped.diagonal() += damping * scales;
-            const Vector step = -damped.llt().solve(gradient_);
+            for (const auto place : held_back_) {
+                damped.row(place).setZero();
+                damped.col(place).setZero();
+                damped(place, place) = 1;
+            }
+            Vector step = -damped.llt().solve(gradient_);
             if (!step.allFinite())
                 break;
             trial_.theta = here_.theta + step;
+            for (const auto place : correlations_)
+                trial_.theta[place] = std::clamp(trial_.theta[place], -1.0, 1.0);
+            step = trial_.theta - here_.theta;
             evaluate(trial_);
             const bool stands =
                 (step.array().abs() <= smallest_step * (here_.theta.array().abs() + smallest_step))
                     .all();
             if (trial_.chi2 < here_.chi2) {
-                // By the model that is linear about here_, with the damping's own share.
-                const double promised = step.dot(damping * scales.cwiseProduct(step) - gradient_);
+                // By the model that is linear about here_.
+                const double promised = -step.dot(2 * gradient_ + normal_ * step);
                 const double kept = 2 * (here_.chi2 - trial_.chi2) / promised - 1;
-                damping *= std::max(1.0 / 3, 1 - kept * kept * kept);
+                if (promised > 0)
+                    damping *= std::max(1.0 / 3, 1 - kept * kept * kept);
                 next_rise = 2;
                 std::swap(here_, trial_);
                 linearise();
@@ -153,6 +162,12 @@ private:
                 normal_(i, j) = normal_(j, i) = jacobian.col(j).dot(jacobian.col(i));
             gradient_[i] = jacobian.col(i).dot(here_.residuals);
         }
+        held_back_.clear();
+        for (const auto place : correlations_)
+            if (std::abs(here_.theta[place]) >= 1 && gradient_[place] * here_.theta[place] <= 0) {
+                held_back_.push_back(place);
+                gradient_[place] = 0;
+            }
     }
 
     /// A hundredth of a standard error from where an earlier start has ended, this one ends too.
@@ -167,12 +182,14 @@ private:
     const ModelFunction& model_;
     const Eigen::VectorXd& y_;
     double scatter_;
+    const std::vector<Eigen::Index>& correlations_;
+    std::vector<Eigen::Index> held_back_; ///< those at a bound that would go beyond it
     Eigen::VectorXd root_weights_;
     Place here_;
     Place trial_;
     Place best_;
     Matrix normal_;   ///< JᵀJ, here
-    Vector gradient_; ///< Jᵀr, here
+    Vector gradient_; ///< Jᵀr, here; 0 of what is held back
 };
 
 } // namespace
@@ -187,12 +204,13 @@ double LeastSquares::standard_error(int k) const {
 
 std::optional<LeastSquares> least_squares(const ModelFunction& model, const Eigen::VectorXd& y,
                                           const Eigen::VectorXd& weights,
-                                          std::span<const Eigen::VectorXd> starts, double scatter) {
+                                          std::span<const Eigen::VectorXd> starts, double scatter,
+                                          const std::vector<Eigen::Index>& correlations) {
     if (starts.empty() || y.size() < starts.front().size())
         return std::nullopt;
     if (starts.front().size() > most_parameters)
         throw std::invalid_argument("no model has so many parameters");
-    Search search(model, y, weights, starts.front().size(), scatter);
+    Search search(model, y, weights, starts.front().size(), scatter, correlations);
     for (const auto& start : starts)
         search.descend_from(start);
     return search.best();

@@ -17,6 +17,7 @@
 #include <limits>
 #include <optional>
 #include <span>
+#include <vector>
 
 namespace tvbeam {
 
@@ -45,11 +46,14 @@ struct LeastSquares {
 
 /// The best of what the starts lead to; all are of one length, of at most 12. None
 /// where there are fewer observations than parameters, or no start is admissible. scatter: the
-/// known standard deviation of y at weight one; 0 where it is not known.
+/// known standard deviation of y at weight one; 0 where it is not known. correlations: the places
+/// of parameters that are no less than −1 and no greater than 1; at a bound that holds one back the
+/// others have their least sum of squares.
 std::optional<LeastSquares> least_squares(const ModelFunction& model, const Eigen::VectorXd& y,
                                           const Eigen::VectorXd& weights,
                                           std::span<const Eigen::VectorXd> starts,
-                                          double scatter = 0);
+                                          double scatter = 0,
+                                          const std::vector<Eigen::Index>& correlations = {});
 
 /// Student's quantile of 97.5 % over the normal one: what few degrees of freedom add to an
 /// interval. Infinite where dof < 1.

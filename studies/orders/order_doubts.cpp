@@ -203,10 +203,18 @@ bool OrderEnsemble::is_ambiguous(Index width) const {
     if (rows_.widths() == 1 || rows_.log_reference.size() > 0 ||
         levels_[static_cast<std::size_t>(width)].size() > numbers)
         return false;
+    constexpr double far_better = 10;
+    constexpr double to_rounding = 1e-7;
+    const auto is_refuted = [&](const EnsembleMember& member) {
+        return std::ranges::any_of(members_, [&](const EnsembleMember& other) {
+            return other.along < 0 && other.place == member.place &&
+                   far_better * std::max(other.fit.scale, to_rounding) < member.fit.scale;
+        });
+    };
     return std::ranges::any_of(members_, [&](const EnsembleMember& member) {
         return member.family == 0 && member.along < 0 &&
                member.fit.order(width).value > single + tuning_.narrowest &&
-               has_constant_beside(member, width, most_of_it);
+               has_constant_beside(member, width, most_of_it) && !is_refuted(member);
     });
 }
 

@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 
+#include <numeric>
 #include <vector>
 
 namespace tvbeam {
@@ -28,6 +29,12 @@ public:
         return 2 * widths_ + i * (2 * widths_ - i - 1) / 2 + (j - i - 1);
     }
     bool is_rho(Eigen::Index k) const { return k >= 2 * widths_ && k < pair(widths_ - 1, widths_); }
+    /// The places of all ρ.
+    std::vector<Eigen::Index> rhos() const {
+        std::vector<Eigen::Index> places(static_cast<std::size_t>(widths_ * (widths_ - 1) / 2));
+        std::iota(places.begin(), places.end(), 2 * widths_);
+        return places;
+    }
     Eigen::Index next(Eigen::Index i) const { return next_[static_cast<std::size_t>(i)]; }
     double power(Eigen::Index i) const { return shape_.next[static_cast<std::size_t>(i)]; }
     Eigen::Index floor() const { return floor_; }

@@ -42,10 +42,8 @@ public:
         const Eigen::Index d = layout.widths();
         Eigen::Index pair = 0;
         for (Eigen::Index i = 0; i < d; ++i)
-            for (Eigen::Index j = i + 1; j < d; ++j, ++pair) {
-                rho_[pair] = std::sin(theta[layout.pair(i, j)]);
-                by_angle_[pair] = std::cos(theta[layout.pair(i, j)]);
-            }
+            for (Eigen::Index j = i + 1; j < d; ++j, ++pair)
+                rho_[pair] = theta[layout.pair(i, j)];
         for (Eigen::Index i = 0; i < d && log_reference.size() > 0; ++i)
             if (!std::isnan(log_reference[i]))
                 reference_[i] = term_at(layout, theta, i, log_reference[i]);
@@ -80,16 +78,14 @@ public:
         for (Eigen::Index i = 0; i < d; ++i)
             square += value[i] * pull[i];
         if (gradient != nullptr) {
-            pair = 0;
             for (Eigen::Index i = 0; i < d; ++i) {
                 const double by_term = pull[i] / square;
                 gradient[2 * i * stride] = by_term * value[i];
                 gradient[(2 * i + 1) * stride] = by_term * terms[places[i]].by_order;
                 if (layout_.next(i) >= 0)
                     gradient[layout_.next(i) * stride] = by_term * terms[places[i]].by_next;
-                for (Eigen::Index j = i + 1; j < d; ++j, ++pair)
-                    gradient[layout_.pair(i, j) * stride] =
-                        by_angle_[pair] * value[i] * value[j] / square;
+                for (Eigen::Index j = i + 1; j < d; ++j)
+                    gradient[layout_.pair(i, j) * stride] = value[i] * value[j] / square;
             }
             if (layout_.floor() >= 0)
                 gradient[layout_.floor() * stride] = floor_ / square;
@@ -123,7 +119,6 @@ private:
     Eigen::Index in_squares_;
     double floor_; ///< its square
     double rho_[most_pairs];
-    double by_angle_[most_pairs]; ///< ∂ρ/∂φ
     Term reference_[most_widths]; ///< 0 where the comparison is exact
 };
 
@@ -221,7 +216,7 @@ FittedNumber TermFit::log_size(Eigen::Index width) const {
 
 FittedNumber TermFit::correlation(Eigen::Index first, Eigen::Index second) const {
     const auto at = Layout(shape, log_centre.size()).pair(first, second);
-    return {std::sin(theta[at]), std::abs(std::cos(theta[at])) * std::sqrt(covariance(at, at))};
+    return {theta[at], std::sqrt(covariance(at, at))};
 }
 
 FittedNumber TermFit::next(Eigen::Index width) const {

@@ -5,8 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
-#include <span>
 #include <utility>
 
 namespace tvbeam {
@@ -26,7 +24,8 @@ double median_of(Eigen::VectorXd values) {
 }
 
 /// Cauchy's weights again and again, from the least squares on.
-LeastSquares reweighted(const ModelFunction& model, const TermRows& rows, LeastSquares fit) {
+LeastSquares reweighted(const ModelFunction& model, const TermRows& rows, LeastSquares fit,
+                        const std::vector<Eigen::Index>& rhos) {
     if (fit.dof < 1)
         return fit;
     // The median of the residuals is too small by what the parameters take up.
@@ -40,7 +39,7 @@ LeastSquares reweighted(const ModelFunction& model, const TermRows& rows, LeastS
         const Eigen::VectorXd weights =
             rows.weights.array() / (1 + (distance / (cauchy * scatter)).square());
         const std::vector<Eigen::VectorXd> from{fit.theta};
-        auto next = least_squares(model, rows.log_errors, weights, from, rows.scatter);
+        auto next = least_squares(model, rows.log_errors, weights, from, rows.scatter, rhos);
         if (!next)
             break;
         constexpr double close = 1e-5;
@@ -72,64 +71,31 @@ ModelFunction held(const ModelFunction& model, const Eigen::VectorXd& theta,
     };
 }
 
-/// Close to ρ = ±1 sin φ has hardly a derivative, and the search creeps. So from each start with
-/// all ρ at their bounds, which is the sum of the terms with signs of their own: to where the best
-/// of that ends, if that is far better.
-void search_sums_with_signs(const ModelFunction& model, const Layout& layout, const TermRows& rows,
-                            std::span<const Eigen::VectorXd> starts, LeastSquares& fit) {
-    constexpr Eigen::Index most = 3; // widths: four choices of signs
-    const Eigen::Index d = layout.widths();
-    if (d > most || fit.scale() <= least_scatter)
-        return;
-    std::vector<Eigen::Index> free;
-    for (Eigen::Index k = 0; k < layout.size(); ++k)
-        if (!layout.is_rho(k))
-            free.push_back(k);
-    std::vector<Eigen::VectorXd> there;
-    for (unsigned minus = 0; minus < 1U << (d - 1); ++minus) {
-        const auto is_minus = [&](Eigen::Index i) { return i > 0 && (minus >> (i - 1) & 1U) != 0; };
-        Eigen::VectorXd theta = starts.front();
-        for (Eigen::Index i = 0; i < d; ++i)
-            for (Eigen::Index j = i + 1; j < d; ++j)
-                theta[layout.pair(i, j)] =
-                    (is_minus(i) == is_minus(j) ? 1 : -1) * std::numbers::pi / 2;
-        std::vector<Eigen::VectorXd> from;
-        for (const auto& start : starts)
-            from.emplace_back(start(free));
-        const auto rest = least_squares(held(model, theta, free), rows.log_errors, rows.weights,
-                                        from, rows.scatter);
-        if (rest && rest->chi2 < fit.chi2) {
-            theta(free) = rest->theta;
-            there.push_back(theta);
-        }
-    }
-    constexpr double far_better = 10; // of the scale; what is hardly better has stranger orders
-    if (auto better = least_squares(model, rows.log_errors, rows.weights, there, rows.scatter);
-        better && far_better * better->scale() < fit.scale())
-        fit = std::move(*better);
-}
-
-/// At ρ = ±1 sin φ has no derivative, and nothing an interval; nor where ρ and the size of a term
-/// so small that its square is not seen are one number: the others have theirs with ρ held. Of the
-/// leading terms alone, whose sizes are told, that stays open.
+/// At a bound ρ cannot move with the others, and where it and the size of a term so small that its
+/// square is not seen are one number, nothing has an interval: the others have theirs with ρ held.
+/// Of the leading terms alone, whose sizes are told, that stays open.
 LeastSquares with_rho_held(const ModelFunction& model, const Layout& layout, const TermRows& rows,
                            LeastSquares fit) {
-    constexpr double at_the_bound = 1e-3; // 1 − |ρ| < 5e-7
+    constexpr double at_the_bound = 1 - 5e-7;
     const bool has_next_terms = layout.size() > layout.pair(layout.widths() - 1, layout.widths());
     const bool is_one_number = fit.root.size() == 0 && has_next_terms;
     std::vector<Eigen::Index> free;
+    std::vector<Eigen::Index> free_rhos; // their places among these
     for (Eigen::Index k = 0; k < layout.size(); ++k)
-        if (!layout.is_rho(k) ||
-            (!is_one_number && std::abs(std::cos(fit.theta[k])) >= at_the_bound))
+        if (!layout.is_rho(k) || (!is_one_number && std::abs(fit.theta[k]) <= at_the_bound)) {
+            if (layout.is_rho(k))
+                free_rhos.push_back(std::ssize(free));
             free.push_back(k);
+        }
     if (static_cast<Eigen::Index>(free.size()) == layout.size())
         return fit;
     const ModelFunction rest_of_it = held(model, fit.theta, free);
     const std::vector<Eigen::VectorXd> start{fit.theta(free)};
-    auto rest = least_squares(rest_of_it, rows.log_errors, rows.weights, start, rows.scatter);
+    auto rest =
+        least_squares(rest_of_it, rows.log_errors, rows.weights, start, rows.scatter, free_rhos);
     if (!rest)
         return fit;
-    rest = reweighted(rest_of_it, rows, std::move(*rest));
+    rest = reweighted(rest_of_it, rows, std::move(*rest), free_rhos);
     if (is_one_number && rest->root.size() == 0)
         return fit;
     LeastSquares whole = fit;
@@ -194,7 +160,8 @@ std::optional<TermFit> TermSearch::fit(const TermShape& shape, const TermFit* si
     if (rows.widths() > 1 && beside == nullptr && is_half_an_order_on(shape))
         for (auto& start : starts_of(layout, rows))
             starts.push_back(std::move(start));
-    auto best = least_squares(model, rows.log_errors, rows.weights, starts, rows.scatter);
+    const auto rhos = layout.rhos();
+    auto best = least_squares(model, rows.log_errors, rows.weights, starts, rows.scatter, rhos);
     // Where the search may have ended in a false valley; where two fit to rounding, as rows of few
     // levels allow; and of two logarithms of either sign, which bend the error alike: then that of
     // other rows.
@@ -202,9 +169,9 @@ std::optional<TermFit> TermSearch::fit(const TermShape& shape, const TermFit* si
     if (beside != nullptr && (!best || has_logarithm || best->scale() > worse * beside->scale ||
                               best->scale() <= least_scatter)) {
         const std::vector<Eigen::VectorXd> start{in_units(layout, *beside, log_centre_, log_unit_)};
-        auto same = start[0].allFinite()
-                        ? least_squares(model, rows.log_errors, rows.weights, start, rows.scatter)
-                        : std::nullopt;
+        auto same = start[0].allFinite() ? least_squares(model, rows.log_errors, rows.weights,
+                                                         start, rows.scatter, rhos)
+                                         : std::nullopt;
         if (same &&
             (!best || same->scale() <=
                           std::max((has_logarithm ? worse : 1.0) * best->scale(), least_scatter)))
@@ -212,13 +179,7 @@ std::optional<TermFit> TermSearch::fit(const TermShape& shape, const TermFit* si
     }
     if (!best)
         return std::nullopt;
-    if (simpler == nullptr && beside == nullptr && rows.widths() > 1)
-        search_sums_with_signs(model, layout, rows, starts, *best);
-    // At a bound of ρ its angle may have gone round many times: a step is small beside it then.
-    for (Eigen::Index k = 0; k < layout.size(); ++k)
-        if (layout.is_rho(k))
-            best->theta[k] = std::remainder(best->theta[k], 2 * std::numbers::pi);
-    *best = reweighted(model, rows, std::move(*best));
+    *best = reweighted(model, rows, std::move(*best), rhos);
     // A longer model that fits far worse than the one within it has ended in a false valley.
     constexpr double far_worse = 2;
     if (simpler == nullptr || best->scale() <= far_worse * simpler->scale)

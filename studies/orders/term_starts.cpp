@@ -70,7 +70,7 @@ std::optional<Start> start_at(const Layout& layout, const TermRows& rows, Eigen:
     for (Eigen::Index i = 0; i < d; ++i)
         for (Eigen::Index j = i + 1; j < d; ++j) {
             const double rho = x[column++] / 2 / std::exp(start.theta[2 * i] + start.theta[2 * j]);
-            start.theta[layout.pair(i, j)] = std::asin(std::clamp(rho, -most_rho, most_rho));
+            start.theta[layout.pair(i, j)] = std::clamp(rho, -most_rho, most_rho);
         }
     if (longer >= 0)
         start.theta[layout.next(longer)] =
@@ -156,11 +156,7 @@ Eigen::VectorXd lengthened(const Layout& layout, const TermRows& rows,
 
 Eigen::VectorXd lengthened(const Layout& layout, const TermRows& rows, const TermFit& simpler) {
     const Eigen::Index shared = layout.pair(layout.widths() - 1, layout.widths());
-    Eigen::VectorXd leading = simpler.theta.head(shared);
-    // Off the bounds of ρ, where nothing moves it.
-    for (Eigen::Index k = 2 * layout.widths(); k < shared; ++k)
-        leading[k] = std::asin(std::clamp(std::sin(leading[k]), -most_rho, most_rho));
-    return lengthened(layout, rows, leading);
+    return lengthened(layout, rows, Eigen::VectorXd(simpler.theta.head(shared)));
 }
 
 std::vector<Eigen::VectorXd> with_logarithms(const Layout& layout,

@@ -524,23 +524,30 @@ BOOST_DATA_TEST_CASE(half_an_order_on_is_seen_beside_a_far_smaller_term_of_oppos
     BOOST_TEST(holds(order, p), order.value << " ± " << order.half_width());
 }
 
-// exp(−1/(a h)) has no order.
-BOOST_DATA_TEST_CASE(what_falls_faster_than_any_power_has_no_order,
-                     data::make({4.0, 5.0, 7.0, 7.2, 7.4, 10.0, 14.0}) *
-                         data::make({0.1, 0.05, 0.02, 0.01, 1e-4, 1e-6}) * data::make({4, 5, 6}),
-                     a, b, levels) {
-    if (short_tests && levels != 5)
-        return;
-    std::vector<ErrorRow> rows;
-    for (int i = 0; i < levels; ++i)
-        for (const double dt : {0.1, 0.05, 0.025, 0.0125}) {
-            const double h = 0.1 * std::exp2(-i);
-            rows.push_back({{h, dt}, std::exp(-1 / (a * h)) + b * dt});
-        }
-    const auto orders = estimate_orders(rows);
-    BOOST_TEST(!orders[0].determined,
-               orders[0].value << " in " << orders[0].low << " ... " << orders[0].high);
-    BOOST_TEST((!orders[1].determined || holds(orders[1], 1.0)));
+// exp(−1/(a h)) has no order; that of what stands beside it is in its interval, of 95 %.
+BOOST_AUTO_TEST_CASE(what_falls_faster_than_any_power_has_no_order) {
+    int determined = 0;
+    int missed = 0;
+    for (const double a : {4.0, 5.0, 7.0, 7.2, 7.4, 10.0, 14.0})
+        for (const double b : {0.1, 0.05, 0.02, 0.01, 1e-4, 1e-6})
+            for (const int levels : {4, 5, 6}) {
+                if (short_tests && levels != 5)
+                    continue;
+                std::vector<ErrorRow> rows;
+                for (int i = 0; i < levels; ++i)
+                    for (const double dt : {0.1, 0.05, 0.025, 0.0125}) {
+                        const double h = 0.1 * std::exp2(-i);
+                        rows.push_back({{h, dt}, std::exp(-1 / (a * h)) + b * dt});
+                    }
+                const auto orders = estimate_orders(rows);
+                BOOST_TEST(!orders[0].determined, a << ", " << b << ": " << orders[0].value
+                                                    << " in " << orders[0].low << " ... "
+                                                    << orders[0].high);
+                determined += orders[1].determined ? 1 : 0;
+                missed += orders[1].determined && !holds(orders[1], 1.0) ? 1 : 0;
+            }
+    BOOST_TEST(determined > 0);
+    BOOST_TEST(missed <= 0.05 * determined, missed << " of " << determined);
 }
 
 // Of one of these the order of dt was 0.685 ± 0.305 on one build, and 0.712 ± 0.363 on another: the

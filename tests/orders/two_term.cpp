@@ -1,9 +1,11 @@
 #include "studies/orders/term_model.hpp"
 #include "studies/orders/two_term_fit.hpp"
+#include "tests/this_build.hpp"
 
 #include <boost/test/unit_test.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -111,6 +113,55 @@ BOOST_AUTO_TEST_CASE(no_interval_hangs_on_the_last_bit_of_the_errors) {
         BOOST_TEST(other.p.value == fit.p.value, boost::test_tools::tolerance(1e-6));
         BOOST_TEST(other.p.half_width() == fit.p.half_width(), boost::test_tools::tolerance(1e-4));
     }
+}
+
+// Grids of 9 to 25 runs, with scatter and without it, with next terms and without: another libm, or
+// another processor, has other last bits. With ρ as the sine of an angle, which has no derivative
+// at its bounds, 55 of 1000 such grids had intervals that moved by a hundredth of their half and
+// more; with ρ between bounds 16 have, where a term goes on to no order at all.
+BOOST_AUTO_TEST_CASE(of_random_grids_hardly_any_interval_hangs_on_the_last_bit) {
+    std::mt19937_64 bits(5);
+    const auto between = [&](double low, double high) {
+        return std::uniform_real_distribution<double>(low, high)(bits);
+    };
+    const int grids = short_tests ? 40 : 200;
+    int one_sided = 0;
+    int moved = 0;
+    for (int k = 0; k < grids; ++k) {
+        const TwoTermModel model{.a = std::exp(between(-1, 1)),
+                                 .p = std::floor(between(1, 5)),
+                                 .b = std::exp(between(-3, 3)),
+                                 .q = std::floor(between(1, 3)),
+                                 .rho = between(-1, 1)};
+        const double scatter = std::array{0.0, 1e-3, 1e-2, 3e-2}[static_cast<std::size_t>(k % 4)];
+        const double next = k % 8 < 4 ? between(-1, 1) : 0.0;
+        std::normal_distribution<double> normal;
+        std::vector<Refinement> records;
+        for (int i = 0; i < 3 + k % 3; ++i)
+            for (int j = 0; j < 3 + k / 3 % 3; ++j) {
+                const double h = 0.2 * std::pow(0.53, i);
+                const double dt = 0.1 * std::pow(0.55, j);
+                records.push_back({.h = h,
+                                   .dt = dt,
+                                   .error = model.error(h, dt) * (1 + next * h) *
+                                            std::exp(scatter * normal(bits))});
+            }
+        const auto fit = fit_two_term(records);
+        for (auto& record : records)
+            record.error *= 1 + between(-1e-13, 1e-13);
+        const auto other = fit_two_term(records);
+        for (const auto order : {&TwoTermFit::p, &TwoTermFit::q}) {
+            const OrderInterval& one = fit.*order;
+            const OrderInterval& two = other.*order;
+            one_sided += one.determined != two.determined ? 1 : 0;
+            moved += one.determined && two.determined &&
+                             std::abs(one.half_width() - two.half_width()) > 0.01 * one.half_width()
+                         ? 1
+                         : 0;
+        }
+    }
+    BOOST_TEST(one_sided <= 0.01 * grids, one_sided << " of " << grids);
+    BOOST_TEST(moved <= 0.03 * grids, moved << " of " << grids);
 }
 
 // Every error times a number: the same orders, and sizes times that number, as far as doubles go.
@@ -322,19 +373,6 @@ BOOST_AUTO_TEST_CASE(the_standard_error_of_rho_is_how_far_it_scatters) {
     BOOST_TEST_MESSAGE("rho scatters by " << scatter << ", stated " << stated);
     BOOST_TEST(stated < 1.6 * scatter);
     BOOST_TEST(stated > 0.6 * scatter);
-}
-
-// ρ = sin ψ has the error |cos ψ| dψ also where a fit has come to ψ beyond ±π/2.
-BOOST_AUTO_TEST_CASE(a_standard_error_is_no_negative_number) {
-    for (const double angle : {0.3, std::numbers::pi - 0.3, std::numbers::pi + 0.3}) {
-        TermFit fit;
-        fit.shape.next = {TermShape::none, TermShape::none};
-        fit.theta = Eigen::VectorXd::Constant(5, angle);
-        fit.covariance = 0.01 * Eigen::MatrixXd::Identity(5, 5);
-        fit.log_centre = Eigen::VectorXd::Zero(2);
-        BOOST_TEST(fit.correlation(0, 1).error == 0.1 * std::cos(0.3),
-                   boost::test_tools::tolerance(1e-14));
-    }
 }
 
 // Errors that do not depend on Δt have an order in h, and none in Δt.
