@@ -65,7 +65,8 @@ public:
           trial_(here_), best_(here_) {}
 
     /// Levenberg and Marquardt, with Moré's scaling of the parameters and Nielsen's damping (1999).
-    /// What it comes to is kept if it is the best so far.
+    /// Steps are cut off at the bounds of correlations, and one that would go on beyond its bound
+    /// is held back while the others move. What it comes to is kept if it is the best so far.
     void descend_from(const Eigen::VectorXd& start) {
         here_.theta = start;
         evaluate(here_);
