@@ -188,6 +188,32 @@ BOOST_AUTO_TEST_CASE(errors_that_are_rounding_are_those_of_any_processor) {
     BOOST_TEST(inexact.exit == 1, inexact.output);
 }
 
+// Of a norm of about 1e-17 the square is 1e-34, and what rounding may be of it that of the norm,
+// about 1e-14, squared.
+BOOST_AUTO_TEST_CASE(squares_that_are_rounding_are_less_than_the_square_of_rounding) {
+    const TemporaryDirectory directory;
+    const std::string file = (directory.path() / "base.json").string();
+    const std::string squared =
+        "check nothing-heated --set ladder.norms=['theta_L2L2_sq'] --set expect={} ";
+    BOOST_TEST(call(directory, squared + "--record " + file).exit == 0);
+    const auto recorded = nlohmann::json::parse(directory.read("base.json"));
+    const auto exit_with = [&](double error) {
+        auto changed = recorded;
+        int squares = 0;
+        for (auto& [what, figure] : changed.at("scenes").at("nothing-heated").items())
+            if (what.starts_with("ladder.theta_L2L2_sq: error")) {
+                figure = error;
+                ++squares;
+            }
+        BOOST_TEST(squares == 3);
+        return call(directory,
+                    squared + "--baseline " + directory.write("changed.json", changed.dump()))
+            .exit;
+    };
+    BOOST_TEST(exit_with(1e-33) == 0);
+    BOOST_TEST(exit_with(1e-20) == 1);
+}
+
 BOOST_AUTO_TEST_CASE(a_tolerance_that_holds_anything_or_nothing_is_refused) {
     const TemporaryDirectory directory;
     const std::string file = (directory.path() / "base.json").string();
