@@ -49,22 +49,25 @@ public:
         const char between = line.find(',') == std::string_view::npos ? ' ' : ',';
         bool has_numbers = false;
         std::size_t column = 0;
-        for (std::size_t at = 0; at <= line.size(); ++column) {
+        for (std::size_t at = 0; at <= line.size();) {
             const std::size_t end = std::min(line.find(between, at), line.size());
             const std::string_view field = line.substr(at, end - at);
             at = end + 1;
+            if (field.empty() && between == ' ')
+                continue;
+            const std::size_t place = column++;
             double number = 0.0;
             const char* const last = field.data() + field.size();
             const auto ended = std::from_chars(field.data(), last, number);
-            if (field == "seconds")
-                left_out_.insert(column);
+            if (field == "seconds" || field == "sec")
+                left_out_.insert(place);
             else if (field.find("seconds") != std::string_view::npos)
                 has_times_ = true;
             if (ended.ec != std::errc() || ended.ptr != last || !std::isfinite(number))
                 continue;
             has_numbers = true;
-            columns_.resize(std::max(columns_.size(), column + 1));
-            columns_[column].of_block.add(size_of(number));
+            columns_.resize(std::max(columns_.size(), column));
+            columns_[place].of_block.add(size_of(number));
         }
         if (!has_numbers)
             end_block();

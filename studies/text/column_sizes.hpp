@@ -9,8 +9,8 @@ namespace tvbeam {
 /// program wrote: 1 plus the mean of ln(1 + |v|/1e-6), of negative ones 0.7 of it, which tells
 /// columns apart and does not see rounding. Rows between lines without numbers are one block, which
 /// counts as one however many rows it has: the points of a curve are as many as it took. Blocks and
-/// their rows count from 1 to 2, so that none stands for another. " 7.123 4.200"; without the
-/// column "seconds", and nothing of a file that has other times.
+/// their rows count from 1 to 2, so that none stands for another. " 7.123 4.200"; without a column
+/// "seconds" or "sec", and nothing of a file that has other times.
 std::string column_sizes(std::string_view text);
 
 } // namespace tvbeam

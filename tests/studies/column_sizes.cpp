@@ -65,6 +65,8 @@ BOOST_AUTO_TEST_CASE(are_of_blocks_that_count_as_one) {
 BOOST_AUTO_TEST_CASE(leave_seconds_out) {
     const std::string without = tvbeam::column_sizes("h,error,reason\n0.5,0.25,\n");
     BOOST_TEST(tvbeam::column_sizes("h,error,seconds,reason\n0.5,0.25,3.5,\n") == without);
+    BOOST_TEST(tvbeam::column_sizes("  h error  sec\n0.5  0.25 3.5\n") ==
+               tvbeam::column_sizes("0.5 0.25\n"));
     BOOST_TEST(tvbeam::column_sizes("h,seconds_median,error\n0.5,3.5,0.25\n") == "");
     BOOST_TEST(tvbeam::column_sizes("# median of the seconds, error\n3.5 0.25\n") == "");
 }

@@ -4,6 +4,7 @@
 #include "mms/text/input_error.hpp"
 #include "studies/gates/check.hpp"
 #include "studies/study.hpp"
+#include "studies/text/column_sizes.hpp"
 #include "tests/temporary_directory.hpp"
 
 #include <boost/test/data/monomorphic.hpp>
@@ -88,7 +89,8 @@ BOOST_AUTO_TEST_CASE(what_is_examined_has_no_seconds_and_lists_the_files) {
                                      "\\nok, 0.3 s\\n\" | tee a.csv; echo > b.svg"));
     BOOST_REQUIRE(all.size() == 1);
     BOOST_TEST(all.front().examined == "exit 0\n  s error  sec\n 10  1e-3\n 20  2e-4\n\nok\n"
-                                       "a.csv: 5 lines\nb.svg");
+                                       "a.csv: 5 lines," +
+                                           column_sizes("10 1e-3\n20 2e-4\n") + "\nb.svg");
 }
 
 BOOST_AUTO_TEST_CASE(without_a_program_and_within_a_command_nothing_is_run_and_nothing_holds) {
