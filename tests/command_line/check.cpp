@@ -4,6 +4,7 @@
 #include "tests/temporary_directory.hpp"
 
 #include <boost/test/unit_test.hpp>
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -154,10 +155,11 @@ norms = ["L2"]
     BOOST_TEST(call(directory, "check " + scene + " --record " + file).exit == 0);
     BOOST_TEST(call(directory, "check " + scene + " --baseline " + file).exit == 0);
     for (const std::string level : {"0", "1", "2"})
-        BOOST_TEST(call(directory, "check " + scene + " --set solver.parameters.at=" + level +
-                                       " --baseline " + file)
-                           .exit == 1,
-                   level);
+        BOOST_TEST(
+            call(directory, fmt::format("check {} --set solver.parameters.at={} --baseline {}",
+                                        scene, level, file))
+                    .exit == 1,
+            level);
 }
 
 // Rounding of another processor is no change; an error that was, or is, more than rounding is one.
@@ -219,8 +221,8 @@ BOOST_AUTO_TEST_CASE(a_tolerance_that_holds_anything_or_nothing_is_refused) {
     const std::string file = (directory.path() / "base.json").string();
     BOOST_TEST(call(directory, "check sheared --record " + file).exit == 0);
     for (const std::string tolerance : {"nan", "inf", "-1", "0", "0.6", "1e300", "x"}) {
-        const Called called =
-            call(directory, "check sheared --tolerance=" + tolerance + " --baseline " + file);
+        const Called called = call(
+            directory, fmt::format("check sheared --tolerance={} --baseline {}", tolerance, file));
         BOOST_TEST(called.exit == 2, tolerance);
         BOOST_TEST(has(called.errors, "--tolerance: " + tolerance + " is no part > 0 and at most"),
                    called.errors);
