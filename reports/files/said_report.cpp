@@ -122,11 +122,11 @@ std::string shape_of(const std::string& given) {
     return shape;
 }
 
-/// Of data alone: numbers of a stress study are rounding.
+/// Of data alone: those of a stress study are rounding.
 bool has_data(std::string_view name) {
-    return (name.ends_with(".dat") || name.ends_with(".csv")) &&
-           name.find("stress") == std::string_view::npos &&
-           name.find("round") == std::string_view::npos;
+    const std::string_view file = name.substr(name.find('/') + 1);
+    return (file.ends_with(".dat") || file.ends_with(".csv")) && !file.starts_with("stress") &&
+           !file.starts_with("round");
 }
 
 std::string file_of(const std::string& name, const std::string& text) {

@@ -16,8 +16,8 @@ namespace tvbeam {
 
 namespace {
 
-/// A search that has an end takes about ten. Where it has none (ρ at its bound, a term that is not
-/// there), more of them only bend the model towards what is out of line.
+/// A search that has an end takes about ten. Where it has none (a term that is not there), more of
+/// them only bend the model towards what is out of line.
 constexpr int most_trials = 100;
 constexpr double smallest_step = 1e-10;
 constexpr double smallest_gradient = 1e-10;

@@ -197,14 +197,9 @@ void fit_all_widths(const TermRows& rows, const AllLevels& levels,
     const auto shapes = shapes_of(levels.size());
     // Where the search from nothing ends in a false valley, that from another window's fit does
     // not.
-    constexpr double far_better = 10;
-    constexpr double to_rounding = 1e-7;
     constexpr int fewest_spare = 2; // rows: seven parameters follow any nine
     std::vector<std::optional<TermFit>> closest(
         shapes.size()); // of the widest window, if it can be
-    const auto is_far_worse = [&](const TermFit& fit, const TermFit& other) {
-        return fit.scale > far_better * std::max(other.scale, to_rounding);
-    };
     for (const auto& place : places_within(most)) {
         const auto window = rows_from(rows, levels, place);
         if (window.size() == 0)
@@ -231,7 +226,7 @@ void fit_all_widths(const TermRows& rows, const AllLevels& levels,
                 plain = fit;
             if (!of_two_kinds)
                 least_scale = std::min(least_scale, fit->scale);
-            else if (fit->scale > std::max(least_scale, to_rounding))
+            else if (fit->scale > std::max(least_scale, scale_of_rounding))
                 continue; // what fits no better with more parameters follows scatter
             if (!closest[k] || is_far_worse(*closest[k], *fit))
                 closest[k] = fit;
@@ -293,6 +288,11 @@ Eigen::ArrayXd shares_of_errors(const TermFit& fit, Index width, const TermRows&
 }
 
 } // namespace
+
+bool is_far_worse(const TermFit& fit, const TermFit& other) {
+    constexpr double far = 10;
+    return fit.scale > far * std::max(other.scale, scale_of_rounding);
+}
 
 double share_of_errors(const TermFit& fit, Index width, const TermRows& rows) {
     double greatest = 0;

@@ -29,6 +29,13 @@ constexpr int families_of_a_width = 100;
 /// Among the models of a sequence.
 constexpr int logarithmic_family = 3;
 
+/// What rounding leaves of ln e where a model is exact, and the search for it.
+constexpr double scale_of_rounding = 1e-7;
+
+/// Of two fits of the same rows: whether the scatter that is left by the first is ten times as much
+/// and more, and not rounding.
+bool is_far_worse(const TermFit& fit, const TermFit& other);
+
 /// The greatest part of an error that the term of one width is, of all rows.
 double share_of_errors(const TermFit& fit, Eigen::Index width, const TermRows& rows);
 /// The root of the mean square of that part, over all rows.

@@ -4,6 +4,7 @@
 #include "studies/orders/term_starts.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -71,12 +72,49 @@ ModelFunction held(const ModelFunction& model, const Eigen::VectorXd& theta,
     };
 }
 
+/// Three terms may cancel in part with either sign of each, and from a start between the bounds of
+/// ρ the search often ends in a false valley. So from each start with all ρ at their bounds, which
+/// is the sum of the terms with signs of their own: to where the best of that ends, if that is far
+/// better.
+void search_sums_with_signs(const ModelFunction& model, const Layout& layout, const TermRows& rows,
+                            const std::vector<Eigen::VectorXd>& starts, LeastSquares& fit) {
+    constexpr Eigen::Index three = 3; // of two none is lost; of more there are too many signs
+    if (layout.widths() != three || fit.scale() <= least_scatter)
+        return;
+    std::vector<Eigen::Index> free;
+    for (Eigen::Index k = 0; k < layout.size(); ++k)
+        if (!layout.is_rho(k))
+            free.push_back(k);
+    std::vector<Eigen::VectorXd> there;
+    for (const auto& signs : {std::array{1, 1, 1}, {1, -1, 1}, {1, 1, -1}, {1, -1, -1}}) {
+        Eigen::VectorXd theta = starts.front();
+        for (Eigen::Index i = 0; i < three; ++i)
+            for (Eigen::Index j = i + 1; j < three; ++j)
+                theta[layout.pair(i, j)] =
+                    signs[static_cast<std::size_t>(i)] * signs[static_cast<std::size_t>(j)];
+        std::vector<Eigen::VectorXd> from;
+        for (const auto& start : starts)
+            from.emplace_back(start(free));
+        const auto rest = least_squares(held(model, theta, free), rows.log_errors, rows.weights,
+                                        from, rows.scatter);
+        if (rest && rest->chi2 < fit.chi2) {
+            theta(free) = rest->theta;
+            there.push_back(theta);
+        }
+    }
+    constexpr double far_better = 10; // of the scale; what is hardly better has stranger orders
+    if (auto better =
+            least_squares(model, rows.log_errors, rows.weights, there, rows.scatter, layout.rhos());
+        better && far_better * better->scale() < fit.scale())
+        fit = std::move(*better);
+}
+
 /// At a bound ρ cannot move with the others, and where it and the size of a term so small that its
 /// square is not seen are one number, nothing has an interval: the others have theirs with ρ held.
 /// Of the leading terms alone, whose sizes are told, that stays open.
 LeastSquares with_rho_held(const ModelFunction& model, const Layout& layout, const TermRows& rows,
                            LeastSquares fit) {
-    constexpr double at_the_bound = 1 - 5e-7;
+    constexpr double at_the_bound = 1 - 5e-7; // and nearer
     const bool has_next_terms = layout.size() > layout.pair(layout.widths() - 1, layout.widths());
     const bool is_one_number = fit.root.size() == 0 && has_next_terms;
     std::vector<Eigen::Index> free;
@@ -179,6 +217,8 @@ std::optional<TermFit> TermSearch::fit(const TermShape& shape, const TermFit* si
     }
     if (!best)
         return std::nullopt;
+    if (simpler == nullptr && beside == nullptr)
+        search_sums_with_signs(model, layout, rows, starts, *best);
     *best = reweighted(model, rows, std::move(*best), rhos);
     // A longer model that fits far worse than the one within it has ended in a false valley.
     constexpr double far_worse = 2;

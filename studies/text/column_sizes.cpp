@@ -43,6 +43,12 @@ private:
     double sum_ = 0.0, weights_ = 0.0;
 };
 
+std::string_view without_blanks(std::string_view field) {
+    constexpr std::string_view blanks = " \t\r";
+    const auto first = std::min(field.find_first_not_of(blanks), field.size());
+    return field.substr(first, field.find_last_not_of(blanks) + 1 - first);
+}
+
 class ColumnSizes {
 public:
     void add(std::string_view line) {
@@ -51,7 +57,7 @@ public:
         std::size_t column = 0;
         for (std::size_t at = 0; at <= line.size();) {
             const std::size_t end = std::min(line.find(between, at), line.size());
-            const std::string_view field = line.substr(at, end - at);
+            const std::string_view field = without_blanks(line.substr(at, end - at));
             at = end + 1;
             if (field.empty() && between == ' ')
                 continue;

@@ -355,7 +355,6 @@ BOOST_AUTO_TEST_CASE(a_reference_takes_its_own_terms_off_those_of_the_model) {
     BOOST_TEST(error_against({.dt = 0.01}, model, 0.2, 0.1) == combined(0.08, 0.045), close);
 }
 
-// Near 1 ρ is known far better than the angle whose sine it is.
 BOOST_AUTO_TEST_CASE(the_standard_error_of_rho_is_how_far_it_scatters) {
     constexpr int fits = 40;
     std::mt19937 random(5);

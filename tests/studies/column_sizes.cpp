@@ -35,6 +35,7 @@ BOOST_AUTO_TEST_CASE(are_logarithms_above_a_millionth) {
     BOOST_TEST(tvbeam::column_sizes("a,b\n0.5,-0.25\n") == hand);
     BOOST_TEST(tvbeam::column_sizes("1e-14 -3e-15\n") == " 1.000 1.000");
     BOOST_TEST(tvbeam::column_sizes("words alone, nan\n") == "");
+    BOOST_TEST(tvbeam::column_sizes("a, b\r\n0.5, -0.25\r\n") == hand);
 }
 
 BOOST_AUTO_TEST_CASE(do_not_see_rounding_and_see_half_a_percent) {
