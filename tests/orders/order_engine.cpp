@@ -1247,8 +1247,10 @@ BOOST_AUTO_TEST_CASE(what_stated_scatter_makes_of_an_order_is_no_motion) {
     int determined = 0;
     for (int table = 0; table < 60; ++table) {
         const double sigma = table % 2 == 0 ? 0.03 : 0.1;
+        const int levels = 4 + table % 3;
         std::vector<ErrorRow> rows;
-        for (int k = 0; k < 4 + table % 3; ++k)
+        rows.reserve(static_cast<std::size_t>(levels));
+        for (int k = 0; k < levels; ++k)
             rows.push_back(
                 {{std::exp2(-k)}, std::exp2(-2 * k) * std::exp(sigma * off(random)), sigma});
         const auto order = estimate_orders(rows).front();
@@ -1260,8 +1262,10 @@ BOOST_AUTO_TEST_CASE(what_stated_scatter_makes_of_an_order_is_no_motion) {
     BOOST_TEST(determined >= 35);
     BOOST_TEST(missed <= 2);
     // A motion that is more than the scatter is told.
+    constexpr int levels_of_bent = 5;
     std::vector<ErrorRow> bent;
-    for (int k = 0; k < 5; ++k)
+    bent.reserve(levels_of_bent);
+    for (int k = 0; k < levels_of_bent; ++k)
         bent.push_back({{std::exp2(-k)}, std::exp2(-2 * k - 0.3 * k * k), 0.02});
     BOOST_TEST(estimate_orders(bent).front().status.starts_with("it rises"));
 }
