@@ -93,6 +93,7 @@ void search_sums_with_signs(const ModelFunction& model, const Layout& layout, co
                 theta[layout.pair(i, j)] =
                     signs[static_cast<std::size_t>(i)] * signs[static_cast<std::size_t>(j)];
         std::vector<Eigen::VectorXd> from;
+        from.reserve(starts.size());
         for (const auto& start : starts)
             from.emplace_back(start(free));
         const auto rest = least_squares(held(model, theta, free), rows.log_errors, rows.weights,

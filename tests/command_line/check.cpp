@@ -196,7 +196,7 @@ BOOST_AUTO_TEST_CASE(squares_that_are_rounding_are_less_than_the_square_of_round
     const TemporaryDirectory directory;
     const std::string file = (directory.path() / "base.json").string();
     const std::string squared =
-        "check nothing-heated --set ladder.norms=['theta_L2L2_sq'] --set expect={} ";
+        R"(check nothing-heated --set "ladder.norms=['theta_L2L2_sq']" --set expect={} )";
     BOOST_TEST(call(directory, squared + "--record " + file).exit == 0);
     const auto recorded = nlohmann::json::parse(directory.read("base.json"));
     const auto exit_with = [&](double error) {
