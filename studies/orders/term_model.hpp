@@ -68,7 +68,7 @@ struct FittedNumber {
 
 struct TermFit {
     TermShape shape;
-    Eigen::VectorXd theta; ///< (ln a_i, p_i)…, ρ_ij…, c_i…, ln T_f, s in these units
+    Eigen::VectorXd theta;      ///< (ln a_i, p_i)…, ρ_ij…, c_i…, ln T_f, s in these units
     Eigen::MatrixXd covariance; ///< of theta; infinite on its diagonal where it is not determined
     Eigen::MatrixXd root;       ///< covariance = root rootᵀ; empty where it is not determined
     Eigen::VectorXd log_centre; ///< ln of the unit of each width
