@@ -44,6 +44,10 @@ public:
              double final_time, std::int64_t steps, const std::vector<Norm>& norms,
              const Needs& needs);
 
+    /// Whether the sums of sines would lose digits that the nodal form has
+    /// (SineProfiles::peaks_at_node).
+    [[nodiscard]] bool loses_digits() const { return profiles_.peaks_at_node; }
+
     /// Marches to the end, and tells after every block how many steps it had (RunRequest::advance).
     /// Fails as soon as something is not finite; the general form can then say where and what.
     [[nodiscard]] RunStatus march(const std::function<bool(std::int64_t steps)>& advance);

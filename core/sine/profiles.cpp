@@ -129,7 +129,23 @@ struct Split {
     Eigen::MatrixXd at_ends;   // of the profiles, then the moment arm; shape: 2 × (R + 1)
     std::vector<Column> inner; // those of which anything is left
     std::vector<SpaceFunction> functions;
+    bool peaks_at_node = false;
 };
+
+/// SineProfiles::peaks_at_node of one profile, from its values at the nodes, at the ends that were
+/// taken from it, and the loads (φ°, χ_i) of what is left. Its loads err by ε max|φ(x_i)| h, of
+/// which the greatest of them is 1e-12 then.
+bool peaks(const Mesh& mesh, const Eigen::ArrayXd& at_nodes, const Eigen::Vector2d& ends,
+           const Eigen::VectorXd& hat_load) {
+    constexpr double most = 4096.0;
+    const Eigen::Index inner = mesh.elements() - 1;
+    if (inner < 1)
+        return false;
+    const Eigen::ArrayXd x = mesh.nodes.segment(1, inner);
+    const Eigen::ArrayXd averages = hat_load.segment(1, inner).array() / mesh.lengths(0) +
+                                    ends(0) * (1.0 - x) + ends(1) * x;
+    return at_nodes.abs().maxCoeff() > most * averages.abs().maxCoeff();
+}
 
 /// used: the others keep zeros.
 Split split(const Mesh& mesh, const std::vector<SpaceFunction>& profiles,
@@ -154,6 +170,8 @@ Split split(const Mesh& mesh, const std::vector<SpaceFunction>& profiles,
         column.parts = Eigen::VectorXd::Unit(arm, r);
         column.place = static_cast<Eigen::Index>(parts.inner.size());
         column.hat_load = hat_loads(mesh, function);
+        parts.peaks_at_node =
+            parts.peaks_at_node || peaks(mesh, values, parts.at_ends.col(r), column.hat_load);
         // Of a linear profile nothing is left but round-off.
         if (column.hat_load.cwiseAbs().maxCoeff() <= round_off * scale * mesh.lengths(0))
             continue;
@@ -300,6 +318,7 @@ SineProfiles::SineProfiles(const Mesh& mesh, const SineBasis& basis,
                            const std::vector<SpaceFunction>& profiles,
                            const std::vector<bool>& used, const Wanted& wanted) {
     Split parts = split(mesh, profiles, used);
+    peaks_at_node = parts.peaks_at_node;
     ErrorProfiles errors;
     if (wanted.norms) {
         errors = error_profiles(mesh, parts.functions);

@@ -68,6 +68,10 @@ struct SineProfiles {
     Eigen::MatrixXd modes_gram; ///< Σ_k T_ik T_jk; shape and emptiness as above
     Eigen::MatrixXd
         projection; ///< (g_i − Πg_i, g_j − Πg_j), Π on P1disc; shape and emptiness as above
+    /// Whether some φ_r is so much greater at a node than its loads on both sides make it on
+    /// average that the digits of what is added there and taken away again would be seen: beside a
+    /// layer at a node, as of θ = √(x + d) with a small d, whose second derivative is a source.
+    bool peaks_at_node = false;
 
     /// used: the profiles that matter; the others keep zeros. Without modes the table stays empty.
     SineProfiles(const Mesh& mesh, const SineBasis& basis,

@@ -10,6 +10,8 @@ std::optional<RunResult> run_in_sines(const RunRequest& request, const ProblemDa
         return std::nullopt;
     SineForm form(request.beam, data, mesh, request.scheme, request.final_time, request.steps,
                   request.norms, needs);
+    if (form.loses_digits())
+        return std::nullopt;
     RunResult result{.status = form.march(request.advance)};
     if (result.status == RunStatus::ok && !request.norms.empty())
         result.errors = form.errors();

@@ -127,12 +127,6 @@ std::string basis_of_limits(const std::vector<RungResult>& runs) {
                        from, runs.size());
 }
 
-/// What the model is of: the norm itself, the root of what is a square by its name.
-std::string label_of(const Measure& measure) {
-    const std::string root = measure.root();
-    return root + (measure.squared && root == measure.name ? "^(1/2)" : "");
-}
-
 /// On what they are measured against, and why they are no more.
 std::vector<std::string> sentences_on_runs(const OrdersResult& orders, const OrdersBlock& block) {
     std::vector<std::string> sentences;
@@ -201,7 +195,7 @@ Section orders_section(const OrdersResult& orders, const OrdersBlock& block) {
     std::vector<Block> notes;
     for (std::size_t k = 0; k < orders.norms.size(); ++k) {
         const auto& fit = orders.norms[k].fit;
-        const std::string norm = label_of(block.norms[k]);
+        const std::string norm = block.norms[k].of_orders();
         if (fit.holds()) {
             fits.emplace_back(norm, &fit);
             findings.emplace_back(finding(norm, fit));

@@ -56,8 +56,9 @@ Json json_of(const LadderResult& ladder, const LadderBlock& block) {
     if (ladder.refined)
         add_ending(json, *ladder.refined);
     if (ladder.analysis)
-        for (const auto& column : ladder.analysis->columns)
-            add_analysis(json["analysis"][column.name], *ladder.analysis, column);
+        for (std::size_t k = 0; k < block.norms.size(); ++k)
+            add_analysis(json["analysis"][block.norms[k].root()], *ladder.analysis,
+                         ladder.analysis->columns[k]);
     if (block.printed)
         json["printed_source"] = block.printed->source;
     Json remarks = Json::array();

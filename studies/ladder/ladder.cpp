@@ -91,6 +91,11 @@ std::string order_sentence(const std::string& width, const ColumnAnalysis& colum
                                           width, order.status);
 }
 
+bool is_square_of_another(const Measure& norm, const std::vector<Measure>& all) {
+    return norm.squared && norm.name != norm.root() &&
+           std::ranges::find(all, norm.root(), &Measure::name) != all.end();
+}
+
 /// The rungs whose orders mean something: not those close to the reference.
 std::vector<RungResult> telling(const std::optional<ReferenceBlock>& reference,
                                 const std::vector<RungResult>& rungs) {
@@ -182,7 +187,7 @@ LadderResult analyse_ladder(const LadderBlock& block, const Method& method,
             const ColumnAnalysis& column = result.analysis->columns[k];
             if (norm.is_value)
                 shown.remarks = column.findings;
-            else
+            else if (!is_square_of_another(norm, series.measures)) // which has said it
                 shown.remarks.push_back(
                     order_sentence(result.analysis->widths.front().name, column));
             if (vanishes_at_the_finest(*result.analysis, column))

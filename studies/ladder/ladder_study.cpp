@@ -180,8 +180,9 @@ void expect_method(TableReader& table, const std::string& key, const std::string
 void expect_analysis(TableReader& table, const Measure& measure, std::size_t k,
                      std::vector<Expectation>& expectations) {
     const std::string name = "ladder." + measure.name + ": ";
+    const std::string of = measure.squared ? ", of " + measure.of_orders() : "";
     expect_found(
-        table, "order", name + "order along the ladder", k,
+        table, "order", name + "order along the ladder" + of, k,
         [](const ColumnAnalysis& column) -> const OrderInterval& {
             return column.by_width.front();
         },

@@ -49,7 +49,7 @@ DataAnalysis analysis_of(const Series& series, const std::vector<RungResult>& ru
         std::swap(data.widths.front(), data.widths.back());
     for (std::size_t k = 0; k < series.measures.size(); ++k) {
         const Measure& measure = series.measures[k];
-        DataColumn column{measure.root(), {}};
+        DataColumn column{measure.of_orders(), {}};
         for (const auto& rung : rungs) {
             const double figure =
                 rung.errors.empty() ? std::numeric_limits<double>::quiet_NaN() : rung.errors[k];
@@ -83,7 +83,7 @@ std::vector<std::string> wanted_of(const Until& until, const Series& series) {
     std::vector<std::string> wanted;
     for (const auto& measure : series.measures)
         if (is_wanted(until, measure))
-            wanted.push_back(measure.root());
+            wanted.push_back(measure.of_orders());
     return wanted;
 }
 
@@ -132,7 +132,7 @@ std::vector<std::string> not_known(const Until& until, const Series& series,
         const Measure& measure = series.measures[k];
         const auto& wanted = measure.is_value ? until.limit : until.order;
         if (wanted && !knows(*wanted, k))
-            open.push_back(measure.root());
+            open.push_back(measure.of_orders());
     }
     return open;
 }

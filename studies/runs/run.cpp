@@ -27,6 +27,10 @@ std::string Measure::root() const {
     return squared && name.ends_with(suffix) ? name.substr(0, name.size() - suffix.size()) : name;
 }
 
+std::string Measure::of_orders() const {
+    return root() + (squared && root() == name ? "^(1/2)" : "");
+}
+
 double work_of(const Method& method, const Rung& rung) {
     return static_cast<double>(std::max<std::int64_t>(rung.elements, 1)) *
            static_cast<double>(std::max<std::int64_t>(rung.steps, 1)) * method.cost;

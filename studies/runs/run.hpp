@@ -41,6 +41,9 @@ struct Measure {
 
     /// The name of the norm itself, without `_sq`.
     [[nodiscard]] std::string root() const;
+    /// What orders along a study are of, the norm itself: root(), and "^(1/2)" behind the name of
+    /// what is a square without saying so, as `corollary`.
+    [[nodiscard]] std::string of_orders() const;
     /// The error, of a figure that may be its square.
     [[nodiscard]] double root_of(double figure) const {
         return squared ? std::sqrt(figure) : figure;
