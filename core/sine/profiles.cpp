@@ -133,18 +133,25 @@ struct Split {
 };
 
 /// SineProfiles::peaks_at_node of one profile, from its values at the nodes, at the ends that were
-/// taken from it, and the loads (φ°, χ_i) of what is left. Its loads err by ε max|φ(x_i)| h, of
-/// which the greatest of them is 1e-12 then.
-bool peaks(const Mesh& mesh, const Eigen::ArrayXd& at_nodes, const Eigen::Vector2d& ends,
-           const Eigen::VectorXd& hat_load) {
+/// taken from it, and the loads (φ°, χ_i) of what is left. These err by ε max|φ(x_i)| h, of which
+/// the greatest load of |φ| is 1e-12 then.
+bool peaks(const Mesh& mesh, const SpaceFunction& phi, const Eigen::ArrayXd& at_nodes,
+           const Eigen::Vector2d& ends, const Eigen::VectorXd& hat_load) {
     constexpr double most = 4096.0;
     const Eigen::Index inner = mesh.elements() - 1;
     if (inner < 1)
         return false;
+    const double bound = at_nodes.abs().maxCoeff() / most;
+    const auto are_small = [&](const Eigen::ArrayXd& averages) {
+        return averages.abs().maxCoeff() < bound;
+    };
     const Eigen::ArrayXd x = mesh.nodes.segment(1, inner);
-    const Eigen::ArrayXd averages = hat_load.segment(1, inner).array() / mesh.lengths(0) +
-                                    ends(0) * (1.0 - x) + ends(1) * x;
-    return at_nodes.abs().maxCoeff() > most * averages.abs().maxCoeff();
+    if (!are_small(hat_load.segment(1, inner).array() / mesh.lengths(0) + ends(0) * (1.0 - x) +
+                   ends(1) * x))
+        return false;
+    // On both sides of a node φ may take itself off.
+    const SpaceFunction size = [&phi](const Eigen::ArrayXd& at) { return phi(at).abs(); };
+    return are_small(hat_loads(mesh, size).segment(1, inner).array() / mesh.lengths(0));
 }
 
 /// used: the others keep zeros.
@@ -171,7 +178,7 @@ Split split(const Mesh& mesh, const std::vector<SpaceFunction>& profiles,
         column.place = static_cast<Eigen::Index>(parts.inner.size());
         column.hat_load = hat_loads(mesh, function);
         parts.peaks_at_node =
-            parts.peaks_at_node || peaks(mesh, values, parts.at_ends.col(r), column.hat_load);
+            parts.peaks_at_node || peaks(mesh, phi, values, parts.at_ends.col(r), column.hat_load);
         // Of a linear profile nothing is left but round-off.
         if (column.hat_load.cwiseAbs().maxCoeff() <= round_off * scale * mesh.lengths(0))
             continue;

@@ -165,6 +165,23 @@ public:
         return resolved && result_.intervals_.size() == before;
     }
 
+    /// Looks at a function where the intervals are, which were cut for others as well: whether it
+    /// is larger there than was known. A source is next to zero but where its solution has a layer.
+    bool sees_more_of(Look& look) const {
+        constexpr double more = 2.0;
+        const AtRule values = at_rule(look.sampled.function, result_.intervals_);
+        double square = 0.0;
+        for (std::size_t i = 0; i < result_.intervals_.size(); ++i)
+            square += result_.intervals_[i].length *
+                      (element_rule().weights * values.col(static_cast<Index>(i)).square()).sum();
+        const double norm = std::sqrt(square);
+        if (!(norm > more * look.sampled.norm))
+            return false;
+        look.sampled.norm = norm;
+        look.sampled.greatest = std::max(look.sampled.greatest, values.abs().maxCoeff());
+        return true;
+    }
+
     /// Cuts nothing; a function for which it would is unresolved.
     void test(const Look& look, double tolerance, std::size_t most) {
         Resolver other = *this;
@@ -422,13 +439,21 @@ void resolve_profiles(const ProblemData& data, const std::vector<const Field*>& 
     for (const Field* field : fields)
         for (const auto& term : field->terms)
             profiles.insert(term.profile);
+    std::vector<Resolver::Look> looks;
+    const auto cut_for = [&](const Resolver::Look& look) {
+        resolver.cut_for(look, Resolution::profile_tolerance, Resolution::most_intervals);
+    };
     for (const Index r : profiles) {
         const auto index = static_cast<std::size_t>(r);
         const bool gentle = index < data.gentle_profiles.size() && data.gentle_profiles[index];
-        resolver.cut_for(
-            Resolver::look(data.profiles[index], gentle ? gentle_places : profile_places, 0.0),
-            Resolution::profile_tolerance, Resolution::most_intervals);
+        looks.push_back(
+            Resolver::look(data.profiles[index], gentle ? gentle_places : profile_places, 0.0));
+        cut_for(looks.back());
     }
+    if (resolver.finest() < narrow)
+        for (auto& look : looks)
+            if (resolver.sees_more_of(look))
+                cut_for(look);
 }
 
 } // namespace

@@ -30,7 +30,8 @@ namespace tvbeam {
 /// differs there by more than 1e-5 max|φ| from the polynomial through the six points. A spike of
 /// width d, exp(−((x − c)/d)²), that is as high as the rest shows in 6.8 d, and hence is found
 /// where d is above 4e-5, in time above 1.5e-4 if it is there at that time. What is narrower, lower
-/// than 1e-5 of the rest, or there for a short time only can be missed.
+/// than 1e-5 of the rest, or there for a short time only can be missed. A profile is looked at
+/// again in the intervals that others were cut to.
 class Resolution {
 public:
     /// A function with its sizes.

@@ -141,7 +141,8 @@ std::vector<double> printed_units_of_widths(const std::vector<double>& widths,
 }
 
 std::vector<double> deviations_of_rounding(const std::vector<double>& errors,
-                                           const std::vector<double>& units, double level_ratio) {
+                                           const std::vector<double>& units, double level_ratio,
+                                           bool is_grid) {
     std::vector<double> relative;
     for (std::size_t i = 0; i < units.size(); ++i)
         if (errors[i] > 0 && std::isfinite(errors[i]))
@@ -151,7 +152,9 @@ std::vector<double> deviations_of_rounding(const std::vector<double>& errors,
     const auto half = relative.begin() + static_cast<std::ptrdiff_t>(relative.size() / 2);
     std::ranges::nth_element(relative, half);
     constexpr double of_four_digits = 1e-3;
-    if (*half <= of_four_digits * std::min(1.0, std::log2(level_ratio)))
+    constexpr double of_five_digits = 1e-4;
+    if (*half <=
+        (is_grid ? of_five_digits : of_four_digits) * std::min(1.0, std::log2(level_ratio)))
         return {};
     // Of what is uniform over one unit of the last digit.
     std::vector<double> sigma(units.size());

@@ -39,10 +39,12 @@ std::vector<double> printed_units_of_widths(const std::vector<double>& widths,
 
 /// Standard deviations of errors that were rounded to these units; none without them, and where
 /// half of the errors are known so well that an order between two levels, whose widths have this
-/// ratio, shows it by 0.001 at most: on halved widths, to four digits. No error is known better
-/// than half of them are: what a model leaves out is no smaller in one that has more digits.
+/// ratio, shows it by 0.001 at most: on halved widths, to four digits; of grids, where a term is
+/// what the others leave of an error, to five. No error is known better than half of them are: what
+/// a model leaves out is no smaller in one that has more digits.
 std::vector<double> deviations_of_rounding(const std::vector<double>& errors,
-                                           const std::vector<double>& units, double level_ratio);
+                                           const std::vector<double>& units, double level_ratio,
+                                           bool is_grid);
 
 /// The mean ratio of one level to the next finer, widths within an eighth being one; infinity where
 /// there is one level alone.

@@ -80,6 +80,15 @@ bool change_together(const DataColumn& first, const DataColumn& second) {
            all_but_a_few;
 }
 
+bool are_a_grid(const std::vector<DataColumn>& widths) {
+    const auto used = refined(widths);
+    for (std::size_t i = 0; i < used.size(); ++i)
+        for (std::size_t j = 0; j < i; ++j)
+            if (!change_together(widths[used[i]], widths[used[j]]))
+                return true;
+    return false;
+}
+
 std::string together_with(const DataColumn& other, const DataColumn& width) {
     const auto extremes = [&](bool least) {
         const auto& of = other.numbers;

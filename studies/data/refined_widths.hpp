@@ -21,6 +21,9 @@ std::vector<std::size_t> refined(const std::vector<DataColumn>& widths);
 /// grows with it, or falls, but for a few rows; drawn apart, they do neither.
 bool change_together(const DataColumn& first, const DataColumn& second);
 
+/// Whether two of the widths are refined that do not change together.
+bool are_a_grid(const std::vector<DataColumn>& widths);
+
 /// Of a width that changes together with another one.
 std::string together_with(const DataColumn& other, const DataColumn& width);
 

@@ -59,7 +59,8 @@ std::vector<double> rounding(std::span<const Refinement> records,
         meshes.push_back(record.h);
         steps.push_back(record.dt);
     }
-    return deviations_of_rounding(errors, units, std::min(level_ratio(meshes), level_ratio(steps)));
+    return deviations_of_rounding(errors, units, std::min(level_ratio(meshes), level_ratio(steps)),
+                                  true);
 }
 
 /// The runs that refine both widths, in their order: the i-th mesh with the i-th step.

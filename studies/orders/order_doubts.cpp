@@ -361,9 +361,10 @@ std::string OrderEnsemble::status_of(Index width, const OrderInterval& order) co
         return fmt::format("no model of all {} widths follows so few rows", rows_.widths());
     if (order.share < tuning_.least_share)
         return "hidden: its term is less than 15 % of every error";
-    if ((std::abs(order.value) <= 2 * tuning_.narrowest && order.half_width() <= tuning_.widest) ||
-        stands_still())
+    if (stands_still() || (rows_.widths() > 1 && is_near_zero(order)))
         return "the error stands still";
+    if (is_near_zero(order))
+        return "the error levels off";
     if (order.high <= 0)
         return fmt::format("the error grows under refinement, order {:.2f}", order.value);
     if (is_ambiguous(width))
@@ -383,6 +384,10 @@ std::string OrderEnsemble::status_of(Index width, const OrderInterval& order) co
     if (!moves.empty())
         return moves;
     return is_followed() ? "models and windows do not agree" : "no model follows all rows";
+}
+
+bool OrderEnsemble::is_near_zero(const OrderInterval& order) const {
+    return std::abs(order.value) <= 2 * tuning_.narrowest && order.half_width() <= tuning_.widest;
 }
 
 bool OrderEnsemble::stands_still() const {

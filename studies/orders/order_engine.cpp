@@ -189,6 +189,7 @@ std::vector<OrderInterval> OrderEnsemble::orders() const {
                  return other->is_settled(width, order);
              }));
         if (!order.determined) {
+            order.levels_off = rows_.widths() == 1 && is_near_zero(order);
             order.status = status_of(width, order);
             order.falls = motion_of(width).falls();
         }

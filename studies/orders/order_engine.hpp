@@ -68,6 +68,9 @@ struct OrderInterval {
     std::string status = {};
     /// Those of the coarsest window and of the finest, where it falls from each to the next.
     std::optional<std::pair<double, double>> falls = {};
+    /// Whether the errors of a sequence go to a constant that is not zero, so that the order of its
+    /// end is 0.
+    bool levels_off = false;
 
     double half_width() const { return (high - low) / 2; }
 };
@@ -140,6 +143,7 @@ private:
     bool leans_on_a_constant(const EnsembleMember& member, Eigen::Index width) const;
     bool is_seen_as_a_power(Eigen::Index width, const OrderInterval& order) const;
     bool stands_still() const;
+    bool is_near_zero(const OrderInterval& order) const;
     std::string status_of(Eigen::Index width, const OrderInterval& order) const;
     double sequence_factor() const;
     double grid_factor() const;

@@ -278,6 +278,22 @@ private:
         // The first level is one end of the pair that is judged in the second.
         if (size() > 1 && orders_[1])
             verdicts_[0] = verdicts_[1];
+        if (options_.order != nullptr && options_.order->levels_off)
+            tell_of_floor();
+    }
+
+    /// Of rows whose error goes to a constant: those at the end whose orders fall from one to the
+    /// next.
+    void tell_of_floor() {
+        for (std::size_t i = size() - 1; i > 1; --i) {
+            if (!orders_[i] || !orders_[i - 1] ||
+                !(*orders_[i] < (1 - options_.tolerance) * *orders_[i - 1]))
+                return;
+            if (verdicts_[i].verdict == Verdict::pre_asymptotic)
+                verdicts_[i] = {Verdict::floor,
+                                fmt::format("a floor begins to show, order {:.2f} after {:.2f}",
+                                            *orders_[i], *orders_[i - 1])};
+        }
     }
 
     std::vector<Level> levels_;

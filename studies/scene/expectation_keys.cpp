@@ -65,7 +65,8 @@ Entries of_expectations() {
         {"expect.ladder.NORM.predicted_place", KeyType::band, "anything",
          "where in the predicted interval an error lies, from 0 to 1"},
         {"expect.ladder.NORM.order", KeyType::band, "anything",
-         "the order along the ladder, of the norm, not its square, where it has [solver] or `until`"},
+         "the order along the ladder, of the norm, not its square, where it has [solver] or "
+         "`until`"},
         {"expect.ladder.NORM.order_determined", KeyType::flag, "anything",
          "whether that order is known"},
         {"expect.ladder.NORM.order_holds", KeyType::number, "anything",

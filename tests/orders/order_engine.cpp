@@ -1218,6 +1218,8 @@ BOOST_AUTO_TEST_CASE(what_does_not_converge_is_said_to_grow_or_to_stand_still) {
                "the error grows under refinement, order -1.00");
     for (int levels = 3; levels <= 6; ++levels)
         BOOST_TEST(status(levels, [](double) { return 0.1; }) == "the error stands still");
+    // Its last error is 30 % below the one before.
+    BOOST_TEST(status(5, [](double h) { return 2 * h * h + 0.0019; }) == "the error levels off");
 }
 
 // 90 000 rows on a grid of 300 by 300 widths: averaged over cells of a lattice, they show the

@@ -311,6 +311,19 @@ BOOST_AUTO_TEST_CASE(a_floor_at_1e_12_is_told_from_convergence) {
     BOOST_TEST(judged.window->order == 2.0, boost::test_tools::tolerance(0.01));
 }
 
+// 2 h² + 0.003 goes to 0.003: no two orders agree, and each is below the one before.
+BOOST_AUTO_TEST_CASE(an_error_that_levels_off_is_on_its_way_to_a_floor) {
+    std::vector<Refinement> ladder;
+    for (double h = 0.25; ladder.size() < 5; h /= 2)
+        ladder.push_back({.h = h, .error = 2 * h * h + 0.003});
+    BOOST_TEST(word(ladder) == "ppppp");
+    const LadderOrder along = order_along(ladder);
+    BOOST_TEST(along.order.levels_off);
+    const auto judged = judge(ladder, {.order = &along.order});
+    BOOST_TEST(word(judged) == "ppfff");
+    BOOST_TEST(judged.rows.back().reason == "a floor begins to show, order 0.51 after 1.13");
+}
+
 // Rounding scatters: errors within a factor of three of the least are no divergence, and two of
 // them that happen to fall regularly are no order.
 BOOST_AUTO_TEST_CASE(a_floor_that_scatters_is_a_floor) {
