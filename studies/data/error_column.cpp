@@ -233,8 +233,7 @@ std::vector<double> rounding(const DataAnalysis& data, const DataColumn& errors)
     for (const auto& width : data.widths)
         ratio = std::min(ratio, level_ratio(width.numbers));
     const auto units = units_seen(data, errors);
-    auto sigma =
-        deviations_of_rounding(errors.numbers, units, ratio, are_a_grid(data.widths));
+    auto sigma = deviations_of_rounding(errors.numbers, units, ratio, are_a_grid(data.widths));
     if (sigma.empty())
         return {};
     for (const auto& [first, end] : points_of(data)) {
