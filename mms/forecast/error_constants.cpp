@@ -138,6 +138,27 @@ double shown_below(const Norm& norm, const LeadingSquares& squares, double a) {
     return std::pow(a / constant, slope ? 1.0 : 0.5);
 }
 
+/// The h at which what a strong coupling makes of θ within elements (error_constants.hpp) is as
+/// large in u_xx as a h²; 0 of other norms.
+double shown_below_coupling(const Norm& norm, const LeadingSquares& squares, double alpha,
+                            double a) {
+    if (!measures(norm, Quantity::u_xx, Quantity::u_xx, false))
+        return 0.0;
+    const auto squared_size = [&](const ArrayXd& of_theta, double factor) {
+        LeadingSquares own{squares.t, {}, {}};
+        for (auto& values : own.values)
+            values = ArrayXd::Zero(squares.t.size());
+        own.unit = squares.unit;
+        own.of(Quantity::u_xx) = factor * of_theta;
+        const double size = alpha * leading_term(norm, 0.0, own).constant;
+        return size * size;
+    };
+    const double at_ends = squared_size(squares.at_ends, std::sqrt(3.0) / 864.0); // of h^5
+    const double within = squared_size(squares.bending, 1.0 / 2700.0);            // of h^6
+    // at_ends h + within h^2 = a^2
+    return 2.0 * a * a / (at_ends + std::sqrt(at_ends * at_ends + 4.0 * within * a * a));
+}
+
 /// Why the sizes of a norm are not known, though those of others are; empty where they are.
 std::string why_not_of(const Norm& norm, const ExpectedOrders& expected,
                        const Forecaster& forecaster, const TimeScheme& scheme) {
@@ -207,8 +228,15 @@ std::vector<NormConstants> constants_of(const MethodSquares& squared, const Fore
         };
         if (order->in_h.has_error())
             add(constants.in_h, root * order->in_h.least, squared.space);
-        if (constants.in_h && forecaster.is_coupled())
-            constants.shows_below = shown_below(norm, squared.space, constants.in_h->constant);
+        if (constants.in_h && forecaster.is_coupled()) {
+            const double a = constants.in_h->constant;
+            const double coupling =
+                shown_below_coupling(norm, squared.space, forecaster.alpha(), a);
+            constants.hidden_by_coupling = coupling > 0.0;
+            constants.shows_below = coupling > 0.0 ? coupling : shown_below(norm, squared.space, a);
+            if (!(constants.shows_below < 1.0))
+                constants.shows_below = 0.0;
+        }
         if (order->euler.has_error()) // every scheme or none has an error in time
             add(constants.in_dt, scheme.order, squared.time);
         all.push_back(constants);

@@ -29,9 +29,13 @@ struct NormConstants {
     std::string unknown;              ///< why its sizes are not known; empty: they are
     std::optional<LeadingTerm> in_h;  ///< a h^p; none: no error of that kind
     std::optional<LeadingTerm> in_dt; ///< b Δt^q; likewise
-    /// Of u or u_x, whose order 2 the coupling brings: the h above which the beam's own error, of
-    /// order 4 or 3, is the larger one. 0: none is.
+    /// The h above which an error of a higher order is larger than a h^p; 0: none below 1 is. Of u
+    /// or u_x, whose order 2 the coupling brings, the beam's own, of order 4 or 3. Of u_xx, where a
+    /// strong coupling makes the discrete θ the L² projection of θ on its elements, what is left of
+    /// that in an element, ‖P_Sθ − Πθ‖² α² = α² (√3/864 (θ_xx(0)² + θ_xx(1)²) h⁵ + ‖θ_xxx‖²
+    /// h⁶/2700).
     double shows_below = 0.0;
+    bool hidden_by_coupling = false; ///< it is the latter
 };
 
 /// What the sizes depend on, beside the solution.

@@ -213,7 +213,9 @@ void Forecaster::add_interpolation(std::vector<MethodSquares>& all,
         forces.push_back(moments(errors[2 * k].theta));
     }
     for (auto& squared : all)
-        squared.space.curvature = ArrayXd::Zero(t.size());
+        for (ArrayXd* values :
+             {&squared.space.curvature, &squared.space.at_ends, &squared.space.bending})
+            *values = ArrayXd::Zero(t.size());
     for (Index n = 0; n < t.size(); ++n) {
         const ArrayXXd y = at(rule.points, t(n));
         const ArrayXd bent = y.row(theta_xx).transpose();
@@ -223,6 +225,8 @@ void Forecaster::add_interpolation(std::vector<MethodSquares>& all,
         for (std::size_t k = 0; k < all.size(); ++k) {
             LeadingSquares& squares = all[k].space;
             squares.curvature(n) = of_w;
+            if (coupled_)
+                add_third_derivative(squares, n, rule.weights * bent, at_points);
             const ArrayXd node = nodal[k].col(n).array();
             squares.of(Quantity::theta)(n) =
                 (rule.weights * (node.square() + node * bent / 6.0)).sum() + of_bent / 120.0;
@@ -236,6 +240,20 @@ void Forecaster::add_interpolation(std::vector<MethodSquares>& all,
             squares.of(Quantity::stress)(n) = force * force;
         }
     }
+}
+
+void Forecaster::add_third_derivative(LeadingSquares& squares, Index n, const ArrayXd& weighted,
+                                      const MatrixXd& at_points) {
+    const ArrayXd k =
+        ArrayXd::LinSpaced(at_points.cols(), 0.0, static_cast<double>(at_points.cols() - 1));
+    const MatrixXd coefficients =
+        ((2.0 * k + 1.0) * (at_points.transpose() * weighted.matrix()).array()).matrix();
+    double even = 0.0;
+    double odd = 0.0;
+    for (Index i = 0; i < coefficients.rows(); ++i)
+        (i % 2 == 0 ? even : odd) += coefficients(i);
+    squares.at_ends(n) = 2.0 * (even * even + odd * odd);
+    squares.bending(n) = squared_norms(slopes(coefficients))(0);
 }
 
 void Forecaster::add_deflection(LeadingSquares& squares, const MatrixXd& w) {

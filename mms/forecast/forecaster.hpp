@@ -23,6 +23,8 @@ struct LeadingSquares {
     std::array<Eigen::ArrayXd, quantity_count> values;
     std::array<double, quantity_count> orders{};
     Eigen::ArrayXd curvature = {}; ///< ∫ w_xx²
+    Eigen::ArrayXd at_ends = {};   ///< θ_xx(0)² + θ_xx(1)²
+    Eigen::ArrayXd bending = {};   ///< ∫ θ_xxx²
     double unit = 1.0;             ///< of the errors that these are the squares of
 
     Eigen::ArrayXd& of(Quantity quantity) { return values[static_cast<std::size_t>(quantity)]; }
@@ -78,6 +80,8 @@ public:
     /// Whether bending has an error of the order of that of heat.
     [[nodiscard]] bool is_coupled() const { return coupled_; }
 
+    [[nodiscard]] double alpha() const { return beam_.alpha; }
+
     /// Whether the beam's numbers take errors of the size one beyond the squares of doubles.
     [[nodiscard]] bool is_beyond_doubles() const;
 
@@ -103,6 +107,12 @@ private:
 
     void add_interpolation(std::vector<MethodSquares>& all, const std::vector<DrivenBeam>& errors,
                            const Eigen::ArrayXd& t, Eigen::Index modes) const;
+
+    /// θ_xx(0)² + θ_xx(1)² and ∫ θ_xxx² at the nth time, from θ_xx at the points of a rule and the
+    /// Legendre polynomials there, a column each.
+    static void add_third_derivative(LeadingSquares& squares, Eigen::Index n,
+                                     const Eigen::ArrayXd& weighted,
+                                     const Eigen::MatrixXd& at_points);
 
     static void add_deflection(LeadingSquares& squares, const Eigen::MatrixXd& w);
 

@@ -15,6 +15,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <string>
@@ -214,16 +215,36 @@ std::string unknown_norms(const std::vector<SizeColumn>& columns,
     return text;
 }
 
+/// The norm that orders and sizes are of.
+std::string root_of(const std::string& norm) {
+    const auto known = Norm::named(norm);
+    return norm + (known && known->squared ? "^(1/2)" : "");
+}
+
 /// Where an order shows on meshes alone that are finer than any that is likely.
 std::string hidden_orders(const ErrorConstants& sizes) {
     constexpr double coarse = 0.1;
     std::string text;
-    for (const NormConstants& row : sizes.norms)
-        if (row.in_h && row.shows_below > 0.0 && row.shows_below < coarse)
+    std::vector<std::string> of_coupling;
+    double least = coarse;
+    for (const NormConstants& row : sizes.norms) {
+        if (!row.in_h || !(row.shows_below > 0.0 && row.shows_below < coarse))
+            continue;
+        if (row.hidden_by_coupling) {
+            of_coupling.push_back(root_of(row.norm));
+            least = std::min(least, row.shows_below);
+        } else {
             text += wrapped(fmt::format(
                 "{}: the order {:g} in h comes through alpha and shows for h far below {:.2g} "
                 "alone; with longer elements the beam's own error, of a higher order, is larger.",
                 row.norm, row.in_h->order, row.shows_below));
+        }
+    }
+    if (!of_coupling.empty())
+        text += wrapped(fmt::format(
+            "{}: the order 2 in h shows for h far below {:.2g} alone; with longer elements what "
+            "alpha makes of theta within them, of order 2.5 to 3, is larger.",
+            fmt::join(of_coupling, ", "), least));
     return text;
 }
 
@@ -237,8 +258,7 @@ std::string sizes_table(const AdmissibleSolution& solution, const ExpectedOrders
         return unknown_columns(shown, sizes);
     Table::Column norm{"norm", {}};
     for (const NormConstants& row : usual.norms) {
-        const auto known = Norm::named(row.norm);
-        norm.cells.push_back(row.norm + (known && known->squared ? "^(1/2)" : ""));
+        norm.cells.push_back(root_of(row.norm));
     }
     std::vector<Table::Column> columns;
     for (const SizeColumn& column : shown) {

@@ -84,6 +84,19 @@ BOOST_AUTO_TEST_CASE(what_gnuplot_complains_of_is_said) {
                called.errors);
 }
 
+BOOST_AUTO_TEST_CASE(a_gnuplot_that_is_killed_has_failed) {
+    const TemporaryDirectory directory;
+    std::filesystem::create_directory(directory.path() / "bin");
+    std::filesystem::permissions(directory.write("bin/gnuplot", "#!/bin/sh\nkill -9 $$\n"),
+                                 std::filesystem::perms::owner_all);
+    const Called called = call(directory,
+                               "run " + directory.write("scene.toml", scene("")) +
+                                   " --quiet --out " + (directory.path() / "r").string(),
+                               "PATH=" + (directory.path() / "bin").string() + ":$PATH ");
+    BOOST_TEST(called.exit == 0);
+    BOOST_TEST(has(called.errors, "gnuplot failed on convergence.gp"), called.errors);
+}
+
 // Of a page alone no scripts are written.
 BOOST_AUTO_TEST_CASE(scripts_of_pictures_are_named_where_there_are_some) {
     const TemporaryDirectory directory;

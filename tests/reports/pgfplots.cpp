@@ -81,6 +81,15 @@ BOOST_AUTO_TEST_CASE(a_bar_reaches_from_its_lower_to_its_upper_end) {
     BOOST_TEST(text.find("$2\\times10^{-3}$") != std::string::npos, text);
 }
 
+BOOST_AUTO_TEST_CASE(a_band_goes_along_one_edge_and_back_along_the_other) {
+    Drawing drawing;
+    const std::size_t block = drawing.add_block("band", "1 10 20\n2 11 21\n3 12 22\n");
+    drawing.add_curve({.block = block, .third = 3}, {.kind = CurveLook::Kind::band});
+    std::string text = pgfplots_text({"band", "", drawing});
+    std::erase_if(text, [](char sign) { return sign == ' ' || sign == '\n'; });
+    BOOST_TEST(text.find("(1,10)(2,11)(3,12)(3,22)(2,21)(1,20)") != std::string::npos, text);
+}
+
 // Ticks between 0 and a number would never end.
 BOOST_AUTO_TEST_CASE(what_a_logarithmic_axis_cannot_show_takes_no_part_in_its_ticks) {
     const auto text_of = [](const std::string& rows) {

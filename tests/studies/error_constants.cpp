@@ -389,6 +389,42 @@ BOOST_AUTO_TEST_CASE(the_order_that_the_coupling_brings_shows_below_the_beam_s_o
                    ->shows_below == 0.0);
 }
 
+// With alpha = 100 the error of u_xx on 20 elements is that within elements: of order 3, and 2.5
+// where θ_xx does not vanish at the ends; a h² is far below it.
+BOOST_AUTO_TEST_CASE(the_order_of_bending_shows_below_what_a_strong_coupling_makes_of_theta) {
+    for (const std::string theta : {"cos(t)*sin(pi*x)", "cos(t)*x*(1 - x)*(x - 0.4)"}) {
+        Beam beam;
+        beam.alpha = 100.0;
+        beam.zeta = 0.1;
+        const AdmissibleSolution admissible(
+            parse_solution("theta = '" + theta + "'\nu = '0.01*x^2*sin(x + t)'\n", "s.toml"), beam,
+            1.0);
+        const NormConstants bending = *error_constants(expected_orders(admissible), admissible,
+                                                       {{"euler", ThermalMass::consistent}})
+                                           .front()
+                                           .of("u_L2H2");
+        BOOST_REQUIRE(bending.in_h.has_value());
+        BOOST_TEST(bending.hidden_by_coupling);
+        const double h = 1.0 / 20.0;
+        BOOST_TEST(bending.shows_below < h);
+        const ProblemData problem = manufactured_problem(admissible);
+        const RunRequest request{
+            beam,
+            Mesh::uniform(20),
+            Scheme{.thermal_mass = ThermalMass::consistent, .time = TimeScheme::named("sdirk2")},
+            1.0,
+            400,
+            {*Norm::named("u_L2H2")}};
+        const double error = run(request, problem).errors.at(0);
+        const double ratio = h / bending.shows_below; // of the last but one, or of the last term
+        const double order = theta.ends_with("0.4)") ? 1.0 : 2.0;
+        const double forecast =
+            bending.in_h->constant * h * h * std::sqrt(1.0 + std::pow(ratio, order));
+        // The layer at the ends, of 1/alpha, is as long as a fifth of an element.
+        BOOST_TEST(error == forecast, boost::test_tools::tolerance(0.25));
+    }
+}
+
 // The gate of [orders] sees a defect of the scheme's own order, and says where nothing is forecast.
 // The sizes are linear in the solution, whose squares are beyond the range of doubles here.
 BOOST_AUTO_TEST_CASE(sizes_of_a_solution_whose_square_overflows_are_those_of_a_smaller_one) {
