@@ -172,7 +172,8 @@ ReadFigure figure_in_csv(const std::filesystem::path& file, const std::string& n
         return {{}, "its header names " + name + " more than once; which is meant?"};
     if (row.size() != names.size())
         return {{},
-                "its last row has " + std::to_string(row.size()) + " fields and its header " +
+                "its last row has " + std::to_string(row.size()) +
+                    (row.size() == 1 ? " field" : " fields") + " and its header " +
                     std::to_string(names.size())};
     return figure_of(name, row[static_cast<std::size_t>(column - names.begin())]);
 }

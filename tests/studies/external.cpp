@@ -389,7 +389,7 @@ BOOST_AUTO_TEST_CASE(a_file_has_the_number_by_its_name) {
              {"e.json", std::string(40, '['), "nested too deep"},
              {"e.csv", "L2\n", "it has no row below its header"},
              {"e.csv", "H1\n1\n", "its header has no L2"},
-             {"e.csv", "a,L2\n1\n", "its last row has 1 fields and its header 2"},
+             {"e.csv", "a,L2\n1\n", "its last row has 1 field and its header 2"},
              {"e.csv", "L2\nnan\n", "L2 is nan"}}) {
         const ReadFigure found = in_file(name, text);
         BOOST_TEST(!found.value, text);
