@@ -271,8 +271,9 @@ void require_one_series(DataFile& data, const Place& names,
                 throw InputError(
                     names,
                     fmt::format("has rows of several series: column {0} tells '{1:.40}' from "
-                                "'{2:.40}'. Take one with --where '{0}={1}', or all together "
-                                "with --where '{0}=*'; in a scene where = [\"{0}={1}\"]",
+                                "'{2:.40}'. Take one with --where '{0}={1}', in a scene where = "
+                                "[\"{0}={1}\"]; where all are of one series, --where '{0}=*' "
+                                "says so",
                                 column.name, series[k].text, series[i].text));
             }
         if (!is_number)

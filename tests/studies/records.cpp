@@ -209,7 +209,8 @@ const std::vector<Malformed> malformed{
     {"steps,error\n0.1,1\n", "e.csv:2:1: '0.1' in column steps counts nothing", {.step = "steps"}},
     {"scheme,h,error\nA,0.2,1\nA,0.1,0.5\nB,0.2,1\nB,0.1,0.25\n",
      "e.csv:1:1: has rows of several series: column scheme tells 'A' from 'B'. "
-     "Take one with --where 'scheme=A', or all together with --where 'scheme=*'"},
+     "Take one with --where 'scheme=A', in a scene where = [\"scheme=A\"]; where all are of one "
+     "series, --where 'scheme=*' says so"},
     {"scheme,h,error\nA,0.2,1\nA,0.1,0.5\nB,0.05,1\nB,0.025,0.25\n",
      "e.csv:1:1: has rows of several series: column scheme tells 'A' from 'B'. "},
     {"p,h,error\n1,0.2,1\n1,0.1,0.5\n2,0.2,1\n2,0.1,0.25\n",

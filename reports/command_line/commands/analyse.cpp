@@ -116,9 +116,10 @@ void add_choice(CLI::App& analyse, DataChoice& choice) {
     analyse.add_option("--sigma", choice.sigma, "the column of standard deviations of the figures")
         ->type_name("NAME");
     analyse
-        .add_option("--where", choice.where,
-                    "only rows whose column has this text or number, e.g. scheme=Euler; NAME=*: "
-                    "rows that the column tells apart are one series. Repeatable")
+        .add_option(
+            "--where", choice.where,
+            "only rows whose column has this text or number, e.g. scheme=Euler; NAME=*: all "
+            "rows together, as one series, whatever the column has. Repeatable")
         ->expected(1)
         ->take_all()
         ->type_name("NAME=TEXT");
