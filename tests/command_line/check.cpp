@@ -8,6 +8,8 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <filesystem>
+#include <fstream>
 
 using namespace tvbeam;
 
@@ -304,6 +306,68 @@ BOOST_AUTO_TEST_CASE(junit_does_not_depend_on_standard_output) {
     BOOST_TEST(has(called.errors, "cannot write to standard output"), called.errors);
     for (const std::string scene : {"sheared", "free-decay"})
         BOOST_TEST(has(directory.read("j.xml"), "testsuite name=\"" + scene + "\""));
+}
+
+// A server shows the file of --junit whatever the call ended with.
+BOOST_AUTO_TEST_CASE(no_report_of_an_earlier_call_is_left_green_by_one_that_is_refused) {
+    const TemporaryDirectory directory;
+    const std::string in = directory.path().string() + "/";
+    const std::string rows = "h,error\n0.4,0.16\n0.2,0.04\n0.1,0.01\n";
+    const std::string analyse = "analyse " + in + "e.csv --junit " + in + "j.xml";
+    const auto refused_after_green = [&](const std::string& words, const std::string& message) {
+        directory.write("e.csv", rows);
+        BOOST_TEST(call(directory, analyse + " --expect 'error.orders = [1.9, 2.1]'").exit == 0);
+        BOOST_TEST(has(directory.read("j.xml"), "errors=\"0\""));
+        directory.write("e.csv", rows + "0.05,\"<&\n");
+        const Called called = call(directory, words);
+        BOOST_TEST(called.exit == 2, words);
+        const std::string xml = directory.read("j.xml");
+        BOOST_TEST(has(xml, "tests=\"1\" failures=\"0\" errors=\"1\""), xml);
+        BOOST_TEST(has(xml, "<error message=\"" + message), xml);
+        return called;
+    };
+    refused_after_green(analyse, in + "e.csv:5:6: a quote is not closed\"/>");
+    refused_after_green(analyse + " --exprct 1", "&apos;--exprct&apos; is not an option");
+    const std::string scene = in + "<&.toml";
+    std::ofstream(scene) << "solution = 'sheared'\n[beam]\nzata = 1\n";
+    refused_after_green("check '" + scene + "' --junit " + in + "j.xml",
+                        in + "&lt;&amp;.toml:3:1: unknown key");
+
+    // Other results stay as they are, which is said.
+    directory.write("a.json", "{}");
+    directory.write("a.csv", "h\n");
+    std::filesystem::create_directory(in + "empty");
+    const Called said = refused_after_green(analyse + " --json " + in + "a.json --csv " + in +
+                                                "a.csv --out " + in + "empty",
+                                            in + "e.csv:5:6");
+    for (const std::string name : {"a.json", "a.csv"})
+        BOOST_TEST(has(said.errors, "'" + in + name + "' is left as it was before this call"),
+                   said.errors);
+    BOOST_TEST(!has(said.errors, "empty"), said.errors);
+    BOOST_TEST(directory.read("a.json") == "{}");
+}
+
+// It may be what was to be read, by a scene that could not be.
+BOOST_AUTO_TEST_CASE(a_refusal_takes_the_place_of_no_file_but_a_report) {
+    const TemporaryDirectory directory;
+    const std::string table = directory.write("e.csv", "h,error\n0.4,0.16\n0.2,x\n");
+    const auto after = [&](const std::string& file) {
+        BOOST_TEST(call(directory, "analyse " + table + " --junit " + file).exit == 2);
+        return directory.read(std::filesystem::path(file).filename().string());
+    };
+    BOOST_TEST(after(table) == "h,error\n0.4,0.16\n0.2,x\n");
+    for (const std::string text : {"theta = '0'\n", "<?xml version=\"1.0\"?>\n<svg/>\n"})
+        BOOST_TEST(after(directory.write("mine", text)) == text);
+    for (const std::string& file :
+         {directory.write("empty.xml", ""), (directory.path() / "new.xml").string()})
+        BOOST_TEST(has(after(file), "<error message="));
+    const Called written = call(directory, "analyse " + table + " --junit -");
+    BOOST_TEST(has(written.output, "<error message="), written.output);
+    const Called nowhere = call(directory, "analyse " + table + " --junit " +
+                                               (directory.path() / "no/j.xml").string());
+    BOOST_TEST(nowhere.exit == 2);
+    BOOST_TEST(has(nowhere.errors, "'x' in column error is not a number"), nowhere.errors);
+    BOOST_TEST(has(nowhere.errors, "cannot write"), nowhere.errors);
 }
 
 // Beside its figures a whole record keeps what a result says, and what its expectations look at.

@@ -6,7 +6,8 @@
 
 namespace tvbeam {
 
-/// What the program ends with: bad input means that nothing ran and nothing was written.
+/// What the program ends with: bad input means that nothing ran and nothing was written but what
+/// was wrong (refusal.hpp).
 enum Exit { done = 0, violated = 1, bad_input = 2, run_failed = 3 };
 
 /// A command of the program, and what it does when it is called: its exit.

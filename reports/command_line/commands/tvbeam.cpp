@@ -3,6 +3,7 @@
 #include "mms/text/input_error.hpp"
 #include "mms/text/nearest_name.hpp"
 #include "reports/command_line/commands/command.hpp"
+#include "reports/command_line/commands/refusal.hpp"
 #include "reports/command_line/commands/said.hpp"
 #include "reports/files/output_file.hpp"
 
@@ -64,17 +65,8 @@ std::string mistake_in(const CLI::App& app, const CLI::ParseError& error) {
     return std::string(error.what()) + "; see " + name + " --help";
 }
 
-int command_line(int argc, char** argv) {
-    CLI::App app(
-        "Verification and convergence studies for a thermoviscoelastic beam between two stops.\n"
-        "Exit: 0 done, 1 an expectation failed, 2 bad input or usage, 3 a run failed.");
-    app.name("tvbeam");
-    app.set_version_flag("--version", "tvbeam " TVBEAM_VERSION);
-    app.require_subcommand(1);
-    const std::vector<Command> commands{add_run(app),    add_merge(app),     add_shard_script(app),
-                                        add_check(app),  add_analyse(app),   add_compare(app),
-                                        add_derive(app), add_new(app),       add_list(app),
-                                        add_keys(app),   add_completion(app)};
+/// Throws InputError for words that are none of its.
+int called_command(CLI::App& app, const std::vector<Command>& commands, int argc, char** argv) {
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
@@ -89,6 +81,26 @@ int command_line(int argc, char** argv) {
     const auto called = std::find_if(commands.begin(), commands.end(),
                                      [](const Command& one) { return one.app->parsed(); });
     return called->call();
+}
+
+int command_line(int argc, char** argv) {
+    CLI::App app(
+        "Verification and convergence studies for a thermoviscoelastic beam between two stops.\n"
+        "Exit: 0 done, 1 an expectation failed, 2 bad input or usage, 3 a run failed.");
+    app.name("tvbeam");
+    app.set_version_flag("--version", "tvbeam " TVBEAM_VERSION);
+    app.require_subcommand(1);
+    const std::vector<Command> commands{add_run(app),    add_merge(app),     add_shard_script(app),
+                                        add_check(app),  add_analyse(app),   add_compare(app),
+                                        add_derive(app), add_new(app),       add_list(app),
+                                        add_keys(app),   add_completion(app)};
+    try {
+        return called_command(app, commands, argc, argv);
+    } catch (const InputError& error) {
+        say(error.what());
+        report_refusal(app, error.what());
+        return bad_input;
+    }
 }
 
 /// Words take memory, too.
@@ -117,9 +129,6 @@ int reported_command_line(int argc, char** argv) {
         return command_line(argc, argv);
     } catch (const std::bad_alloc&) {
         throw;
-    } catch (const InputError& error) {
-        say(error.what());
-        return bad_input;
     } catch (const ClosedPipe&) {
         return run_failed; // who closes a pipe knows it
     } catch (const std::exception& error) {
