@@ -398,15 +398,17 @@ std::vector<std::string> TableReader::unread() const {
 }
 
 void TableReader::finish() const {
+    auto known = known_;
+    known.insert(known.end(), offered_.begin(), offered_.end());
     for (const auto& key : unread()) {
-        const std::string hint = did_you_mean(key, known_);
+        const std::string hint = did_you_mean(key, known);
         if (owns(key))
             throw InputError(place_of_key(key), full(key) + " does not apply here; it is for: " +
                                                     keys_->find(key)->entry->meaning + hint);
         throw InputError(
             place_of_key(key),
             "unknown key '" + full(key) + "'" +
-                (hint.empty() ? fmt::format("; known here: {}", fmt::join(known_, ", ")) : hint));
+                (hint.empty() ? fmt::format("; known here: {}", fmt::join(known, ", ")) : hint));
     }
 }
 

@@ -13,6 +13,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace tvbeam {
@@ -67,6 +68,10 @@ public:
     /// missing.
     std::vector<TableReader> tables(std::string_view key);
 
+    /// Names a key that would be read, in the messages of finish() alone: that of a table within
+    /// which is not there, as order.h.
+    void offer(std::string key) { offered_.push_back(std::move(key)); }
+
     /// The keys of the table that no reader has asked for yet, in their order.
     [[nodiscard]] std::vector<std::string> unread() const;
 
@@ -120,6 +125,7 @@ private:
     std::string path_;
     const KeyTable::Node* keys_;
     std::vector<std::string> known_;
+    std::vector<std::string> offered_; ///< named in messages, and refused where they stand there
 };
 
 } // namespace tvbeam

@@ -36,9 +36,10 @@ public:
         check_order();
         check_rows();
         check_errors();
-        expect_verdicts(table_, {analysis_.rows(), "row"}, [&](const JudgeVerdicts& judge) {
-            checked_.push_back(judge(column_.name, column_.verdicts));
-        });
+        if (!column_.is_value)
+            expect_verdicts(table_, {analysis_.rows(), "row"}, [&](const JudgeVerdicts& judge) {
+                checked_.push_back(judge(column_.name, column_.verdicts));
+            });
         if (column_.limit)
             check_limit(*column_.limit);
         table_.finish();
@@ -96,21 +97,32 @@ private:
         hold_interval(table, key, metric.what, gated(column_.by_width[width]));
     }
 
+    /// Several widths are refined apart, each with an order of its own.
+    bool is_grid() const { return !column_.is_value && column_.orders.empty(); }
+
     void check_order() {
         if (auto inner = table_.is_table("order") ? table_.table("order") : std::nullopt) {
             for (std::size_t i = 0; i < analysis_.widths.size(); ++i)
                 hold_order(*inner, analysis_.widths[i].name, i);
             inner->finish();
+        } else if (is_grid()) {
+            name_orders_by_width();
         } else {
             // Of widths that are refined together one order speaks for all.
-            for (const char* key : {"order", "order_holds", "order_determined", "order_half_width"})
-                if (table_.has(key) && !column_.is_value && column_.orders.empty())
-                    throw table_.error(key, " is of one width, and several are refined apart; say "
-                                            "which, as " +
-                                                column_.name + ".order." +
-                                                analysis_.widths.front().name +
-                                                std::string(key).substr(5));
             hold_order(table_, "order", leading_width(analysis_.widths));
+        }
+    }
+
+    void name_orders_by_width() {
+        for (const std::string ending : {"", "_determined", "_holds", "_half_width"}) {
+            if (table_.has("order" + ending))
+                throw table_.error("order" + ending,
+                                   " is of one width, and several are refined apart; say which, "
+                                   "as " +
+                                       column_.name + ".order." + analysis_.widths.front().name +
+                                       ending);
+            for (const auto& width : analysis_.widths)
+                table_.offer("order." + width.name + ending);
         }
     }
 
@@ -160,10 +172,12 @@ private:
             if (column_.is_value && table_.has(key))
                 throw table_.error(key, " is of errors, and " + column_.name +
                                             " holds values; of these there are limit and order");
-        if (table_.has("orders") && !column_.is_value && column_.orders.empty())
+        if (table_.has("orders") && is_grid())
             throw table_.error("orders",
                                " are those from one row to the next, and these rows are a grid; "
                                "order.WIDTH is that of all rows in one width");
+        if (column_.orders.empty())
+            return; // orders is not offered where it is refused
         std::vector<Metric> metrics;
         // Rows of one width have one order between them. A row without an error has none, nor one
         // that is coarser in some width than each before it: these are not passed over.

@@ -1194,6 +1194,17 @@ BOOST_AUTO_TEST_CASE(rows_of_a_grid_have_verdicts_and_its_orders_are_gated_by_wi
         BOOST_TEST(std::string(name_of(verdicts[i].verdict)) ==
                    (i == 9 ? "outlier" : "asymptotic"));
     BOOST_CHECK_THROW(check(analysis, "error.order = [0.9, 2.1]"), InputError);
+    // What is known there is what is taken, and a name in quotes is none of it.
+    BOOST_CHECK_EXCEPTION(
+        check(analysis, "error.p = [0.9, 2.1]"), InputError, [](const InputError& error) {
+            const std::string message = error.what();
+            BOOST_TEST(message.find("order.h, ") != std::string::npos, message);
+            BOOST_TEST(message.find("order.dt_holds") != std::string::npos, message);
+            BOOST_TEST(message.find(" order,") == std::string::npos, message);
+            BOOST_TEST(message.find("orders") == std::string::npos, message);
+            return true;
+        });
+    BOOST_CHECK_THROW(check(analysis, "error.'order.h' = [0.9, 2.1]"), InputError);
     const auto held = check(analysis, "error.order = { h = [1.9, 2.1], dt = [0.9, 1.1] }");
     BOOST_TEST(held.size() == 2u);
     for (const auto& one : held)
