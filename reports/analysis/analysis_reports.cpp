@@ -4,6 +4,7 @@
 #include "reports/document/json_text.hpp"
 #include "reports/plots/drawing.hpp"
 #include "reports/plots/plot_style.hpp"
+#include "reports/studies/fit_fields.hpp"
 #include "reports/studies/run_fields.hpp"
 #include "studies/data/refined_widths.hpp"
 
@@ -51,6 +52,17 @@ std::optional<double> order_of(const ColumnAnalysis& column, std::size_t row) {
     return column.orders.empty() ? std::nullopt : column.orders[row];
 }
 
+/// What its text prints of a grid, and which widths are h and dt of the model.
+Json fit_of(const DataAnalysis& analysis, const ColumnAnalysis& column) {
+    const auto& h = analysis.widths[column.of_model.first];
+    const auto& dt = analysis.widths[column.of_model.second];
+    Json json{{"h", h.name}, {"dt", dt.name}};
+    json.update(fit_json(*column.two_term, [&](std::size_t row) -> Json {
+        return {{h.name, h.numbers[row]}, {dt.name, dt.numbers[row]}};
+    }));
+    return json;
+}
+
 Json json_of(const DataAnalysis& analysis, const ColumnAnalysis& column) {
     Json rows = Json::array();
     for (std::size_t i = 0; i < analysis.rows(); ++i) {
@@ -69,6 +81,8 @@ Json json_of(const DataAnalysis& analysis, const ColumnAnalysis& column) {
               {"kind", column.is_value ? "value" : "error"},
               {"rows", std::move(rows)}};
     add_analysis(json, analysis, column);
+    if (column.two_term)
+        json["fit"] = fit_of(analysis, column);
     return json;
 }
 

@@ -1,4 +1,5 @@
 #include "reports/document/orders_section.hpp"
+#include "reports/studies/fit_fields.hpp"
 #include "reports/studies/run_fields.hpp"
 #include "reports/studies/study_report.hpp"
 #include "studies/grid/grid.hpp"
@@ -22,51 +23,6 @@ Json interval_json(const OrderInterval& of) {
     return json;
 }
 
-Json fit_json(const TwoTermFit& fit, const std::vector<RungResult>& runs) {
-    if (!fit.holds())
-        return {{"status", "failed"}, {"reason", fit.failure}};
-    Json rejected = Json::array();
-    for (const auto& record : fit.rejected) {
-        const Rung& rung = runs[record.record].rung;
-        rejected.push_back(
-            {{"elements", rung.elements}, {"dt", rung.dt}, {"reason", record.reason}});
-    }
-    // What is not determined is no number.
-    const auto known = [](const OrderInterval& order, double value) {
-        return number_json(order.determined ? std::optional(value) : std::nullopt);
-    };
-    const auto size = [&known, has_sizes = fit.has_sizes()](const OrderInterval& order,
-                                                            double value) {
-        return has_sizes ? known(order, value) : Json();
-    };
-    const auto& model = fit.model;
-    Json json{{"status", "ok"},
-              {"p", known(fit.p, model.p)},
-              {"p_se", known(fit.p, fit.p_se)},
-              {"p_uncertainty", known(fit.p, fit.p_uncertainty())},
-              {"p_determined", fit.p_determined()},
-              {"q", known(fit.q, model.q)},
-              {"q_se", known(fit.q, fit.q_se)},
-              {"q_uncertainty", known(fit.q, fit.q_uncertainty())},
-              {"q_determined", fit.q_determined()},
-              {"a", size(fit.p, model.a)},
-              {"b", size(fit.q, model.b)},
-              {"a_uncertainty", size(fit.p, fit.a_uncertainty)},
-              {"b_uncertainty", size(fit.q, fit.b_uncertainty)},
-              {"rho", size(fit.p_determined() ? fit.q : fit.p, model.rho)},
-              {"rho_se", size(fit.p_determined() ? fit.q : fit.p, fit.rho_se)},
-              {"rms", fit.rms},
-              {"used", fit.used.size()},
-              {"rejected", std::move(rejected)}};
-    if (!fit.p_determined())
-        json["p_status"] = fit.p.status;
-    if (!fit.q_determined())
-        json["q_status"] = fit.q.status;
-    if (!fit.has_sizes())
-        json["misfit"] = fit.misfit;
-    return json;
-}
-
 Json limit_json(const GridLimit& of) {
     Json json{{"limit", interval_json(of.limit)},
               {"p", interval_json(of.p)},
@@ -82,7 +38,10 @@ Json limit_json(const GridLimit& of) {
 Json json_of(const OrdersResult& orders, const OrdersBlock& block) {
     Json norms = Json::object();
     for (const auto& [norm, fit, rounding] : orders.norms)
-        norms[norm] = fit_json(fit, orders.runs);
+        norms[norm] = fit_json(fit, [&](std::size_t record) -> Json {
+            const Rung& rung = orders.runs[record].rung;
+            return {{"elements", rung.elements}, {"dt", rung.dt}};
+        });
     Json runs = Json::array();
     for (const auto& run : orders.runs) {
         Json entry = run_json(run);

@@ -3,13 +3,16 @@
 
 #include "tests/command_line/called_program.hpp"
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdlib>
 #include <set>
 #include <sstream>
+#include <utility>
 
 using namespace tvbeam;
 
@@ -328,6 +331,10 @@ BOOST_AUTO_TEST_CASE(json_of_an_analysis_keeps_to_its_schema) {
               "h,L2,drag\n1,1,3\n0.5,0.25,2.25\n0.25,0.0625,2.0625\n0.125,0.015625,2.015625\n",
               " --error L2 --value drag"},
              {"grid", "h,dt,error\n1,1,2\n1,0.5,1.5\n0.5,1,1.25\n0.5,0.5,0.75\n", ""},
+             {"grid_with_a_fit",
+              "h,dt,error\n1,1,2\n1,0.5,1.5\n1,0.25,1.25\n0.5,1,1.25\n0.5,0.5,0.75\n"
+              "0.5,0.25,0.5\n0.25,1,1.0625\n0.25,0.5,0.5625\n0.25,0.25,0.3125\n",
+              ""},
              {"value_grid", "h,dt,drag\n1,1,2\n1,0.5,1.5\n0.5,1,1.25\n0.5,0.5,0.75\n",
               " --value drag"},
              {"few", "h,error\n1,0.5\n", ""},
@@ -344,6 +351,32 @@ BOOST_AUTO_TEST_CASE(json_of_an_analysis_keeps_to_its_schema) {
     json.at("columns")[0].at("orders").at("h").erase("low");
     const std::string broken = directory.write("broken.json", json.dump());
     BOOST_TEST(std::system((validate + " -i " + broken + " >/dev/null 2>&1").c_str()) != 0);
+}
+
+// e = h^2 + 0.3 dt: p = 2, q = 1, a = 1, b = 0.3, rho = 1; one row of 16 is ten times that.
+BOOST_AUTO_TEST_CASE(json_of_a_grid_has_the_fit_that_its_text_prints) {
+    const TemporaryDirectory directory;
+    std::string table = "dx,tau,e\n";
+    for (const double h : {0.2, 0.1, 0.05, 0.025})
+        for (const double dt : {0.1, 0.05, 0.025, 0.0125})
+            table += fmt::format("{},{},{:.12e}\n", h, dt,
+                                 (h * h + 0.3 * dt) * (h == 0.05 && dt == 0.05 ? 10.0 : 1.0));
+    const Called called = call(directory, "analyse " + directory.write("g.csv", table) +
+                                              " --size dx --step tau --error e --json -");
+    BOOST_TEST(called.exit == 0, called.errors);
+    const auto fit = nlohmann::json::parse(called.output).at("columns")[0].at("fit");
+    BOOST_TEST(fit.at("h") == "dx");
+    BOOST_TEST(fit.at("dt") == "tau");
+    BOOST_TEST(fit.at("status") == "ok");
+    for (const auto& [name, size] :
+         {std::pair("p", 2.0), {"q", 1.0}, {"a", 1.0}, {"b", 0.3}, {"rho", 1.0}})
+        BOOST_TEST(std::abs(fit.at(name).get<double>() - size) < 1e-4, name);
+    BOOST_TEST(fit.at("rms").get<double>() < 1e-4);
+    BOOST_TEST(fit.at("used") == 15);
+    BOOST_TEST(fit.at("rejected").size() == 1U);
+    BOOST_TEST(fit.at("rejected")[0].at("dx") == 0.05);
+    BOOST_TEST(fit.at("rejected")[0].at("tau") == 0.05);
+    BOOST_TEST(fit.at("rejected")[0].at("reason").is_string());
 }
 
 BOOST_AUTO_TEST_CASE(the_table_compiles_under_pdflatex_whatever_a_scene_is_called) {
