@@ -77,6 +77,36 @@ std::optional<double> rounding_of(const StudyResult& result, const std::vector<R
     return std::nullopt;
 }
 
+/// Of a figure of a table, without its numbers: the column and the names of the widths.
+std::string series_of(const std::string& figure) {
+    const std::string equals = " = ";
+    std::string series;
+    std::size_t at = 0;
+    for (std::size_t found = 0; (found = figure.find(equals, at)) != std::string::npos;) {
+        series += figure.substr(at, found - at);
+        at = std::min(figure.find(' ', found + equals.size()), figure.size());
+    }
+    const auto rest = figure.substr(at);
+    return series + (rest.starts_with(" (") ? "" : rest);
+}
+
+/// The folder that the files of a baseline are relative to.
+std::filesystem::path folder_of(const std::string& baseline) {
+    std::error_code error;
+    return std::filesystem::weakly_canonical(std::filesystem::absolute(baseline, error), error)
+        .parent_path();
+}
+
+/// A file as a baseline names it, wherever both are moved together; empty: not at all.
+std::string file_beside(const std::string& baseline, const std::string& file) {
+    std::error_code error;
+    if (baseline.empty() || !std::filesystem::is_regular_file(file, error))
+        return {};
+    return std::filesystem::weakly_canonical(file, error)
+        .lexically_relative(folder_of(baseline))
+        .string();
+}
+
 /// Levels and measurements that are repeated, in their order.
 std::string another_name(const std::string& what,
                          const std::function<bool(const std::string&)>& is_taken) {
@@ -101,6 +131,7 @@ void require_recordable(const Scene& scene) {
 
 BaselineEntry baseline_entry(const StudyResult& result) {
     BaselineEntry entry{result.scene.name, {result.scene.file}, {}};
+    entry.file = result.scene.file;
     for (const auto& [kind, record] : result.records.entries())
         for (const auto& [name, figure] : kind->figures(record))
             if (!is_round_off(kind->name(), name))
@@ -144,11 +175,15 @@ BaselineEntry baseline_entry(const DataAnalysis& analysis) {
                 figures[name] = column.numbers[row];
         }
     // However the path of the table is spelled.
-    return {std::filesystem::path(analysis.name).lexically_normal().string(),
-            {analysis.name},
-            std::move(figures),
-            {},
-            std::move(not_made)};
+    std::string name = std::filesystem::path(analysis.name).lexically_normal().string();
+    for (const auto& chosen : analysis.chosen)
+        name += " --where " + chosen;
+    return {.name = std::move(name),
+            .place = {analysis.name},
+            .figures = std::move(figures),
+            .not_made = std::move(not_made),
+            .file = analysis.name,
+            .is_table = true};
 }
 
 std::optional<Baseline> earlier_baseline(const std::string& file) {
@@ -168,40 +203,82 @@ void require_another_name(std::set<std::string>& names, const std::string& name,
 
 std::string baseline_of(const std::vector<BaselineEntry>& entries, const std::string& file) {
     Json scenes = Json::object();
+    Json files = Json::object();
     std::set<std::string> names;
     const auto earlier = earlier_baseline(file);
-    if (earlier)
-        scenes = Json::parse(file_text(file, largest_baseline))["scenes"];
-    for (const auto& [name, place, figures, rounding, not_made, said] : entries) {
-        require_another_name(names, name, place);
+    if (earlier) {
+        const Json recorded = Json::parse(file_text(file, largest_baseline));
+        scenes = recorded["scenes"];
+        files = recorded.value("files", files);
+    }
+    for (const auto& entry : entries) {
+        require_another_name(names, entry.name, entry.place);
+        if (earlier)
+            earlier->require_room(entry);
         Json errors = Json::object();
-        for (const auto& [what, error] : figures)
+        for (const auto& [what, error] : entry.figures)
             errors[what] = figure_json(error);
-        if (!said.empty())
-            errors[said_key] = Json::parse(said);
-        else if (earlier)
-            earlier->require_room(name);
+        if (!entry.said.empty())
+            errors[said_key] = Json::parse(entry.said);
         if (errors.empty())
-            throw InputError(place,
+            throw InputError(entry.place,
                              "measures nothing that a baseline could keep; add norms, or a block "
                              "with figures");
-        scenes[name] = std::move(errors);
+        scenes[entry.name] = std::move(errors);
+        files.erase(entry.name);
+        if (const std::string beside = file_beside(file, entry.file); !beside.empty())
+            files[entry.name] = beside;
     }
     // A line a scene: its history shows which has changed.
-    std::string text = fmt::format("{{\"schema\": \"{}\", \"scenes\": {{", baseline_schema);
-    std::string separator = "\n";
-    for (const auto& [name, kept] : scenes.items()) {
-        text += separator + json_line(Json(name)) + ": " + json_line(kept);
-        separator = ",\n";
-    }
-    return text + "\n}}\n";
+    const auto lines = [](const Json& object) {
+        std::string text;
+        for (const auto& [name, kept] : object.items())
+            text += (text.empty() ? "\n" : ",\n") + json_line(Json(name)) + ": " + json_line(kept);
+        return text + "\n}";
+    };
+    return fmt::format("{{\"schema\": \"{}\", \"scenes\": {{", baseline_schema) + lines(scenes) +
+           (files.empty() ? "" : ", \"files\": {" + lines(files)) + "}\n";
 }
 
-void Baseline::require_room(const std::string& scene) const {
-    if (has_said(scene))
-        throw InputError({file_}, "has all that the result of '" + scene +
+void Baseline::require_room(const BaselineEntry& entry) const {
+    if (entry.said.empty() && has_said(entry.name))
+        throw InputError({file_}, "has all that the result of '" + entry.name +
                                       "' says, and a record of its numbers would take the place "
                                       "of that; add --whole, or record in another file");
+    require_same_file(entry);
+    if (entry.is_table)
+        require_same_columns(entry);
+}
+
+void Baseline::require_same_file(const BaselineEntry& entry) const {
+    const auto recorded = files_.find(entry.name);
+    if (recorded == files_.end())
+        return;
+    const auto other = (folder_of(file_) / recorded->second).lexically_normal();
+    std::error_code error;
+    const bool is_another = std::filesystem::is_regular_file(other, error) &&
+                            !std::filesystem::equivalent(other, entry.file, error) && !error;
+    if (is_another)
+        throw InputError({entry.file}, "would take the place of " + other.string() + " in " +
+                                           file_ + ", where both are called '" + entry.name +
+                                           "'; rename one, or record in another file");
+}
+
+void Baseline::require_same_columns(const BaselineEntry& entry) const {
+    const auto recorded = scenes_.find(entry.name);
+    if (recorded == scenes_.end())
+        return;
+    std::set<std::string> series;
+    for (const auto& [what, figure] : entry.figures)
+        series.insert(series_of(what));
+    for (const auto& what : entry.not_made)
+        series.insert(series_of(what));
+    for (const auto& [what, figure] : recorded->second)
+        if (!series.contains(series_of(what)))
+            throw InputError({file_}, "has '" + what + "' of '" + entry.name +
+                                          "', and this record, without that column or width, "
+                                          "would take its place; analyse both in one call, or "
+                                          "record in another file");
 }
 
 Baseline::Baseline(const std::string& file) : file_(file) {
@@ -228,7 +305,12 @@ Baseline::Baseline(const std::string& file) : file_(file) {
     const auto json = nlohmann::json::parse(text, looked_at, false);
     require(!json.is_discarded() && json.is_object() && json.contains("schema") &&
             json["schema"] == baseline_schema && json.contains("scenes") &&
-            json["scenes"].is_object());
+            json["scenes"].is_object() && (!json.contains("files") || json["files"].is_object()));
+    if (json.contains("files"))
+        for (const auto& [scene, place] : json["files"].items()) {
+            require(place.is_string());
+            files_[scene] = place;
+        }
     for (const auto& [scene, figures] : json["scenes"].items()) {
         auto& recorded = scenes_[scene];
         for (const auto& [what, figure] : figures.items())

@@ -34,7 +34,7 @@ DataColumn in_order(const DataColumn& column, const std::vector<std::size_t>& or
 } // namespace
 
 DataAnalysis analyse(const DataFile& data) {
-    DataAnalysis analysis{data.name, {}, {}, data.remarks};
+    DataAnalysis analysis{data.name, {}, {}, data.remarks, data.chosen};
     std::vector<std::size_t> order(data.widths.front().numbers.size());
     std::iota(order.begin(), order.end(), 0);
     std::stable_sort(order.begin(), order.end(), [&](std::size_t left, std::size_t right) {

@@ -33,6 +33,7 @@ struct DataAnalysis {
     std::vector<DataColumn> widths; ///< from coarse to fine by the first, then by the others
     std::vector<ColumnAnalysis> columns;
     std::vector<std::string> remarks;
+    std::vector<std::string> chosen = {}; ///< DataFile::chosen
 
     std::size_t rows() const { return widths.front().numbers.size(); }
 };

@@ -468,6 +468,7 @@ DataFile read_data(const std::string& file, const DataChoice& choice) {
         }
     }
     require_records(data, head.place, conditions);
+    data.chosen = chosen_by(conditions, head.separator);
     for (const auto& use : uses)
         if (use.is_width && use.power == 1)
             use.target->units = printed_units_of_widths(use.target->numbers, use.printed);

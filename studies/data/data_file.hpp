@@ -48,6 +48,9 @@ struct DataFile {
     std::vector<DataColumn> values;
     std::vector<double> sigma;        ///< empty: not known
     std::vector<std::string> remarks; ///< what was assumed
+    /// By which rows of the file these are told from others of it, COLUMN=TEXT, by the names of the
+    /// columns; numbers as they are written shortest. Empty: all rows.
+    std::vector<std::string> chosen = {};
 };
 
 /// Reads a file, or standard input where it is called "-". Throws InputError at file:line:column.

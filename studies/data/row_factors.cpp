@@ -214,6 +214,19 @@ std::vector<RowCondition> conditions_of(const ColumnNames& names,
     return conditions;
 }
 
+std::vector<std::string> chosen_by(const std::vector<RowCondition>& conditions, char separator) {
+    std::vector<std::string> chosen;
+    for (const auto& condition : conditions) {
+        if (condition.text == "*")
+            continue;
+        const auto number = number_of(condition.text, separator);
+        chosen.push_back(condition.name + "=" +
+                         (number && std::isfinite(*number) ? shortest(*number) : condition.text));
+    }
+    std::ranges::sort(chosen);
+    return chosen;
+}
+
 void require_records(DataFile& data, const Place& names,
                      const std::vector<RowCondition>& conditions) {
     const bool has_none = data.widths.front().numbers.empty();

@@ -31,6 +31,9 @@ struct RowCondition {
 std::vector<RowCondition> conditions_of(const ColumnNames& names,
                                         const std::vector<std::string>& where);
 
+/// DataFile::chosen. separator: of fields, as for holds_for().
+std::vector<std::string> chosen_by(const std::vector<RowCondition>& conditions, char separator);
+
 /// Adds to the data's remarks which rows were chosen. Throws InputError where there are none.
 void require_records(DataFile& data, const Place& names,
                      const std::vector<RowCondition>& conditions);

@@ -370,6 +370,53 @@ BOOST_AUTO_TEST_CASE(a_refusal_takes_the_place_of_no_file_but_a_report) {
     BOOST_TEST(has(nowhere.errors, "cannot write"), nowhere.errors);
 }
 
+// Records go by the names of files: one of another folder is told from the same file, and from one
+// that was moved with its record or is no longer there.
+BOOST_AUTO_TEST_CASE(a_record_takes_the_place_of_no_other_file_s_of_its_name) {
+    const TemporaryDirectory directory;
+    const std::string in = directory.path().string() + "/";
+    const std::string text = call(directory, "list sheared").output;
+    const std::string rows = "h,error\n0.4,0.16\n0.2,0.04\n0.1,0.01\n";
+    for (const std::string folder : {"a", "b"}) {
+        std::filesystem::create_directory(in + folder);
+        directory.write(folder + "/sheared.toml", text);
+        directory.write(folder + "/e.csv", rows);
+    }
+    const auto recorded = [&](const std::string& folder, const std::string& words) {
+        return call(directory, words, "cd " + in + folder + " && ");
+    };
+    for (const std::string words : {"check sheared.toml --short --record ../base.json",
+                                    "analyse e.csv --record ../base.json"}) {
+        BOOST_TEST(recorded("a", words).exit == 0);
+        BOOST_TEST(recorded("a", words).exit == 0);
+        const std::string before = directory.read("base.json");
+        const Called refused = recorded("b", words);
+        BOOST_TEST(refused.exit == 2, words);
+        BOOST_TEST(has(refused.errors, "would take the place of " + in + "a/"), refused.errors);
+        BOOST_TEST(directory.read("base.json") == before);
+    }
+    const Called shipped = call(directory, "check sheared --short --record " + in + "base.json");
+    BOOST_TEST(shipped.exit == 2);
+    BOOST_TEST(has(shipped.errors, "rename one, or record in another file"), shipped.errors);
+    std::filesystem::create_directory(in + "moved");
+    std::filesystem::copy(in + "a", in + "moved/a");
+    std::filesystem::copy(in + "base.json", in + "moved/base.json");
+    const std::string check = "check sheared.toml --short --record ../base.json";
+    BOOST_TEST(recorded("moved/a", check).exit == 0);
+    std::filesystem::remove_all(in + "a");
+    BOOST_TEST(recorded("b", check).exit == 0);
+    // A record of before files stood in it.
+    auto json = nlohmann::json::parse(directory.read("base.json"));
+    json.erase("files");
+    directory.write("base.json", json.dump());
+    BOOST_TEST(
+        recorded("b", "check sheared.toml --short --baseline ../base.json --record ../base.json")
+            .exit == 0);
+    json["files"] = {{"sheared", 1}};
+    directory.write("base.json", json.dump());
+    BOOST_TEST(has(recorded("b", check).errors, "base.json: is not a baseline"));
+}
+
 // Beside its figures a whole record keeps what a result says, and what its expectations look at.
 BOOST_AUTO_TEST_CASE(a_whole_record_holds_words_and_counters) {
     const TemporaryDirectory directory;

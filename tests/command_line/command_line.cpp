@@ -431,6 +431,61 @@ BOOST_AUTO_TEST_CASE(a_table_is_recorded_into_what_is_there) {
     BOOST_TEST(call(directory, analyse + " --record /dev/null").exit == 0);
 }
 
+// Rows of Euler and of BDF2 are not each other's, however the selection is written; of all rows
+// together the record is that of the file, as without --where.
+BOOST_AUTO_TEST_CASE(rows_that_are_chosen_have_a_record_of_their_own) {
+    const TemporaryDirectory directory;
+    const std::string in = directory.path().string() + "/";
+    const std::string table = directory.write(
+        "two.csv", "scheme,k,h,e\nEuler,1,0.4,0.16\nEuler,1,0.2,0.04\nEuler,1,0.1,0.01\n"
+                   "BDF2,1,0.4,0.016\nBDF2,1,0.2,0.004\nBDF2,1,0.1,0.001\n");
+    const auto exit_of = [&](const std::string& where, const std::string& option) {
+        return call(directory,
+                    "analyse " + table + " --error e " + where + " " + option + " " + in + "b.json")
+            .exit;
+    };
+    const std::string euler = "--where scheme=Euler";
+    const std::string bdf2 = "--where scheme=BDF2";
+    for (const std::string& where : {euler, bdf2})
+        BOOST_TEST(exit_of(where, "--record") == 0);
+    for (const std::string& where : {euler, bdf2, euler + " --where 'k=*'"})
+        BOOST_TEST(exit_of(where, "--baseline") == 0, where);
+    BOOST_TEST(exit_of(euler + " --where k=1.0", "--record") == 0);
+    BOOST_TEST(exit_of("--where 'K = 1' " + euler, "--baseline") == 0);
+    const Called missing = call(directory, "analyse " + table + " --error e --where 'scheme=*' " +
+                                               "--baseline " + in + "b.json");
+    BOOST_TEST(missing.exit == 1);
+    BOOST_TEST(has(missing.output, "expected a record of '" + table + "', by this name, found"),
+               missing.output);
+    BOOST_TEST(exit_of("--where 'scheme=*'", "--record") == 0);
+    const auto scenes = nlohmann::json::parse(directory.read("b.json")).at("scenes");
+    BOOST_TEST(scenes.size() == 4U);
+    BOOST_TEST(scenes.at(table).size() == 6U);
+    BOOST_TEST(scenes.at(table + " " + euler).size() == 3U);
+}
+
+// By --error, --value, --size and --step others would be lost; more of them, other rows and runs
+// that are made now lose nothing.
+BOOST_AUTO_TEST_CASE(a_record_of_a_table_loses_no_column) {
+    const TemporaryDirectory directory;
+    const std::string file = (directory.path() / "b.json").string();
+    const std::string rows = "h,dt,L2,H1\n0.4,0.4,0.16,0.4\n0.2,0.1,0.04,0.2\n";
+    const auto recorded = [&](const std::string& more, const std::string& columns) {
+        return call(directory, "analyse " + directory.write("t.csv", rows + more) + " " + columns +
+                                   " --record " + file);
+    };
+    BOOST_TEST(recorded("0.1,0.025,NA,0.1\n", "--error L2").exit == 0);
+    const std::string before = directory.read("b.json");
+    const Called other = recorded("0.1,0.025,0.01,0.1\n", "--error H1");
+    BOOST_TEST(other.exit == 2);
+    BOOST_TEST(has(other.errors, "b.json: has 'L2: h = 0.2 dt = 0.1' of '"), other.errors);
+    BOOST_TEST(has(other.errors, "analyse both in one call"), other.errors);
+    BOOST_TEST(directory.read("b.json") == before);
+    BOOST_TEST(recorded("0.1,0.025,0.01,0.1\n", "--error L2 --size dt").exit == 2);
+    BOOST_TEST(recorded("0.2,0.1,0.04,0.2\n0.1,0.025,0.01,0.1\n", "--error L2,H1").exit == 0);
+    BOOST_TEST(recorded("0.1,0.025,0.01,0.1\n", "--error H1,L2").exit == 0);
+}
+
 // Values that oscillate, which one method takes; and a grid, on which there is no one way of
 // refinement.
 BOOST_AUTO_TEST_CASE(what_an_analysis_cannot_say_of_a_value_is_null_with_a_status) {

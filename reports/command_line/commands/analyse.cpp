@@ -63,7 +63,7 @@ int analyse_command(const AnalyseOptions& options) {
     Destination csv = destination(options.csv);
     Destination junit = destination(options.junit);
     Record record(options.record);
-    record.require_room(baseline_entry(analysis).name);
+    record.require_room(baseline_entry(analysis));
     opened([] { add_to_step_summary({}); });
     if (out)
         if (const std::string left_out = out->write(reported(analysis)); !left_out.empty())

@@ -120,9 +120,12 @@ public:
                 const std::optional<Baseline>& baseline)
         : options_(options), scenes_(scenes), baseline_(baseline), json_(destination(options.json)),
           junit_(destination(options.junit)), record_(options.record) {
-        for (const auto& scene : scenes)
-            if (!options.whole)
-                record_.require_room(scene.name);
+        for (const auto& scene : scenes) {
+            BaselineEntry entry{scene.name, {scene.file}, {}};
+            entry.file = scene.file;
+            entry.said = options.whole ? "{}" : "";
+            record_.require_room(entry);
+        }
     }
 
     void run_all() {

@@ -20,10 +20,10 @@ public:
     [[nodiscard]] bool wanted() const { return destination_.wanted(); }
     [[nodiscard]] bool standard_output() const { return destination_.standard_output(); }
 
-    /// Throws InputError where numbers alone would take the place of all that a result says.
-    void require_room(const std::string& name) const {
+    /// As Baseline::require_room(), before anything runs.
+    void require_room(const BaselineEntry& entry) const {
         if (earlier_)
-            earlier_->require_room(name);
+            earlier_->require_room(entry);
     }
 
     /// Of several programs that record in one file none loses what another has written meanwhile.
