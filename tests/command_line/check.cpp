@@ -363,6 +363,11 @@ BOOST_AUTO_TEST_CASE(a_refusal_takes_the_place_of_no_file_but_a_report) {
         BOOST_TEST(has(after(file), "<error message="));
     const Called written = call(directory, "analyse " + table + " --junit -");
     BOOST_TEST(has(written.output, "<error message="), written.output);
+    for (const std::string place : {"-", "both"})
+        BOOST_TEST(call(directory, "analyse " + table + " --junit " + place + " --json " + place,
+                        "cd " + directory.path().string() + " && ")
+                       .output.empty());
+    BOOST_TEST(!std::filesystem::exists(directory.path() / "both"));
     const Called nowhere = call(directory, "analyse " + table + " --junit " +
                                                (directory.path() / "no/j.xml").string());
     BOOST_TEST(nowhere.exit == 2);

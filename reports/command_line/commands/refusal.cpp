@@ -4,6 +4,8 @@
 #include "reports/command_line/commands/said.hpp"
 #include "reports/formats/junit_report.hpp"
 
+#include <algorithm>
+#include <array>
 #include <exception>
 #include <filesystem>
 #include <fstream>
@@ -35,6 +37,13 @@ bool has_room_for_junit(const std::string& file) {
     return text.starts_with("<?xml") && text.find("<testsuites") != std::string::npos;
 }
 
+/// In a place that two reports are asked for nobody looks for this one.
+bool is_asked_twice(const CLI::App& command, const std::string& junit) {
+    return std::ranges::any_of(std::array{"--json", "--csv", "--record"}, [&](const char* option) {
+        return named_by(command, option) == junit;
+    });
+}
+
 bool holds_something(const std::string& name) {
     std::error_code error;
     return fs::is_regular_file(name, error) ||
@@ -46,7 +55,7 @@ bool holds_something(const std::string& name) {
 void report_refusal(const CLI::App& program, const std::string& message) {
     for (const auto* command : program.get_subcommands()) {
         const std::string junit = named_by(*command, "--junit");
-        if (!junit.empty() && has_room_for_junit(junit))
+        if (!junit.empty() && !is_asked_twice(*command, junit) && has_room_for_junit(junit))
             try {
                 destination(junit).write(
                     junit_report({{"tvbeam " + command->get_name(), 0.0, message, {}}}));
