@@ -153,7 +153,7 @@ public:
 
     /// Whether all intervals passed as they were. A function that is not resolved with so many
     /// intervals stays behind as unresolved.
-    bool cut_for(const Look& look, double tolerance, std::size_t most) {
+    bool cut_for(Look look, double tolerance, std::size_t most) {
         if (!(look.sampled.norm > 0.0) || !std::isfinite(look.sampled.norm))
             return true;
         const std::size_t before = result_.intervals_.size();
@@ -168,18 +168,8 @@ public:
     /// Looks at a function where the intervals are, which were cut for others as well: whether it
     /// is larger there than was known. A source is next to zero but where its solution has a layer.
     bool sees_more_of(Look& look) const {
-        constexpr double more = 2.0;
-        const AtRule values = at_rule(look.sampled.function, result_.intervals_);
-        double square = 0.0;
-        for (std::size_t i = 0; i < result_.intervals_.size(); ++i)
-            square += result_.intervals_[i].length *
-                      (element_rule().weights * values.col(static_cast<Index>(i)).square()).sum();
-        const double norm = std::sqrt(square);
-        if (!(norm > more * look.sampled.norm))
-            return false;
-        look.sampled.norm = norm;
-        look.sampled.greatest = std::max(look.sampled.greatest, values.abs().maxCoeff());
-        return true;
+        return grow(look.sampled, result_.intervals_,
+                    at_rule(look.sampled.function, result_.intervals_));
     }
 
     /// Cuts nothing; a function for which it would is unresolved.
@@ -194,8 +184,26 @@ public:
     [[nodiscard]] Resolution result() && { return std::move(result_); }
 
 private:
-    /// Cuts in two what the rule does not integrate. False: there would be too many intervals.
-    bool refine(const Resolution::Sampled& f, double tolerance, std::size_t most) {
+    /// Takes the sizes of a function from its values at the rule on some intervals, where they are
+    /// far greater than what was known. Whether they are.
+    static bool grow(Resolution::Sampled& f, const std::vector<Interval>& intervals,
+                     const AtRule& values) {
+        constexpr double far = 2.0;
+        double square = 0.0;
+        for (std::size_t i = 0; i < intervals.size(); ++i)
+            square += intervals[i].length *
+                      (element_rule().weights * values.col(static_cast<Index>(i)).square()).sum();
+        const double norm = std::sqrt(square);
+        if (!(norm > far * f.norm && std::isfinite(norm)))
+            return false;
+        f.norm = norm;
+        f.greatest = std::max(f.greatest, values.abs().maxCoeff());
+        return true;
+    }
+
+    /// Cuts in two what the rule does not integrate. False: there would be too many intervals. What
+    /// a look saw the foot of alone grows as it is met.
+    bool refine(Resolution::Sampled& f, double tolerance, std::size_t most) {
         std::vector<Interval> done;
         std::vector<Interval> open = std::move(result_.intervals_);
         AtRule whole = at_rule(f.function, open);
@@ -203,6 +211,7 @@ private:
         while (!open.empty()) {
             const std::vector<Interval> halves = halves_of(open);
             const AtRule at_halves = at_rule(f.function, halves);
+            grow(f, halves, at_halves);
             const ArrayXd excess = differences(open, whole, at_halves, f.norm);
             std::vector<Interval> next;
             std::vector<Index> columns;

@@ -274,6 +274,9 @@ private:
             contact.tip = [tape](double begin, double end) {
                 return tape.enclose(0, 0.0, begin, end);
             };
+            contact.stress = [tape](double begin, double end) {
+                return tape.enclose(1, 0.0, begin, end);
+            };
             contact.most_parts =
                 most_enclosures / (1 + static_cast<std::int64_t>(tape.instruction_count()));
             contact.ends = [tape = std::move(tape)](const ArrayXd& in_time) {

@@ -33,6 +33,10 @@ double tip_tolerance(const Stops& stops, const std::vector<ContactPhase>& phases
                     std::max(relative_tolerance * size, roundings * u_scale));
 }
 
+Enclosure negated(const Enclosure& e) {
+    return {{-e.value.upper, -e.value.lower}, {-e.slope.upper, -e.slope.lower}};
+}
+
 /// The places of sizes, the greatest first: of all that break a rule it is the one to be said.
 std::vector<Index> by_size(const ArrayXd& sizes) {
     std::vector<Index> order(static_cast<std::size_t>(sizes.size()));
@@ -107,6 +111,7 @@ void ContactRules::require(std::size_t index) {
         return;
     }
     require_rigid(index);
+    require_sign(phases_[index]);
     if (!stays_between_stops(phases_[index]))
         tip_is_sampled_ = true;
 }
@@ -114,9 +119,8 @@ void ContactRules::require(std::size_t index) {
 /// The tip's greatest value, or with `below` that of −u(1,t), if it is above the limit.
 GreatestValue ContactRules::farthest(const ContactPhase& phase, bool below, double limit) const {
     const EnclosedFunction tip = [&](double begin, double end) -> Enclosure {
-        const Enclosure e = phase.tip(begin, end);
-        return below ? Enclosure{{-e.value.upper, -e.value.lower}, {-e.slope.upper, -e.slope.lower}}
-                     : e;
+        const Enclosure values = phase.tip(begin, end);
+        return below ? negated(values) : values;
     };
     return greatest_value(tip, phase.times(0), phase.times(phase.times.size() - 1), limit,
                           tip_tolerance_, phase.most_parts);
@@ -138,6 +142,30 @@ bool ContactRules::stays_between_stops(const ContactPhase& phase) const {
         proven = proven && found.proven;
     }
     return proven;
+}
+
+/// Throws where a tip that is on one stop all the time is found to be pulled by it between the
+/// sampled times: its stress passes zero there, as a peak beside two of them does.
+void ContactRules::require_sign(const ContactPhase& phase) const {
+    if (!phase.sigma || !phase.stress || !stops_.exist())
+        return;
+    const ArrayXd tips = phase.ends(phase.times).row(0);
+    const auto all = [&](bool (ContactRules::*on_stop)(double) const) {
+        return std::ranges::all_of(tips, [&](double tip) { return (this->*on_stop)(tip); });
+    };
+    const bool upper = all(&ContactRules::at_upper);
+    if (upper == all(&ContactRules::at_lower))
+        return;
+    const EnclosedFunction pull = [&](double begin, double end) {
+        const Enclosure stress = phase.stress(begin, end);
+        return upper ? stress : negated(stress);
+    };
+    const GreatestValue found =
+        greatest_value(pull, phase.times(0), phase.times(phase.times.size() - 1), stress_tolerance_,
+                       stress_tolerance_, phase.most_parts);
+    if (found.value > stress_tolerance_)
+        require_stress(phase, found.t, phase.ends(ArrayXd::Constant(1, found.t))(0, 0),
+                       upper ? found.value : -found.value);
 }
 
 /// Whether a stress at a stop is what rounding of u(1,t) makes of −(u(1,t) − g2)/ε, as long as that

@@ -21,6 +21,7 @@ struct ContactPhase {
     /// Two rows, u(1,t) and σ̃(1,t); one column a time.
     std::function<Eigen::ArrayXXd(const Eigen::ArrayXd& times)> ends;
     EnclosedFunction tip;        ///< u(1,t); none: nothing is known of it between two times
+    EnclosedFunction stress;     ///< σ̃(1,t), likewise
     std::int64_t most_parts = 0; ///< into which greatest_value may take it apart
     Place u;
     bool u_names_g1 = false; ///< moving the stop moves what is wrong with it
@@ -34,8 +35,9 @@ struct ContactPhase {
 ///     (6)       g1 ≤ u(1,t) ≤ g2
 ///     (7)(8)    σ̃(1,t) = 0 where g1 < u(1,t) < g2 (always, without stops); ≥ 0 at g1, ≤ 0 at g2
 ///
-/// They are looked at at sampled times; (6) at all times, where its phase has an enclosure.
-/// Where the stops are penalised, either their law at all times, u(1,t) free,
+/// They are looked at at sampled times; (6) at all times, where its phase has an enclosure, and
+/// (8), where the tip is on one stop all the while. Where the stops are penalised, either their law
+/// at all times, u(1,t) free,
 ///
 ///     ε σ̃(1,t) = −((u(1,t) − g2)⁺ − (g1 − u(1,t))⁺)
 ///
@@ -65,6 +67,7 @@ private:
     void require_rigid(std::size_t index) const;
     [[nodiscard]] GreatestValue farthest(const ContactPhase& phase, bool below, double limit) const;
     [[nodiscard]] bool stays_between_stops(const ContactPhase& phase) const;
+    void require_sign(const ContactPhase& phase) const;
     void require_law(const ContactPhase& phase) const;
     [[nodiscard]] bool is_rounding_of_law(double tip, double stress) const;
     [[nodiscard]] bool at_lower(double tip) const;

@@ -629,6 +629,31 @@ BOOST_AUTO_TEST_CASE(a_single_stop_is_passed_by_a_narrow_peak) {
     BOOST_TEST(!passes("1", g1_alone));
 }
 
+// As above, of a force on a tip that stays on its stop; and a parabola, whose top no sampled time
+// meets.
+BOOST_AUTO_TEST_CASE(a_stop_pulls_between_sampled_times) {
+    const auto pulls = [](const std::string& sigma, bool upper) {
+        const Solution pressed =
+            parse_solution(solution("0", std::string(upper ? "g2" : "g1") + "*x^2*(3 - x)/2",
+                                    (upper ? "" : "-") + std::string("(") + sigma + ")"),
+                           "my.toml");
+        try {
+            manufactured_problem({pressed, {0.3, 0.1, 0.0, {-0.1, 0.1}}, 1.0});
+            return false;
+        } catch (const InputError& error) {
+            BOOST_TEST(std::string(error.what()).starts_with("my.toml:3:10: (8): sigma(1,t) is "),
+                       error.what());
+            return true;
+        }
+    };
+    for (const bool upper : {true, false}) {
+        BOOST_TEST(pulls("-1e-3 + 1.1e-3*exp(-1e18*(t - 0.3333)^2)", upper));
+        BOOST_TEST(!pulls("-1e-3 + 0.9e-3*exp(-1e18*(t - 0.3333)^2)", upper));
+        BOOST_TEST(pulls("-(t - 0.3333)^2 + 1e-6", upper));
+        BOOST_TEST(!pulls("-(t - 0.3333)^2", upper));
+    }
+}
+
 BOOST_DATA_TEST_CASE(a_wrong_solution_is_told_the_nearest_repair, data::make(repairs)) {
     BOOST_CHECK_EXCEPTION(law_distance(parse_solution(sample.wrong, "my.toml"), sample.beam, 2.0),
                           InputError, [&](const InputError& error) {
