@@ -24,7 +24,10 @@ namespace {
 
 constexpr double machine_epsilon = std::numeric_limits<double>::epsilon();
 constexpr double shortest = 0x1p-48;
-constexpr double seen = 1e-5; // of max|φ|: what a look at a place notices
+constexpr double seen = 1e-5;          // of max|φ|: what a look at a place notices
+constexpr double beside_end = 0x1p-10; // of an interval; the rule's first point is at 0.034
+constexpr double jump =
+    1e-3; // of max|φ|, from an end to beside_end: a root has less on what is left
 
 using AtRule = Array<double, element_rule_size, Eigen::Dynamic>;
 using Moments = Eigen::Matrix<double, 4, element_rule_size>;
@@ -113,6 +116,15 @@ AtRule coefficients(const AtRule& values) {
         return Square(powers.inverse());
     }();
     return (inverse * values.matrix()).array();
+}
+
+/// The polynomial of such coefficients at places ξ, or at one.
+template <typename Coefficients, typename Places>
+Places value_of(const Coefficients& c, const Places& xi) {
+    Places value = c(element_rule_size - 1) + 0.0 * xi;
+    for (Index k = element_rule_size - 1; k-- > 0;)
+        value = value * xi + c(k);
+    return value;
 }
 
 double finest_of(const std::vector<Interval>& intervals) {
@@ -256,9 +268,11 @@ private:
         return replaced_by(std::move(next), most);
     }
 
-    /// Cuts in two where a look shows what the six points do not. Whether there was any.
+    /// Cuts in two where a look shows what the six points do not, or a place beside each end: a
+    /// jump there is outside all points of the rule, and of its halves. Whether there was any.
     bool cut_where_it_differs(const Look& look, std::size_t most) {
         const AtRule polynomials = coefficients(at_rule(look.sampled.function, result_.intervals_));
+        const Eigen::Array2Xd beside_ends = values_beside_ends(look.sampled.function);
         const double bound = seen * look.sampled.greatest;
         std::vector<Interval> intervals;
         Index first = 0;
@@ -269,11 +283,13 @@ private:
                 ++end;
             const ArrayXd xi =
                 (look.x.segment(first, end - first) - interval.left) / interval.length;
-            const auto c = polynomials.col(static_cast<Index>(i));
-            ArrayXd p = ArrayXd::Zero(xi.size());
-            for (Index k = element_rule_size; k-- > 0;)
-                p = p * xi + c(k);
+            const auto at = static_cast<Index>(i);
+            const auto c = polynomials.col(at);
+            const ArrayXd p = value_of(c, xi);
+            const double at_start = value_of(c, beside_end) - beside_ends(0, at);
+            const double at_end = value_of(c, 1.0 - beside_end) - beside_ends(1, at);
             const bool differs =
+                std::max(std::abs(at_start), std::abs(at_end)) > jump * look.sampled.greatest ||
                 ((p - look.values.segment(first, end - first)).abs() > bound).any();
             first = end;
             if (!differs || interval.length <= shortest) {
@@ -284,6 +300,17 @@ private:
                 intervals.push_back(half);
         }
         return replaced_by(std::move(intervals), most);
+    }
+
+    /// φ beside the left and the right end of each interval.
+    [[nodiscard]] Eigen::Array2Xd values_beside_ends(const SpaceFunction& function) const {
+        Eigen::Array2Xd x(2, static_cast<Index>(result_.intervals_.size()));
+        for (Index i = 0; i < x.cols(); ++i) {
+            const auto& [left, length] = result_.intervals_[static_cast<std::size_t>(i)];
+            x.col(i) << left + beside_end * length, left + (1.0 - beside_end) * length;
+        }
+        const ArrayXd values = function(x.reshaped());
+        return values.reshaped(x.rows(), x.cols());
     }
 
     /// Takes the intervals if they are more than before, and not too many.
