@@ -8,7 +8,8 @@ namespace tvbeam {
 
 /// Runs in the sine basis: all that the rest of the program sees of this folder. Empty where that
 /// does not suit the run (SineForm::suits), where it would lose digits (SineForm::loses_digits), or
-/// where something was not finite: the general form can then say where and what. Counters::sine_steps of a result says that it was made here.
+/// where something was not finite: the general form can then say where and what.
+/// Counters::sine_steps of a result says that it was made here.
 std::optional<RunResult> run_in_sines(const RunRequest& request, const ProblemData& data,
                                       const Mesh& mesh, const Needs& needs);
 
