@@ -2,6 +2,7 @@
 
 #include "mms/text/visible_text.hpp"
 #include "studies/external/digest.hpp"
+#include "studies/external/output.hpp"
 #include "studies/external/process.hpp"
 #include "studies/text/number_text.hpp"
 
@@ -181,29 +182,6 @@ private:
     fs::path path_;
 };
 
-/// The text with files of the directory by their names alone, and the directory itself as ".".
-std::string without_directory(const std::string& text, const std::string& directory) {
-    const auto is_of_path = [&](std::size_t at) {
-        return at < text.size() &&
-               (std::isalnum(static_cast<unsigned char>(text[at])) != 0 || text[at] == '/' ||
-                text[at] == '.' || text[at] == '_' || text[at] == '-');
-    };
-    std::string result;
-    std::size_t begin = 0;
-    for (std::size_t at = 0;
-         !directory.empty() && (at = text.find(directory, at)) != std::string::npos;) {
-        const std::size_t end = at + directory.size();
-        const bool names_a_file = end < text.size() && text[end] == '/' && is_of_path(end + 1);
-        if ((at > 0 && is_of_path(at - 1)) || (is_of_path(end) && text[end] != '/')) {
-            at = end;
-            continue;
-        }
-        result += text.substr(begin, at - begin) + (names_a_file ? "" : ".");
-        begin = at = names_a_file ? end + 1 : end;
-    }
-    return result + text.substr(begin);
-}
-
 class ExternalSolver {
 public:
     ExternalSolver(const SolverBlock& solver, const Keeper& keeper)
@@ -298,10 +276,7 @@ private:
                                        ? "; on standard error it wrote: " + process.last_lines
                                        : "; it wrote: " + process.last_lines);
         // The next run is made in another directory, and fails for the same reason.
-        std::error_code error;
-        const auto real = fs::weakly_canonical(directory, error).string();
-        for (const auto& path : {real, directory.string()})
-            result.reason = without_directory(result.reason, path);
+        result.reason = without_directory(std::move(result.reason), directory);
     }
 
     /// Reads what is measured; why not, where it is not all there.

@@ -2,11 +2,15 @@
 #pragma once
 
 #include <cstddef>
+#include <filesystem>
 #include <functional>
 #include <string>
 #include <string_view>
 
 namespace tvbeam {
+
+/// The text with files of the directory by their names alone, and the directory itself as ".".
+std::string without_directory(std::string text, const std::filesystem::path& directory);
 
 class OutputLines {
 public:
@@ -21,8 +25,9 @@ public:
     void finish(); ///< the last line may have no end
 
     /// The last lines with something in them, at most `count`, in one line of text, "a | b", with
-    /// what is no UTF-8 as \xF6.
-    [[nodiscard]] std::string last_lines(std::size_t count) const;
+    /// what is no UTF-8 as \xF6, without_directory().
+    [[nodiscard]] std::string last_lines(std::size_t count,
+                                         const std::filesystem::path& directory = {}) const;
 
 private:
     std::function<void(const std::string&)> visit_;

@@ -276,10 +276,10 @@ private:
         drain(standard_output_.read.number(), output_);
         drain(standard_error_.read.number(), errors_);
         output_.finish();
-        result_.last_lines = errors_.last_lines(shown_lines);
+        result_.last_lines = errors_.last_lines(shown_lines, task_.directory);
         result_.are_of_errors = !result_.last_lines.empty();
         if (!result_.are_of_errors)
-            result_.last_lines = output_.last_lines(shown_lines);
+            result_.last_lines = output_.last_lines(shown_lines, task_.directory);
         if (timed_out_)
             result_.failure = "timed out";
         else if (result_.failure.empty())

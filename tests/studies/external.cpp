@@ -411,6 +411,15 @@ BOOST_AUTO_TEST_CASE(lines_are_told_whole_and_their_last_are_kept) {
     BOOST_TEST(lines.back() == "three\x01");
     BOOST_TEST(output.last_lines(2) == "two | three"); // nothing that a terminal would obey
     BOOST_TEST(output.last_lines(5) == "one | two | three");
+    // Wherever the line is cut.
+    for (std::size_t before = 0; before < 250; ++before) {
+        const std::string text(before, '.');
+        OutputLines one([](const std::string&) {});
+        OutputLines other([](const std::string&) {});
+        one.take(text + " /tmp/a/x /tmp/ax /tmp/a\n");
+        other.take(text + " /tmp/longer/x /tmp/ax /tmp/longer\n");
+        BOOST_TEST(one.last_lines(1, "/tmp/a") == other.last_lines(1, "/tmp/longer"));
+    }
     // Nor what is no UTF-8: Latin-1, and a character that the longest line ends in.
     OutputLines foreign([](const std::string&) {});
     foreign.take("ersch\xF6pft\n" + std::string(199, 'x') + "é and so on");

@@ -111,7 +111,8 @@ const std::vector<Mistake> mistakes = {
     {beam + ladder + "[expect.ladder.theta_L2L2]\norder = [1, 2]\n",
      {},
      ":11:1: expect.ladder.theta_L2L2.order does not apply here; it is for: the order along the "
-     "ladder, where it has [solver] or `until`; did you mean 'orders'?"},
+     "ladder, of the norm, not its square, where it has [solver] or `until`; did you mean "
+     "'orders'?"},
     {beam + ladder,
      {"expect.ladder.theta_L2L2.gci.limit=[0,1]"},
      "--set expect.ladder.theta_L2L2.gci.limit=[0,1]: expect.ladder.theta_L2L2.gci does not apply "
