@@ -39,7 +39,7 @@ ex on_beam(const ex& expression, const GiNaC::exmap& values, const SourceText& s
         return substituted(expression, values);
     } catch (const AlgebraError& error) {
         throw InputError(source.begin(),
-                         what + " has no value with this beam's numbers: " + error.what());
+                         what + " cannot be computed with this beam's numbers: " + error.what());
     }
 }
 

@@ -213,10 +213,9 @@ ex checked_power(const ex& base, const ex& exponent) {
         const auto& number = ex_to<numeric>(exponent);
         if (!number.is_rational())
             throw AlgebraError("the exponent is not a real number");
-        if (GiNaC::abs(number) > largest_exponent || number.denom() > largest_exponent)
+        if (GiNaC::abs(number) > largest_exponent)
             throw AlgebraError("a constant exponent must be at most " +
-                               std::to_string(largest_exponent) +
-                               " in size, and so must its denominator");
+                               std::to_string(largest_exponent) + " in size");
         if (base.is_zero() && number.is_negative())
             throw AlgebraError("division by zero: 0 has no negative power");
         if (base.is_zero() && number.is_zero())

@@ -28,8 +28,8 @@ GiNaC::ex checked_difference(const GiNaC::ex& a, const GiNaC::ex& b);
 GiNaC::ex checked_product(const GiNaC::ex& a, const GiNaC::ex& b);
 GiNaC::ex checked_quotient(const GiNaC::ex& a, const GiNaC::ex& b);
 
-/// base^exponent. A numerical exponent is at most 1000 in size, its denominator too, and no integer
-/// that appears may need more than 8192 bits.
+/// base^exponent. A numerical exponent is at most 1000 in size, and of a constant base no power may
+/// need more than 8192 bits. A denominator has no bound: such powers remain what they are.
 GiNaC::ex checked_power(const GiNaC::ex& base, const GiNaC::ex& exponent);
 
 /// The functions of one argument that expressions may use.

@@ -225,7 +225,7 @@ const std::vector<Case> cases = {
     {solution("sin(pi*x)", "x^2/alpha"),
      {0.0, 0.0, 0.0, {-1.0, 1.0}},
      "2:6",
-     {"u has no value with this beam's numbers: division by zero"}},
+     {"u cannot be computed with this beam's numbers: division by zero"}},
     {solution("2^(x*10^10)*(1-x)*x", "0"), between_stops, "1:10", {"constant exponent"}},
 };
 
