@@ -3,6 +3,7 @@
 #include "mms/equations/infix.hpp"
 #include "mms/equations/rounded.hpp"
 #include "mms/equations/system_checks.hpp"
+#include "mms/expression/plain_evaluation.hpp"
 #include "mms/text/number_text.hpp"
 
 #include <boost/numeric/interval.hpp>
@@ -33,6 +34,7 @@ constexpr std::size_t most_evaluations = 4'000'000; ///< of steps, at points of 
 constexpr std::size_t most_parts = 2'000;
 constexpr std::size_t finest_grid = 9; ///< points along a coordinate
 constexpr std::size_t longest_quoted = 60;
+constexpr int fewest_digits = 6; ///< of a place
 
 Span widened(const Span& a) {
     constexpr double relative = 1e-14;
@@ -311,19 +313,35 @@ private:
         return above;
     }
 
-    static std::string text_of(const DomainPoint& point) {
+    static std::string text_of(const DomainPoint& point, int digits = fewest_digits) {
         std::string text;
         for (const auto& [name, value] : point)
             text.append(text.empty() ? "" : ", ")
                 .append(name)
                 .append(" = ")
-                .append(number_text(value));
+                .append(number_text(value, digits));
         return text.empty() ? "everywhere" : "at " + text;
     }
 
     [[nodiscard]] std::string place_of(const Critical& critical, const DomainPoint& point) const {
-        return is_constant_[static_cast<std::size_t>(critical.operand)] ? "everywhere"
-                                                                        : text_of(point);
+        return is_constant_[static_cast<std::size_t>(critical.operand)]
+                   ? "everywhere"
+                   : text_of(point, digits_of(critical, point));
+    }
+
+    /// So many that at the place as it is written the margin is about 0, too, or what it is.
+    [[nodiscard]] int digits_of(const Critical& critical, const DomainPoint& point) const {
+        constexpr int all = 17; // which no two doubles share
+        const long double enough = std::max(1e-3L, 2.0L * std::abs(margin_at(critical, point)));
+        int digits = fewest_digits;
+        for (; digits < all; ++digits) {
+            DomainPoint written;
+            for (const auto& [name, value] : point)
+                written[name] = decimal<double>(number_text(value, digits));
+            if (!(std::abs(margin_at(critical, written)) > enough))
+                break;
+        }
+        return digits;
     }
 
     /// "the argument x of a root"
@@ -417,12 +435,12 @@ private:
                 continue;
             if (++looked_at > most_parts || !can_be_halved(box)) {
                 const DomainPoint middle = middle_of(box);
-                const std::string place = text_of(middle);
                 // A root may be 0 where it is a divisor, too.
                 const auto pole = std::ranges::find_if(all, [&](const Critical* one) {
                     return one->pole && vanishes_at(*one, middle);
                 });
                 const Critical* broken = pole == all.end() ? all.front() : *pole;
+                const std::string place = text_of(middle, digits_of(*broken, middle));
                 if (is_below_beside(*broken, middle))
                     return Singularity{Singularity::Kind::no_value, said(*broken) + place, place};
                 if (vanishes_at(*broken, middle))

@@ -25,6 +25,8 @@ std::string power_text(const std::string& base, std::optional<double> power) {
 /// How penalised stops that the tip passes answer.
 void add_penalised_reasons(const ExpectedOrders& known, const Beam& beam,
                            std::vector<std::string>& text) {
+    if (!known.tip_has_time_error)
+        return;
     // A step answers to a force with the compliance Δt/(3ζ), beside which ε must be large.
     text.push_back("The penalised stops answer to u(1,t) at once, and sigma has its order, for "
                    "steps below 3*zeta*epsilon = " +

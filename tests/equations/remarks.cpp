@@ -180,6 +180,10 @@ BOOST_AUTO_TEST_CASE(a_boundary_or_initial_value_is_singular_where_it_is_given) 
                std::string::npos);
     BOOST_TEST(remark("[initial]\nstart = 'sqrt((x - 1.3137)^2)'\n")
                    .find(" is 0 at t = 5, x = 1.3137, y = ") != std::string::npos);
+    // In six digits x were 1.5, where the divisor is -1.
+    BOOST_TEST(remark("[initial]\nstart = '1/(x - 1.5000001)'\n")
+                   .find("the divisor 1e+07*x - 15000001 is 0 at t = 5, x = 1.5000001, y = ") !=
+               std::string::npos);
     // Without a place it is for any boundary, of a hole, too.
     BOOST_TEST(
         remark("[boundary]\nall = '1/((x - 1.5)^2 + (y - 1)^2)'\n").ends_with(", x = 1.5, y = 1"));

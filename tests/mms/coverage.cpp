@@ -449,6 +449,22 @@ BOOST_AUTO_TEST_CASE(the_stress_of_a_tip_without_a_time_error_has_none_without_c
     BOOST_TEST(of_stress(even, 0.3, 0.01) == "2");
 }
 
+// u linear in t and theta zero: no scheme has a time error, and none has half an order less of it.
+BOOST_AUTO_TEST_CASE(penalised_stops_have_no_reason_to_lose_an_order_where_the_tip_has_none) {
+    const auto says = [](const std::string& in_time) {
+        const Beam beam{.alpha = 0.3, .zeta = 0.1, .stops = {-0.1, 0.1, 0.01}};
+        const auto known = expected_orders(
+            {parse_solution("theta = '0'\nu = '0.15*x^2*(3 - x)/2*" + in_time + "'\n", "my.toml"),
+             beam, 1.0});
+        BOOST_TEST(known.is_in_stops);
+        return std::ranges::any_of(known.reasons, [](const std::string& reason) {
+            return reason.find("penalised stop") != std::string::npos;
+        });
+    };
+    BOOST_TEST(says("t^2"));
+    BOOST_TEST(!says("t"));
+}
+
 // Where a contact begins within a phase, or the tip touches a stop without a force, it is not held
 // from the start: there is an error, of an order that nobody knows.
 BOOST_AUTO_TEST_CASE(a_contact_within_a_phase_and_a_touch_leave_the_stress_an_error) {
