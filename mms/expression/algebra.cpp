@@ -1,5 +1,7 @@
 #include "mms/expression/algebra.hpp"
 
+#include "mms/expression/squares.hpp"
+
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -163,7 +165,7 @@ ex differentiated(const ex& expression, const GiNaC::symbol& s) {
                 continue;
             GiNaC::exvector factors(expression.begin(), expression.end());
             factors[i] = changed;
-            result += product_by_bases(GiNaC::mul(factors));
+            result += with_joined_squares(product_by_bases(GiNaC::mul(factors)));
         }
     } else if (is_a<GiNaC::power>(expression)) {
         const ex base = expression.op(0);

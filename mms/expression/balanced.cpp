@@ -1,5 +1,7 @@
 #include "mms/expression/balanced.hpp"
 
+#include "mms/expression/squares.hpp"
+
 #include <algorithm>
 #include <optional>
 
@@ -125,7 +127,7 @@ ex balanced(const ex& expression) {
     balance_hyperbolic(operands);
     for (std::size_t i = 0; i < operands.size(); ++i)
         same = same && operands[i].is_equal(before[i]);
-    return same ? expression : ex(GiNaC::mul(operands));
+    return with_signs(same ? expression : ex(GiNaC::mul(operands)));
 }
 
 } // namespace tvbeam

@@ -13,6 +13,7 @@
 #include <random>
 #include <string>
 #include <thread>
+#include <tuple>
 #include <vector>
 
 namespace data = boost::unit_test::data;
@@ -284,6 +285,56 @@ BOOST_AUTO_TEST_CASE(powers_of_sums_with_decimals_are_what_they_say) {
     check("1/(1 + (0.001*x + 0.5)^200)^3", 1 + std::pow(0.001L * x + 0.5L, 200), -3);
     check("(1 - 0.001*x)^200*(0.002*t + 0.99)^200", (1 - 0.001L * x) * (0.002L * t + 0.99L), 200);
     check("exp(-1000)*10^434*x/x", std::exp(-1000.0L) * 1e434L, 1);
+}
+
+// |g|^p has p - k for the power of its k-th derivative, times p(p-1)..., and the sign of g for odd
+// k; by GiNaC's rules alone those are 0/0 at g = 0. A sign is 0 there, the mean of both sides.
+BOOST_AUTO_TEST_CASE(derivatives_of_powers_of_a_square_have_their_values_at_its_zero) {
+    const GiNaC::symbol& x = model_symbols().x;
+    for (const std::string g : {"(x - 0.5)", "((1 - 2*x)/2)", "(0.25*(4*x - 2))"})
+        for (const auto& [formula, p, is_odd] : std::vector<std::tuple<std::string, double, bool>>{
+                 {"*sqrt(" + g + "^2)", 2.0, true},
+                 {"^2*sqrt(" + g + "^2)", 3.0, false},
+                 {"^0*(" + g + "^2)^1.75", 3.5, false},
+                 {"^3/(" + g + "^4)^(1/4)", 2.0, true}}) {
+            double factor = 1.0;
+            GiNaC::ex derived = parsed(g + formula);
+            for (int k = 0; k <= std::floor(p); ++k) {
+                const Eigen::ArrayXXd values =
+                    compile_tape({derived}).evaluate(ArrayXd{{0.3, 0.5, 0.9}}, ArrayXd::Zero(1));
+                const double slope = g[1] == '(' ? -1.0 : 1.0;
+                const auto expected = [&](double at) {
+                    const double sign = at > 0.0 ? 1.0 : at < 0.0 ? -1.0 : 0.0;
+                    const bool has_sign = (k % 2 == 1) != is_odd;
+                    return (is_odd ? slope : 1.0) * factor * (has_sign ? sign : 1.0) *
+                           std::pow(std::abs(at), p - k);
+                };
+                BOOST_TEST_CONTEXT(g + formula << ", derivative " << k) {
+                    BOOST_TEST(std::abs(values(0, 0) - expected(-0.2)) < 1e-13);
+                    BOOST_TEST(values(0, 1) == expected(0.0));
+                    BOOST_TEST(std::abs(values(0, 2) - expected(0.4)) < 1e-13);
+                }
+                factor *= p - k;
+                derived = derivative(derived, x);
+            }
+        }
+}
+
+BOOST_AUTO_TEST_CASE(a_derivative_of_a_square_times_its_root_has_no_quotient) {
+    const GiNaC::symbol& x = model_symbols().x;
+    for (const std::string g : {"(x - 0.3)", "(1 - 2*x + t)"})
+        BOOST_TEST((derivative(parsed(g + "*sqrt(" + g + "^2)"), x) -
+                    2 * derivative(parsed(g), x) * parsed("sqrt(" + g + "^2)"))
+                       .is_zero());
+}
+
+// In a step at that time a sign's mean would be its rate, which no scheme's order holds for; of
+// |g|^(1/2) the slope is infinite.
+BOOST_AUTO_TEST_CASE(a_sign_of_the_time_and_an_infinite_derivative_have_no_value_at_the_zero) {
+    for (const std::string text : {"(t - 0.5)/sqrt((t - 0.5)^2)", "(x - 0.5)/((x - 0.5)^2)^0.75"}) {
+        const Tape tape = compile_tape({parsed(text)});
+        BOOST_TEST(!std::isfinite(tape.evaluate(ArrayXd{{0.5}}, ArrayXd{{0.5}})(0, 0)), text);
+    }
 }
 
 // Of the law of penalised stops. GiNaC folds step(0) to 1/2 where it can.
