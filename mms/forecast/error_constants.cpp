@@ -231,7 +231,9 @@ std::vector<NormConstants> constants_of(const MethodSquares& squared, const Fore
         if (constants.in_h && forecaster.is_coupled()) {
             const double a = constants.in_h->constant;
             const double coupling =
-                shown_below_coupling(norm, squared.space, forecaster.alpha(), a);
+                forecaster.is_strongly_coupled()
+                    ? shown_below_coupling(norm, squared.space, forecaster.alpha(), a)
+                    : 0.0;
             constants.hidden_by_coupling = coupling > 0.0;
             constants.shows_below = coupling > 0.0 ? coupling : shown_below(norm, squared.space, a);
             if (!(constants.shows_below < 1.0))

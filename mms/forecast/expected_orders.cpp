@@ -469,7 +469,8 @@ ExpectedOrders expected_orders(const AdmissibleSolution& solution) {
             result.u_has_time_error && (coupled || !is_one || !result.tip_is_linear ||
                                         jumps(result.switches, &Switch::u_xxt_jump));
         const bool goes_on = is_one && !jumps(result.switches, &Switch::theta_t_jump) &&
-                             !jumps(result.switches, &Switch::u_xxt_jump);
+                             !jumps(result.switches, &Switch::u_xxt_jump) &&
+                             !find_second_rate_jump(derived, final_time);
         const auto quadratic = [&](bool has_time_error, ex DerivedPhase::*field) {
             return goes_on && has_time_error && vanishes(derived, final_time, field, s.t, 3);
         };

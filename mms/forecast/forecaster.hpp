@@ -11,6 +11,7 @@
 #include <Eigen/Core>
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -81,6 +82,12 @@ public:
     [[nodiscard]] bool is_coupled() const { return coupled_; }
 
     [[nodiscard]] double alpha() const { return beam_.alpha; }
+
+    /// Whether α h is above 1 on all but fine meshes, and the run longer than ζ.
+    [[nodiscard]] bool is_strongly_coupled() const {
+        constexpr double strong = 30.0;
+        return std::abs(beam_.alpha) >= strong && final_time_ >= beam_.zeta;
+    }
 
     /// Whether the beam's numbers take errors of the size one beyond the squares of doubles.
     [[nodiscard]] bool is_beyond_doubles() const;

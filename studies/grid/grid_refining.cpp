@@ -68,8 +68,8 @@ std::vector<Wanted> wanted_of(const OrdersBlock& block) {
         if (measure.is_value && block.until->limit)
             all.push_back({Wanted::What::limit, k, place, "limit of " + measure.root()});
         if (!measure.is_value && block.until->order) {
-            all.push_back({Wanted::What::p, k, place, "p of " + measure.of_orders()});
-            all.push_back({Wanted::What::q, k, place, "q of " + measure.of_orders()});
+            all.push_back({Wanted::What::p, k, place, "p of " + measure.root()});
+            all.push_back({Wanted::What::q, k, place, "q of " + measure.root()});
         }
     }
     return all;

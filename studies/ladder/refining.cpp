@@ -83,7 +83,7 @@ std::vector<std::string> wanted_of(const Until& until, const Series& series) {
     std::vector<std::string> wanted;
     for (const auto& measure : series.measures)
         if (is_wanted(until, measure))
-            wanted.push_back(measure.of_orders());
+            wanted.push_back(measure.root());
     return wanted;
 }
 
@@ -132,7 +132,7 @@ std::vector<std::string> not_known(const Until& until, const Series& series,
         const Measure& measure = series.measures[k];
         const auto& wanted = measure.is_value ? until.limit : until.order;
         if (wanted && !knows(*wanted, k))
-            open.push_back(measure.of_orders());
+            open.push_back(measure.root());
     }
     return open;
 }

@@ -389,6 +389,23 @@ BOOST_AUTO_TEST_CASE(the_order_that_the_coupling_brings_shows_below_the_beam_s_o
                    ->shows_below == 0.0);
 }
 
+// With a weak coupling, or before the beam has answered, runs show the order 2 on any mesh.
+BOOST_AUTO_TEST_CASE(a_coupling_that_is_weak_or_late_hides_no_order) {
+    for (const auto& [alpha, zeta, hides] : {std::tuple{0.4, 0.1, false},
+                                             {10.0, 0.1, false},
+                                             {100.0, 10.0, false},
+                                             {100.0, 0.1, true}}) {
+        const AdmissibleSolution admissible(
+            parse_solution("theta = 'cos(t)*sin(3*pi*x)'\nu = '0.01*x^2*sin(x + t)'\n", "s.toml"),
+            {alpha, zeta, 0.0, {}}, 1.0);
+        const auto sizes = error_constants(expected_orders(admissible), admissible,
+                                           {{"euler", ThermalMass::consistent}})
+                               .front();
+        BOOST_REQUIRE(sizes.of("u_LinfH2semi") != nullptr);
+        BOOST_TEST((sizes.of("u_LinfH2semi")->shows_below > 0.0) == hides);
+    }
+}
+
 // With alpha = 100 the error of u_xx on 20 elements is that within elements: of order 3, and 2.5
 // where θ_xx does not vanish at the ends; a h² is far below it.
 BOOST_AUTO_TEST_CASE(the_order_of_bending_shows_below_what_a_strong_coupling_makes_of_theta) {
