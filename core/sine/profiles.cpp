@@ -150,7 +150,9 @@ bool peaks(const Mesh& mesh, const SpaceFunction& phi, const Eigen::ArrayXd& at_
                    ends(1) * x))
         return false;
     // On both sides of a node φ may take itself off.
-    const SpaceFunction size = [&phi](const Eigen::ArrayXd& at) { return phi(at).abs(); };
+    const SpaceFunction size = [&phi](const Eigen::ArrayXd& at) -> Eigen::ArrayXd {
+        return phi(at).abs();
+    };
     return are_small(hat_loads(mesh, size).segment(1, inner).array() / mesh.lengths(0));
 }
 
