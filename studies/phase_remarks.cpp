@@ -128,6 +128,7 @@ double cusp_power(const ProblemData& data, double t, double phase_length) {
 /// The steps of the runs in which such a time costs something.
 struct Costly {
     Decreasing inside;             ///< it lies within a step
+    Decreasing in_middle;          ///< in the middle of one of BDF2, whose leading errors cancel
     Decreasing behind;             ///< it is a level, which a later step reads across
     std::set<std::string> schemes; ///< of all runs
 };
@@ -141,6 +142,11 @@ bool meets(const TimeLevels& levels, const Rung& rung, const Break& at) {
     return std::abs(levels.time(nearest) - at.t) <= searched * at.t;
 }
 
+bool is_middle(double steps) {
+    constexpr double searched = 1e-6; // of a step
+    return std::abs(steps - std::floor(steps) - 0.5) <= searched;
+}
+
 Costly costly_steps(const Scene& scene, const ProblemData& data, const Break& at) {
     Costly costly;
     for (const auto& series : scene.series())
@@ -150,9 +156,11 @@ Costly costly_steps(const Scene& scene, const ProblemData& data, const Break& at
             costly.schemes.insert(time.name);
             if (!(at.t < levels.time(rung.steps)))
                 continue;
-            if (!meets(levels, rung, at))
+            if (!meets(levels, rung, at)) {
                 costly.inside.insert(rung.dt);
-            else if (time.history > 0 && at.is_phase_end) // within one the run fails
+                if (time.history > 0 && is_middle(at.t / levels.dt()))
+                    costly.in_middle.insert(rung.dt);
+            } else if (time.history > 0 && at.is_phase_end) // within one the run fails
                 costly.behind.insert(rung.dt);
         }
     return costly;
@@ -288,6 +296,9 @@ TimedRemark remark(const Scene& scene, const RateJump& jump, const Orders& order
     if (const std::string every = orders(costly.schemes); !costly.inside.empty())
         costs += " In a run of which no time level is there (" + steps_text(costly.inside) +
                  ") every time scheme has " + every +
+                 (costly.in_middle.empty() ? ""
+                                           : ", but BDF2 more, where it is the middle of a step (" +
+                                                 steps_text(costly.in_middle) + ")") +
                  ", and an error that changes with the place in the step.";
     if (!costly.behind.empty())
         costs += " Where it is a level (" + steps_text(costly.behind) +

@@ -248,12 +248,15 @@ StudyResult on_beam(const Scene& scene, const ProblemData& data, const Defects& 
     if (scene.reference && !scene.measures().empty())
         result.reference = measure_against_reference(scene, measured, execution);
     StudiedSolver solver = beam_runs(scene, resolved, measured, defects);
+    if (scene.poses_problem())
+        result.remarks = phase_remarks(scene, data);
+    if (!result.remarks.empty() && solver.roughness.empty())
+        solver.roughness = "rates jump in time, or have an infinite slope, as is said of the time";
     if (result.reference && !result.reference->failure.empty())
         solver.rounding = {}; // runs of an earlier start have errors, and nothing says of what size
     if (scene.poses_problem()) {
         const ProblemData posed = defects.added_to(measured, scene.series().front().rungs.front());
         result.left_out = left_out({scene, posed, solver, own, execution, defects});
-        result.remarks = phase_remarks(scene, data);
         if (const std::string remark = remark_on(result.separation); !remark.empty())
             result.remarks.push_back(remark);
         if (std::string remark = remark_on_coupling(scene.beam); !remark.empty())

@@ -169,14 +169,12 @@ Table fit_table(const std::vector<std::pair<std::string, const TwoTermFit*>>& fi
     for (const auto& [norm, fit] : fits) {
         name.cells.push_back(norm);
         const TwoTermModel& model = fit->model;
-        const bool in_space = fit->has_sizes() && fit->p_determined();
-        const bool in_time = fit->has_sizes() && fit->q_determined();
         p.cells.push_back(order_text(fit->p));
         q.cells.push_back(order_text(fit->q));
-        // A size is one of h^p: without p it has no unit, and ρ is between two terms.
-        a.cells.push_back(in_space ? size_text(model.a, fit->a_uncertainty) : "");
-        b.cells.push_back(in_time ? size_text(model.b, fit->b_uncertainty) : "");
-        rho.cells.push_back(in_space && in_time ? fixed(model.rho, 2) : "");
+        // ρ is between two terms: its sign is as open as their sizes.
+        a.cells.push_back(fit->a_known() ? size_text(model.a, fit->a_uncertainty) : "");
+        b.cells.push_back(fit->b_known() ? size_text(model.b, fit->b_uncertainty) : "");
+        rho.cells.push_back(fit->is_known() ? fixed(model.rho, 2) : "");
         rms.cells.push_back(scientific(fit->rms, 1));
         used.cells.push_back(fmt::format("{}/{}", fit->used.size(), records));
     }

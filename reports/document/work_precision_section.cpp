@@ -382,8 +382,8 @@ Section work_precision_section(const WorkPrecisionResult& result, const WorkPrec
             continue;
         if (!introduced)
             add({Paragraph{"Seconds to reach an error, on the log-log line between two rows, "
-                           "or of a finer row that takes less; blank: not within what was "
-                           "measured"}});
+                           "or of a finer row that takes less; blank: not between two timed "
+                           "rows next to each other"}});
         introduced = true;
         add({table});
     }

@@ -13,7 +13,9 @@
 #include <charconv>
 #include <cmath>
 #include <filesystem>
+#include <functional>
 #include <string>
+#include <vector>
 
 namespace tvbeam {
 
@@ -33,6 +35,68 @@ bool is_time(const std::string& key) {
 
 bool is_nothing(const std::string& /*key*/) {
     return false;
+}
+
+/// The list that an object has under a key; where it has none, one without elements.
+Json::array_t list_in(const Json& json, const char* key) {
+    const bool has = json.is_object() && json.contains(key) && json[key].is_array();
+    return has ? json[key].get<Json::array_t>() : Json::array_t();
+}
+
+/// The same, for what it does to each element.
+void for_each_in(Json& json, const char* key, const std::function<void(Json&)>& change) {
+    if (json.is_object() && json.contains(key) && json[key].is_array())
+        for (auto& element : json[key])
+            change(element);
+}
+
+/// Gives an object the name "h = 0.1, dt = 0.05", of the values of these keys.
+void name_by(Json& named, const Json& values, const std::vector<std::string>& keys) {
+    std::string name;
+    for (const auto& key : keys)
+        if (values.contains(key))
+            name += (name.empty() ? "" : ", ") + key + " = " + values[key].dump();
+    if (named.is_object() && !name.empty())
+        named["name"] = name;
+}
+
+std::vector<std::string> keys_of(const Json& object) {
+    std::vector<std::string> keys;
+    for (const auto& [key, value] : object.items())
+        keys.push_back(key);
+    return keys;
+}
+
+/// Rows of a table go by their widths, cases by their parameters, what an evolution recorded by its
+/// times: by their places others would be compared where one result has more of them.
+void name_elements(Json& json) {
+    std::vector<std::string> sizes;
+    for (const auto& size : list_in(json, "sizes"))
+        if (size.is_string())
+            sizes.push_back(size);
+    for_each_in(json, "columns", [&](Json& column) {
+        for_each_in(column, "rows", [&](Json& row) { name_by(row, row, sizes); });
+    });
+    if (json.contains("stress"))
+        for_each_in(json["stress"], "cases", [](Json& one) {
+            if (const Json parameters = one.value("parameters", Json()); parameters.is_object())
+                name_by(one, parameters, keys_of(parameters));
+        });
+    if (!json.contains("evolution"))
+        return;
+    Json& evolution = json["evolution"];
+    const auto times = list_in(evolution, "t");
+    if (times.empty())
+        return;
+    evolution.erase("t");
+    for (const char* series : {"probes", "exact"})
+        if (evolution.contains(series))
+            for (auto& values : evolution[series]) {
+                Json by_time = Json::object();
+                for (std::size_t i = 0; i < times.size() && i < values.size(); ++i)
+                    by_time["t = " + times[i].dump()] = values[i];
+                values = by_time;
+            }
 }
 
 /// Of a race, what is said of times: which scheme is sooner by how much, and a busy machine.
@@ -199,6 +263,7 @@ ComparedResults compare_results(const std::string& first, const std::string& sec
                                                      stress->contains("cases_left_out") &&
                                                      (*stress)["cases_left_out"].is_string())
             compared.not_compared = {"stress: " + (*stress)["cases_left_out"].get<std::string>()};
+        name_elements(json);
         json.erase("file"); // of a table that was analysed
         if (auto remarks = json.find("remarks"); remarks != json.end() && remarks->is_array())
             remarks->erase(std::remove_if(remarks->begin(), remarks->end(),

@@ -40,8 +40,8 @@ Json fit_json(const TwoTermFit& fit, const std::function<Json(std::size_t)>& wid
               {"b", size(fit.q, model.b)},
               {"a_uncertainty", size(fit.p, fit.a_uncertainty)},
               {"b_uncertainty", size(fit.q, fit.b_uncertainty)},
-              {"rho", size(fit.p_determined() ? fit.q : fit.p, model.rho)},
-              {"rho_se", size(fit.p_determined() ? fit.q : fit.p, fit.rho_se)},
+              {"rho", number_json(fit.is_known() ? std::optional(model.rho) : std::nullopt)},
+              {"rho_se", number_json(fit.is_known() ? std::optional(fit.rho_se) : std::nullopt)},
               {"rms", fit.rms},
               {"used", fit.used.size()},
               {"rejected", std::move(rejected)}};

@@ -285,7 +285,7 @@ void expect_interval(TableReader& table, const std::string& key,
     if (wanted)
         add([unknown, wanted, place = table.place(key + "_determined")](
                 const std::string& what, const OrderInterval& interval) -> CheckedExpectation {
-            return {what, *wanted ? "determined" : "not determined",
+            return {what + ", as determined", *wanted ? "determined" : "not determined",
                     interval.determined ? "determined" : unknown(interval), place,
                     interval.determined == *wanted};
         });

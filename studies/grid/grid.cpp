@@ -138,8 +138,7 @@ OrdersResult run_orders(const OrdersBlock& block, const Method& method, const St
             orders.rounding = rounding->most;
         }
     if (!result.norms.empty() && solver.reference)
-        result.reference_remark =
-            grid_reference_remark(*solver.reference, runs, solver.jump_at_start);
+        result.reference_remark = grid_reference_remark(*solver.reference, runs, solver.roughness);
     result.runs = std::move(runs);
     result.refined = std::move(refined);
     return result;

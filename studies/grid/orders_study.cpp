@@ -58,6 +58,10 @@ Metric metric_of(const FitMetric& metric, const OrdersResult& result, std::size_
                 absence = "not determined: " + order->status;
     if (absence.empty() && metric.is_of_leading_terms)
         absence = fit.misfit;
+    // Of a size that hangs on its order the fit's own is held, as the regression that it may be; ρ,
+    // which then may have either sign, is not.
+    if (absence.empty() && metric.value == &TwoTermModel::rho && !fit.is_known())
+        absence = "not known: the sizes of the two terms are open by a factor of two or more";
     return {"orders." + orders.norm + ": " + metric.words,
             absence.empty() ? std::optional(fit.model.*metric.value) : std::nullopt, absence};
 }

@@ -53,9 +53,10 @@ LadderNorm analysed(const Measure& norm, const std::vector<RungResult>& rungs, s
     auto verdict =
         judge(model != nullptr && reference ? made_whole(roots, *reference, *model) : roots,
               {.model = model});
-    if (model == nullptr && moves(verdict))
-        if (const auto along = order_along(roots); along.order.determined)
-            verdict = judge(roots, {.order = &along.order});
+    if (model == nullptr && moves(verdict)) {
+        const auto along = order_along(roots);
+        verdict = judge(roots, {.order = &along.order});
+    }
     result.verdicts = std::move(verdict.rows);
     for (std::size_t i = 0; i < rungs.size(); ++i)
         if (rungs[i].status != RungStatus::ok)
@@ -213,8 +214,8 @@ LadderResult analyse_ladder(const LadderBlock& block, const Method& method,
     }
     result.quadrature_remark = quadrature_remark(result.rungs, series.measures);
     if (!series.measures.empty() && solver.reference)
-        result.reference_remark = reference_remark(*solver.reference, result.rungs, series.measures,
-                                                   solver.jump_at_start);
+        result.reference_remark =
+            reference_remark(*solver.reference, result.rungs, series.measures, solver.roughness);
     return result;
 }
 

@@ -7,7 +7,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <optional>
+#include <vector>
 
 namespace tvbeam {
 
@@ -18,7 +20,8 @@ std::string times_text(double value) {
 }
 
 std::string order_text(double value) {
-    return fmt::format("{:.2f}", value);
+    constexpr double rounds_to_zero = 0.005; // and -0.00 is no order
+    return fmt::format("{:.2f}", std::abs(value) < rounds_to_zero ? 0.0 : value);
 }
 
 double to_two_digits(double value) {
@@ -28,7 +31,7 @@ double to_two_digits(double value) {
 
 /// A rung by what is refined along the ladder; by both widths where another rung has its h.
 std::string rung_name(std::span<const Refinement> ladder, const Refinement& rung) {
-    std::string step = fmt::format("dt = {:.3g}", rung.dt);
+    std::string step = fmt::format("dt = {:.6g}", rung.dt);
     if (std::isnan(ladder.front().h) || ladder.front().h == ladder.back().h)
         return step;
     const bool is_only_one = std::ranges::none_of(ladder, [&](const Refinement& other) {
@@ -54,6 +57,11 @@ std::string of_square(const Measure& norm, const std::string& order) {
 
 std::string of_square(const Measure& norm, double order) {
     return of_square(norm, order_text(order));
+}
+
+/// Errors of the norm itself are compared, as the two-term model is one of it.
+std::string as_large(const Measure& norm, double times) {
+    return times_text(times) + " times as large" + (norm.squared ? " before squaring" : "");
 }
 
 /// Orders within this of each other are one.
@@ -91,7 +99,10 @@ bool refines_evenly(std::span<const Refinement> roots) {
 
 /// Whether the order of dt in h, from level to level, is another: an order along such a ladder is
 /// that of no refinement.
-bool changes_proportions(std::span<const Refinement> roots) {
+bool changes_proportions(std::span<const Refinement> all) {
+    std::vector<Refinement> roots; // of those that have errors
+    std::ranges::copy_if(all, std::back_inserter(roots),
+                         [](const Refinement& root) { return std::isfinite(root.error); });
     std::optional<double> first;
     for (std::size_t i = 1; i < roots.size(); ++i) {
         const double in_h = std::log(roots[i - 1].h / roots[i].h);
@@ -243,9 +254,9 @@ std::string from_what_stays(const Measure& norm, std::span<const Refinement> roo
                            norm.name, in_time ? "time" : "space", in_time ? "dt" : "h",
                            in_time ? "space" : "time");
     return fmt::format("{}: the {} error stays as it is along this ladder, as {} is the same; at "
-                       "{} it is {} times as large as the {} error.",
+                       "{} it is {} as the {} error.",
                        norm.name, in_time ? "time" : "space", in_time ? "dt" : "h",
-                       rung_name(roots, last), times_text(times), in_time ? "space" : "time");
+                       rung_name(roots, last), as_large(norm, times), in_time ? "space" : "time");
 }
 
 /// Why the orders are what they are: the faster term, of the higher order along the ladder, and the
@@ -295,27 +306,26 @@ std::string from_model(const Measure& norm, std::span<const Refinement> roots,
         text += fmt::format("the order {}{} is that of the {} error; the {} error, of order {} "
                             "along this ladder, is {} at {}{}",
                             order(fast_order), of_square(norm, fast_order), faster, slower,
-                            order(slow_order),
-                            has_size ? times_text(at_last) + " times as large" : "smaller", last,
+                            order(slow_order), has_size ? as_large(norm, at_last) : "smaller", last,
                             !is_hidden ? "."
                             : has_size ? " and hidden."
                                        : " and hidden; its size is not known.");
     else if (at_first < 1.0)
         text +=
             fmt::format("the {} error, of order {}{}, dominates the coarse levels; at {} the {} "
-                        "error, of order {}, is {} times as large.",
+                        "error, of order {}, is {}.",
                         faster, order(fast_order), of_square(norm, fast_order), last, slower,
-                        order(slow_order), times_text(at_last));
+                        order(slow_order), as_large(norm, at_last));
     else if (!has_size)
         text += fmt::format("the {} error, of order {}{}, dominates the whole ladder; the {} error "
                             "is hidden, and its size is not known.",
                             slower, order(slow_order), of_square(norm, slow_order), faster);
     else
-        text +=
-            fmt::format("the {} error, of order {}{}, dominates the whole ladder: at {} it is "
-                        "{} times as large as the {} error, of order {}, and {} times at {}.",
-                        slower, order(slow_order), of_square(norm, slow_order), first,
-                        times_text(at_first), faster, order(fast_order), times_text(at_last), last);
+        text += fmt::format("the {} error, of order {}{}, dominates the whole ladder: at {} it is "
+                            "{} as the {} error, of order {}, and {} times at {}.",
+                            slower, order(slow_order), of_square(norm, slow_order), first,
+                            as_large(norm, at_first), faster, order(fast_order),
+                            times_text(at_last), last);
     if (!has_size)
         return text;
     // What lies past the ladder hangs on which order is the lower one.

@@ -140,7 +140,7 @@ const char* words_for(Rejection why) {
     case Rejection::exact:
         return "the error is zero, or rounding where terms cancel";
     case Rejection::pre_asymptotic:
-        return "too coarse for the model";
+        return "coarser than the window of the fit";
     case Rejection::outlier:
         break;
     }

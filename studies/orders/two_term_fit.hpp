@@ -29,7 +29,7 @@ enum class Rejection {
     outlier         ///< in the window, and not in line
 };
 
-/// The reason in words, as of several records: "no error", "too coarse for the model", …
+/// The reason in words, as of several records: "no error", "coarser than the window of the fit", …
 const char* words_for(Rejection why);
 /// The same as a verdict on the row.
 Verdict verdict_of(Rejection why);
@@ -72,8 +72,13 @@ struct TwoTermFit {
     bool q_determined() const { return q.determined; }
     bool holds() const { return failure.empty(); }
     bool has_sizes() const { return holds() && misfit.empty(); }
-    /// Both orders are determined: the model may be drawn and predict.
+    /// Both orders are determined: the model predicts, with intervals of its own.
     bool predicts() const { return has_sizes() && p.determined && q.determined; }
+    /// Known to less than a factor of two, as their orders are.
+    bool a_known() const { return has_sizes() && p.determined && a_uncertainty < 1; }
+    bool b_known() const { return has_sizes() && q.determined && b_uncertainty < 1; }
+    /// Both, and ρ with them.
+    bool is_known() const { return a_known() && b_known(); }
 };
 
 /// Needs seven finite, positive records in three h and three Δt; with fewer the fit says so in

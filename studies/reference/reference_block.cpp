@@ -215,26 +215,26 @@ std::string missing_remark(const ReferenceBlock& reference, const Rung& finest, 
                        "are measured too small, most at s = {} (dt = {:g}): by up to {}{}. {}",
                        finest.elements, finest.dt, parts(of_error),
                        has_squares ? "; their squares by up to " + parts(of_square) : "",
-                       is_smooth ? "richardson = true extrapolates that away."
-                                 : "A finer one has less.");
+                       is_smooth
+                           ? "richardson = true extrapolates that away, if the solution is smooth."
+                           : "A finer one has less.");
 }
 
 /// That an extrapolated reference is of a solution that is not smooth; or empty.
 std::string extrapolation_remark(const ReferenceBlock& reference, bool changes_contact,
-                                 const std::string& jump_at_start) {
-    if (!reference.richardson || (!changes_contact && jump_at_start.empty()))
+                                 const std::string& roughness) {
+    if (!reference.richardson || (!changes_contact && roughness.empty()))
         return {};
     return fmt::format("The reference is extrapolated as that of a smooth solution, and {}: "
                        "what error of its own that leaves is not known, and one that stands "
                        "still may be the reference's.",
-                       changes_contact ? "a contact begins or ends" : jump_at_start);
+                       changes_contact ? "a contact begins or ends" : roughness);
 }
 
 } // namespace
 
 std::string reference_remark(const ReferenceBlock& reference, const std::vector<RungResult>& rungs,
-                             const std::vector<Measure>& measures,
-                             const std::string& jump_at_start) {
+                             const std::vector<Measure>& measures, const std::string& roughness) {
     std::string named;
     std::size_t close = 0;
     for (const auto& run : rungs)
@@ -242,13 +242,13 @@ std::string reference_remark(const ReferenceBlock& reference, const std::vector<
             named += fmt::format("{}s = {} (dt = {:g})", close++ > 0 ? ", " : "", run.rung.elements,
                                  run.rung.dt);
     const bool changes = std::ranges::any_of(rungs, &RungResult::has_kink);
-    if (auto remark = extrapolation_remark(reference, changes, jump_at_start); !remark.empty())
+    if (auto remark = extrapolation_remark(reference, changes, roughness); !remark.empty())
         return remark;
     if (close == 0)
         return rungs.empty() ? ""
                              : missing_remark(reference, rungs.back().rung,
                                               std::ranges::any_of(measures, &Measure::squared),
-                                              !changes && jump_at_start.empty());
+                                              !changes && roughness.empty());
     return (close == 1 ? "The level " : "The levels ") + named +
            (close == 1 ? " has an h or dt" : " have an h or dt") +
            " within a factor of two of the reference's: what is measured there lacks much of the "
@@ -257,10 +257,10 @@ std::string reference_remark(const ReferenceBlock& reference, const std::vector<
 
 std::string grid_reference_remark(const ReferenceBlock& reference,
                                   const std::vector<RungResult>& runs,
-                                  const std::string& jump_at_start) {
+                                  const std::string& roughness) {
     if (reference.richardson)
         return extrapolation_remark(reference, std::ranges::any_of(runs, &RungResult::has_kink),
-                                    jump_at_start);
+                                    roughness);
     std::vector<std::string> close; // meshes and steps, each once
     const auto add = [&](const std::string& width) {
         if (std::ranges::find(close, width) == close.end())

@@ -40,19 +40,18 @@ struct ReferenceBlock {
 std::vector<std::int64_t> kept_levels(const ReferenceBlock& reference,
                                       const std::vector<Series>& measured);
 
-/// jump_at_start: why the solution is not smooth; empty: it may be. A sentence about the rungs too
+/// roughness: why the solution is not smooth; empty: it may be. A sentence about the rungs too
 /// close to the reference for their orders to mean anything, or else about the part of the finest
 /// error that the reference has as well; empty where that is small. Of an extrapolated one about a
 /// contact that begins or ends, or a jump.
 std::string reference_remark(const ReferenceBlock& reference, const std::vector<RungResult>& rungs,
-                             const std::vector<Measure>& measures,
-                             const std::string& jump_at_start);
+                             const std::vector<Measure>& measures, const std::string& roughness);
 
 /// Of a grid, whose fit takes the reference's own error into account: about an extrapolated one the
 /// same; of another the runs that show little as they are so close to it. Empty: nothing of both.
 std::string grid_reference_remark(const ReferenceBlock& reference,
                                   const std::vector<RungResult>& runs,
-                                  const std::string& jump_at_start);
+                                  const std::string& roughness);
 
 /// Reads the block. measured: what will be measured against the reference. Throws InputError where
 /// the reference does not fit a rung, is coarser than one, or would fill more than 1 GiB.

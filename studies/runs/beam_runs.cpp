@@ -214,7 +214,7 @@ StudiedSolver beam_runs(const Scene& scene, const ProblemData& data, const Probl
             .remark = remark,
             .rounding = rounding,
             .has_defect = !defects.none(),
-            .jump_at_start = jump_at_start(scene, data)};
+            .roughness = jump_at_start(scene, data)};
 }
 
 } // namespace tvbeam

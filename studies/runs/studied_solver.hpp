@@ -43,8 +43,8 @@ struct StudiedSolver {
     /// Its runs are made with a deliberate defect.
     bool has_defect = false;
 
-    /// Why the solution is not smooth at t = 0; empty: nothing says so.
-    std::string jump_at_start = {};
+    /// Why the solution is not smooth in time; empty: nothing says so.
+    std::string roughness = {};
 };
 
 } // namespace tvbeam

@@ -120,8 +120,10 @@ Entries of_expectations() {
         {"expect.orders.NORM.q_holds", KeyType::number, "anything",
          "what its 95 % interval must hold"},
         {"expect.orders.NORM.q_half_width", KeyType::band, "anything", "half of that interval"},
-        {"expect.orders.NORM.a", KeyType::band, "anything", "the size of h^p"},
-        {"expect.orders.NORM.b", KeyType::band, "anything", "the size of dt^q"},
+        {"expect.orders.NORM.a", KeyType::band, "anything",
+         "the fitted size of h^p, also where it is not known"},
+        {"expect.orders.NORM.b", KeyType::band, "anything",
+         "the fitted size of dt^q, also where it is not known"},
         {"expect.orders.NORM.rho", KeyType::band, "anything", "of both; below 0: they cancel"},
         {"expect.orders.NORM.forecast", KeyType::number, "anything",
          "the part of itself by which a or b may differ from its forecast, > 0 and at most 0.5"},
@@ -177,7 +179,9 @@ Entries of_expectations() {
          "first contact goes), beyond_stops, period_change"},
         {"expect.sensitivity", KeyType::table, "anything", "of the sensitivity study"},
         {"expect.sensitivity.FIGURE", KeyType::band, "anything",
-         "a defect's name: the factor that is first caught"},
+         "a defect's name: the factor that is first caught; 0 where that is the smallest of the "
+         "range, as a "
+         "lesser one may be caught as well"},
         {"expect.stress", KeyType::table, "anything", "of the stress study"},
         {"expect.stress.FIGURE", KeyType::band, "anything",
          "certified, refused, stopped, failed, cases, the first four of a regime (\"time "

@@ -306,6 +306,21 @@ BOOST_AUTO_TEST_CASE(junit_does_not_depend_on_standard_output) {
     BOOST_TEST(has(called.errors, "cannot write to standard output"), called.errors);
     for (const std::string scene : {"sheared", "free-decay"})
         BOOST_TEST(has(directory.read("j.xml"), "testsuite name=\"" + scene + "\""));
+    BOOST_TEST(has(directory.read("j.xml"), "<error message=\"cannot write to standard output"));
+}
+
+// As the call ends with 3, so does what a server reads.
+BOOST_AUTO_TEST_CASE(what_could_not_be_written_is_an_error_in_junit) {
+    const TemporaryDirectory directory;
+    const std::string junit = " --json /dev/full --junit " + (directory.path() / "j.xml").string();
+    for (const std::string& command :
+         {std::string("check sheared --short"),
+          "analyse " + directory.write("e.csv", "h,error\n0.4,0.16\n0.2,0.04\n0.1,0.01\n")}) {
+        BOOST_TEST(call(directory, command + junit).exit == 3);
+        const std::string xml = directory.read("j.xml");
+        BOOST_TEST(has(xml, "<error message=\"cannot write &apos;/dev/full&apos;"), xml);
+        BOOST_TEST(has(xml, "errors=\"1\""), xml);
+    }
 }
 
 // A server shows the file of --junit whatever the call ended with.
@@ -363,8 +378,9 @@ BOOST_AUTO_TEST_CASE(a_refusal_takes_the_place_of_no_file_but_a_report) {
         BOOST_TEST(has(after(file), "<error message="));
     const Called written = call(directory, "analyse " + table + " --junit -");
     BOOST_TEST(has(written.output, "<error message="), written.output);
-    for (const std::string place : {"-", "both"})
-        BOOST_TEST(call(directory, "analyse " + table + " --junit " + place + " --json " + place,
+    for (const auto& [place, same] : {std::pair{"-", "-"}, {"both", "both"}, {"both", "./both"}})
+        BOOST_TEST(call(directory,
+                        std::string("analyse ") + table + " --junit " + place + " --json " + same,
                         "cd " + directory.path().string() + " && ")
                        .output.empty());
     BOOST_TEST(!std::filesystem::exists(directory.path() / "both"));

@@ -4,6 +4,7 @@
 #include "reports/command_line/commands/command.hpp"
 #include "reports/command_line/commands/destination.hpp"
 #include "reports/command_line/commands/record.hpp"
+#include "reports/command_line/commands/refusal.hpp"
 #include "reports/command_line/commands/said.hpp"
 #include "reports/command_line/commands/shared_options.hpp"
 #include "reports/document/text_document.hpp"
@@ -65,24 +66,24 @@ int analyse_command(const AnalyseOptions& options) {
     Record record(options.record);
     record.require_room(baseline_entry(analysis));
     opened([] { add_to_step_summary({}); });
-    if (out)
-        if (const std::string left_out = out->write(reported(analysis)); !left_out.empty())
-            say(left_out);
-    if (json.wanted())
-        json.write(analysis_json(analysis));
-    if (csv.wanted())
-        csv.write(analysis_csv(analysis));
-    if (junit.wanted())
-        junit.write(junit_report({checked}));
-    if (record.wanted())
-        record.write({baseline_entry(analysis)});
     const Document document = analysis_document(analysis);
     const bool gated = options.expect || baseline;
-    if (!json.standard_output() && !csv.standard_output() && !junit.standard_output() &&
-        !record.standard_output())
-        write_standard_output(text_document(document) +
-                              (gated ? "\n" + check_report(checked, coloured()) : ""));
-    add_to_step_summary(markdown_report(document) + (gated ? check_markdown({checked}) : ""));
+    write_with_junit(junit, "analyse", {checked}, [&] {
+        if (out)
+            if (const std::string left_out = out->write(reported(analysis)); !left_out.empty())
+                say(left_out);
+        if (json.wanted())
+            json.write(analysis_json(analysis));
+        if (csv.wanted())
+            csv.write(analysis_csv(analysis));
+        if (record.wanted())
+            record.write({baseline_entry(analysis)});
+        if (!json.standard_output() && !csv.standard_output() && !junit.standard_output() &&
+            !record.standard_output())
+            write_standard_output(text_document(document) +
+                                  (gated ? "\n" + check_report(checked, coloured()) : ""));
+        add_to_step_summary(markdown_report(document) + (gated ? check_markdown({checked}) : ""));
+    });
     return checked.passed() ? done : violated;
 }
 

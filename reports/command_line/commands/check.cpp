@@ -4,6 +4,7 @@
 #include "reports/command_line/commands/command.hpp"
 #include "reports/command_line/commands/destination.hpp"
 #include "reports/command_line/commands/record.hpp"
+#include "reports/command_line/commands/refusal.hpp"
 #include "reports/command_line/commands/said.hpp"
 #include "reports/command_line/commands/shared_options.hpp"
 #include "reports/command_line/commands/shown_run.hpp"
@@ -138,10 +139,12 @@ public:
     }
 
     void write() {
+        write_with_junit(junit_, "check", checked_, [this] { write_others(); });
+    }
+
+    void write_others() {
         if (json_.wanted())
             json_.write(json_text(result_));
-        if (junit_.wanted())
-            junit_.write(junit_report(checked_));
         if (record_.wanted() && !interrupted_) {
             record_.write(entries_);
             if (!is_piped() && !options_.quiet)

@@ -7,12 +7,12 @@
 
 namespace tvbeam {
 
-namespace {
-
 namespace fs = std::filesystem;
 
-/// Whether two names are of one file, or both of standard output. Devices and pipes hold nothing
-/// that could be lost.
+Destination destination(const std::string& name) {
+    return opened([&] { return Destination(name); });
+}
+
 bool same_place(const std::string& first, const std::string& second) {
     if (first.empty() || second.empty())
         return false;
@@ -21,17 +21,11 @@ bool same_place(const std::string& first, const std::string& second) {
     std::error_code error;
     if (fs::exists(second, error) && !fs::is_regular_file(second, error))
         return false;
-    const fs::path one = fs::weakly_canonical(first, error);
+    const fs::path one = fs::weakly_canonical(fs::absolute(first), error);
     if (error)
         return false;
-    const fs::path other = fs::weakly_canonical(second, error);
+    const fs::path other = fs::weakly_canonical(fs::absolute(second), error);
     return !error && one == other;
-}
-
-} // namespace
-
-Destination destination(const std::string& name) {
-    return opened([&] { return Destination(name); });
 }
 
 void require_apart(const std::string& first, const std::string& file, const std::string& second,

@@ -45,6 +45,10 @@ auto opened(const Open& open) {
 /// "": nowhere; "-": standard output; otherwise a file, which is opened. Throws InputError.
 Destination destination(const std::string& name);
 
+/// Whether two names are of one file, or both of standard output; an empty one is of nothing.
+/// Devices and pipes hold nothing that could be lost.
+bool same_place(const std::string& first, const std::string& second);
+
 /// Throws InputError where two options name one place.
 void require_apart(const std::string& first, const std::string& file, const std::string& second,
                    const std::string& other);

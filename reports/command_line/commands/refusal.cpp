@@ -1,8 +1,6 @@
 #include "reports/command_line/commands/refusal.hpp"
 
-#include "reports/command_line/commands/destination.hpp"
 #include "reports/command_line/commands/said.hpp"
-#include "reports/formats/junit_report.hpp"
 
 #include <algorithm>
 #include <array>
@@ -40,7 +38,7 @@ bool has_room_for_junit(const std::string& file) {
 /// In a place that two reports are asked for nobody looks for this one.
 bool is_asked_twice(const CLI::App& command, const std::string& junit) {
     return std::ranges::any_of(std::array{"--json", "--csv", "--record"}, [&](const char* option) {
-        return named_by(command, option) == junit;
+        return same_place(named_by(command, option), junit);
     });
 }
 
@@ -68,6 +66,22 @@ void report_refusal(const CLI::App& program, const std::string& message) {
                 holds_something(name) && message.find(name) == std::string::npos)
                 say("'" + name + "' is left as it was before this call");
     }
+}
+
+void write_with_junit(Destination& junit, const std::string& command,
+                      std::vector<CheckedScene> checked, const std::function<void()>& others) {
+    const auto write = [&] {
+        if (junit.wanted())
+            junit.write(junit_report(checked));
+    };
+    try {
+        others();
+    } catch (const OutputError& error) {
+        checked.push_back({"tvbeam " + command, 0.0, error.what(), {}});
+        write();
+        throw;
+    }
+    write();
 }
 
 } // namespace tvbeam

@@ -1,8 +1,13 @@
 #pragma once
 
+#include "reports/command_line/commands/destination.hpp"
+#include "reports/formats/junit_report.hpp"
+
 #include <CLI/CLI.hpp>
 
+#include <functional>
 #include <string>
+#include <vector>
 
 namespace tvbeam {
 
@@ -12,5 +17,10 @@ namespace tvbeam {
 /// message is of it. A file that is no JUnit report stays as well: it may be one that was to be
 /// read.
 void report_refusal(const CLI::App& program, const std::string& message);
+
+/// Writes the others, then the JUnit report where one is wanted: what could not be written, an
+/// OutputError, which goes on, is an <error> of the command in it.
+void write_with_junit(Destination& junit, const std::string& command,
+                      std::vector<CheckedScene> checked, const std::function<void()>& others);
 
 } // namespace tvbeam

@@ -17,6 +17,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <memory>
@@ -54,7 +55,11 @@ bool is_interrupted(const std::filesystem::path& result) {
 /// external solver.
 class KeptRuns {
 public:
-    KeptRuns(const RunOptions& options, const Scene& scene) : out_(options.out) {
+    KeptRuns(const RunOptions& options, const Scene& scene)
+        : out_(options.out),
+          adds_levels_(std::ranges::any_of(scene.blocks.entries(), [](const auto& entry) {
+              return entry.kind->until(entry.value) != nullptr;
+          })) {
         if (scene.solver) {
             solver_.emplace(out_, scene);
             torn_ = solver_->torn();
@@ -79,8 +84,10 @@ public:
             const std::size_t found = solver_->found();
             return found == 0 && torn.empty()
                        ? ""
-                       : "goes on with " + std::to_string(found) + " finished runs from " +
-                             solver_->path().string() + torn + "; remove it to make them anew";
+                       : "goes on with " + std::to_string(found) + " finished runs" +
+                             (adds_levels_ ? ", and those of levels that are added," : "") +
+                             " from " + solver_->path().string() + torn +
+                             "; remove it to make them anew";
         }
         std::error_code error;
         if (resume && work_->found() == 0 && torn.empty() &&
@@ -115,6 +122,7 @@ public:
 
 private:
     std::filesystem::path out_;
+    bool adds_levels_; ///< by `until`, whose runs are found again as they come
     std::optional<FinishedWork> work_;
     std::optional<SolverRuns> solver_;
     TornLines torn_;
