@@ -72,7 +72,7 @@ std::vector<std::string> keys_of(const Json& object) {
 void name_elements(Json& json) {
     std::vector<std::string> sizes;
     for (const auto& size : list_in(json, "sizes"))
-        if (size.is_string())
+        if (size.is_string() && size != "elements" && size != "dt") // by which all elements go
             sizes.push_back(size);
     for_each_in(json, "columns", [&](Json& column) {
         for_each_in(column, "rows", [&](Json& row) { name_by(row, row, sizes); });

@@ -233,6 +233,38 @@ BOOST_AUTO_TEST_CASE(a_repeated_level_changes_no_proportions) {
     BOOST_TEST(remarks.at(0).find("proportions") == std::string::npos, remarks.at(0));
 }
 
+// Of levels that have no error nothing is known, nor what they refine.
+BOOST_AUTO_TEST_CASE(a_level_that_was_not_run_changes_no_proportions) {
+    std::vector<Refinement> ladder;
+    for (const auto& [s, error] : {std::pair{8.0, 1.0}, {16.0, 0.3}, {32.0, 0.12}})
+        ladder.push_back({.h = 1 / s, .dt = 0.8 / s, .error = error});
+    const auto said = [&] {
+        return order_remarks(measure_of(*Norm::named("theta_L2L2")), ladder, nullptr).at(0);
+    };
+    ladder.push_back({.h = 1.0 / 320, .dt = 0.02, .error = std::nan("")});
+    BOOST_TEST(said().find("proportions") == std::string::npos, said());
+    ladder.back().error = 0.01;
+    BOOST_TEST(said().find("proportions") != std::string::npos, said());
+}
+
+// 1e-3 against 1/100 at the end: that of the norm, whatever the table shows.
+BOOST_AUTO_TEST_CASE(how_large_one_error_is_beside_the_other_is_said_of_the_norm_before_squaring) {
+    const TwoTermModel model{.a = 1.0, .p = 2.0, .b = 0.05, .q = 1.0, .rho = 0.0};
+    std::vector<Refinement> ladder;
+    for (const double s : {4.0, 8.0, 16.0})
+        ladder.push_back({.h = 1 / s, .dt = 1 / s, .error = model.error(1 / s, 1 / s)});
+    const auto said = [&](const std::string& norm) {
+        return order_remarks(measure_of(*Norm::named(norm)), ladder, &model, false,
+                             {.part_a = 0.1, .part_b = 0.1})
+            .at(1);
+    };
+    BOOST_TEST(said("theta_L2L2").find("is 0.8 times as large at") != std::string::npos,
+               said("theta_L2L2"));
+    BOOST_TEST(said("theta_L2L2_sq").find("is 0.8 times as large before squaring at") !=
+                   std::string::npos,
+               said("theta_L2L2_sq"));
+}
+
 // Ratios of 2 and 3: the orders between the rows are no order of the ladder.
 BOOST_AUTO_TEST_CASE(a_model_explains_no_ladder_of_uneven_ratios) {
     BOOST_TEST(remarks_by_model({10.0, 20.0, 60.0}).size() == 1U);

@@ -288,6 +288,31 @@ BOOST_AUTO_TEST_CASE(an_extrapolated_reference_of_a_jump_is_remarked) {
         "richardson = true extrapolates that away, if the solution is smooth."));
 }
 
+// Errors against one that Richardson extrapolates were 0.6 of the true ones at a phase end within
+// a step, and nothing said so.
+BOOST_AUTO_TEST_CASE(a_reference_of_a_solution_whose_rates_jump_is_remarked_like_a_jump) {
+    const auto remark_of = [](const std::string& second, bool richardson) {
+        const TemporaryDirectory directory;
+        directory.write("bent.toml",
+                        "[[phase]]\nuntil = 0.47\ntheta = 'sin(pi*x)*t'\nu = 'x^2*t/50'\n"
+                        "[[phase]]\ntheta = '" +
+                            second + "'\nu = 'x^2*t/50'\n");
+        const std::string scene =
+            directory.write("scene.toml", "solution = 'bent.toml'\n[beam]\nalpha = 0.3\n"
+                                          "zeta = 0.1\n[ladder]\nfinal_time = 1\n"
+                                          "elements = [4, 8]\ndt = [0.1, 0.05]\n"
+                                          "norms = ['theta_L2L2']\n" +
+                                              reference(32, "0.0125", richardson));
+        return run_study(read_scene(scene)).get<LadderResult>()->reference_remark;
+    };
+    const std::string bent = "sin(pi*x)*(0.94 - t)";
+    const std::string smooth = "sin(pi*x)*t + 0";
+    BOOST_TEST(remark_of(bent, true).find("rates jump in time") != std::string::npos,
+               remark_of(bent, true));
+    BOOST_TEST(remark_of(bent, false).ends_with("A finer one has less."), remark_of(bent, false));
+    BOOST_TEST(remark_of(smooth, true).empty(), remark_of(smooth, true));
+}
+
 // Without viscosity u_xx goes to −αθ − μ + λ(1 − x) at once. Of θ0 = 12 x (1 − x), α = 1/2 and a
 // body force of 8 that is −6 x (1 − x) − 4 (1 − x)² + λ(1 − x); with λ = 3 the tip is at −1/2.
 BOOST_AUTO_TEST_CASE(initial_data_that_are_not_in_balance_are_remarked_like_a_jump) {
