@@ -69,7 +69,7 @@ BOOST_AUTO_TEST_CASE(rows_are_compared_by_widths_cases_by_parameters_and_evoluti
         "error": 1})";
     using Names = std::set<std::string>;
     BOOST_TEST(differing(table(coarse + ", " + rows), table(rows)) ==
-                   Names{R"(columns "e": rows "h = 0.4", dt = 0.1")"},
+                   Names{R"(columns "e": rows "h = 0.4", dt = 0.1)"},
                boost::test_tools::per_element());
     const auto stress = [](const std::string& cases) {
         return R"({"schema": "tvbeam-result/1", "stress": {"cases": [)" + cases + "]}}";
