@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <string>
 
 namespace tvbeam {
 
@@ -18,14 +19,24 @@ namespace {
 
 constexpr double zero = 1e-12; // of the greatest value
 
-/// The bases of all powers that are no integers and change in time.
+std::string name_of(const ex& function) {
+    return GiNaC::ex_to<GiNaC::function>(function).get_name();
+}
+
+/// The bases of all powers that are no integers and change in time; asin and acos have one in their
+/// derivatives.
 GiNaC::exset bases_of(const PhaseExpressions& phase) {
     GiNaC::exset bases;
     for (const ex& formula : {phase.theta, phase.u})
-        for (auto part = formula.preorder_begin(); part != formula.preorder_end(); ++part)
-            if (GiNaC::is_a<GiNaC::power>(*part) && !part->op(1).info(GiNaC::info_flags::integer) &&
-                depends_on(part->op(0), model_symbols().t))
+        for (auto part = formula.preorder_begin(); part != formula.preorder_end(); ++part) {
+            if (part->nops() == 0 || !depends_on(part->op(0), model_symbols().t))
+                continue;
+            if (GiNaC::is_a<GiNaC::power>(*part) && !part->op(1).info(GiNaC::info_flags::integer))
                 bases.insert(part->op(0));
+            else if (GiNaC::is_a<GiNaC::function>(*part) &&
+                     (name_of(*part) == "asin" || name_of(*part) == "acos"))
+                bases.insert(1 - GiNaC::pow(part->op(0), 2));
+        }
     return bases;
 }
 

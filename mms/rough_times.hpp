@@ -9,8 +9,9 @@
 namespace tvbeam {
 
 /// Times within a phase, in order, at which the base of a power that is no integer is zero all over
-/// the beam, as of sqrt((t - a)^2): the rates of θ̃ and u may jump there, or have an infinite slope,
-/// and their formulas may have no value. Seen where the base is least on a grid, and zero there.
+/// the beam, as of sqrt((t - a)^2) or, in its derivative, asin(cos(t - a)): the rates of θ̃ and u
+/// may jump there, or have an infinite slope, and their formulas may have no value. Seen where the
+/// base is least on a grid, and zero there.
 std::vector<double> rough_times(const PhaseExpressions& phase, double final_time);
 
 /// How far functions jump across such a time: from a side of it to the other, at 1e-7 of a length
