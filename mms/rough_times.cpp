@@ -23,19 +23,20 @@ std::string name_of(const ex& function) {
     return GiNaC::ex_to<GiNaC::function>(function).get_name();
 }
 
-/// The bases of all powers that are no integers and change in time; asin and acos have one in their
-/// derivatives.
-GiNaC::exset bases_of(const PhaseExpressions& phase) {
-    GiNaC::exset bases;
+/// The bases of all powers that are no integers and change in time, each as its own sign of a zero.
+/// Of asin(v) and acos(v) 1 - v^2, with v_t: where v turns back from 1 or -1 the first is so flat
+/// that its zero is known to half of the digits.
+GiNaC::exmap bases_of(const PhaseExpressions& phase) {
+    GiNaC::exmap bases;
     for (const ex& formula : {phase.theta, phase.u})
         for (auto part = formula.preorder_begin(); part != formula.preorder_end(); ++part) {
             if (part->nops() == 0 || !depends_on(part->op(0), model_symbols().t))
                 continue;
             if (GiNaC::is_a<GiNaC::power>(*part) && !part->op(1).info(GiNaC::info_flags::integer))
-                bases.insert(part->op(0));
+                bases[part->op(0)] = part->op(0);
             else if (GiNaC::is_a<GiNaC::function>(*part) &&
                      (name_of(*part) == "asin" || name_of(*part) == "acos"))
-                bases.insert(1 - GiNaC::pow(part->op(0), 2));
+                bases[1 - GiNaC::pow(part->op(0), 2)] = derivative(part->op(0), model_symbols().t);
         }
     return bases;
 }
@@ -55,14 +56,18 @@ double time_of_least(const auto& size, double begin, double end) {
     return best;
 }
 
-void add_zeros(const Tape& base, double begin, double end, std::vector<double>& zeros) {
+/// tape: a base and its sign of a zero.
+void add_zeros(const Tape& tape, double begin, double end, std::vector<double>& zeros) {
     constexpr Index samples = 513;
+    constexpr double flat = 1e-7; // of the length: where what is quadratic in t is rounding
     const ArrayXd places{{0.4321, 0.8765}};
-    const auto sizes = [&](double x, const ArrayXd& t) -> ArrayXd {
-        const ArrayXd values = base.evaluate(ArrayXd::Constant(1, x), t).row(0).abs();
+    const auto sizes_of = [&](Index row, double x, const ArrayXd& t) -> ArrayXd {
+        const ArrayXd values = tape.evaluate(ArrayXd::Constant(1, x), t).row(row).abs();
         return values.isFinite().select(values, std::numeric_limits<double>::max());
     };
+    const auto sizes = [&](double x, const ArrayXd& t) { return sizes_of(0, x, t); };
     const auto size = [&](const ArrayXd& t) { return sizes(places(0), t); };
+    const auto sign = [&](const ArrayXd& t) { return sizes_of(1, places(0), t); };
     const ArrayXd times = ArrayXd::LinSpaced(samples, begin, end);
     const ArrayXd on_grid = size(times);
     for (Index k = 0; k < samples; ++k) {
@@ -70,7 +75,9 @@ void add_zeros(const Tape& base, double begin, double end, std::vector<double>& 
         const Index after = std::min(k + 1, samples - 1);
         if (on_grid(k) > on_grid(before) || on_grid(k) > on_grid(after))
             continue;
-        const ArrayXd at = ArrayXd::Constant(1, time_of_least(size, times(before), times(after)));
+        const double near = time_of_least(size, times(before), times(after));
+        const double part = flat * (end - begin);
+        const ArrayXd at = ArrayXd::Constant(1, time_of_least(sign, near - part, near + part));
         if (std::all_of(places.begin(), places.end(), [&](double x) {
                 return sizes(x, at)(0) <= zero * sizes(x, times).maxCoeff();
             }))
@@ -85,9 +92,9 @@ std::vector<double> rough_times(const PhaseExpressions& phase, double final_time
     const double begin = phase.begin_value;
     const double end = std::min(phase.end_value, final_time);
     std::vector<double> zeros;
-    for (const ex& base : bases_of(phase))
+    for (const auto& [base, sign] : bases_of(phase))
         try {
-            add_zeros(compile_tape({base}), begin, end, zeros);
+            add_zeros(compile_tape({base, sign}), begin, end, zeros);
         } catch (const AlgebraError&) {
             continue; // no doubles hold it by itself
         }

@@ -78,7 +78,7 @@ template <typename Function>
 double greatest_until(double t, const Function& of) {
     double size = 0;
     for (const double s : sample_points(0.0, t, looks))
-        if (const double found = of(s).abs().maxCoeff(); found > size)
+        if (const double found = of(s).abs().maxCoeff(); std::isfinite(found) && found > size)
             size = found;
     return size;
 }
