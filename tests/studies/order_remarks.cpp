@@ -258,9 +258,9 @@ BOOST_AUTO_TEST_CASE(how_large_one_error_is_beside_the_other_is_said_of_the_norm
                              {.part_a = 0.1, .part_b = 0.1})
             .at(1);
     };
-    BOOST_TEST(said("theta_L2L2").find("is 0.8 times as large at") != std::string::npos,
+    BOOST_TEST(said("theta_L2L2").find("is 0.80 times as large at") != std::string::npos,
                said("theta_L2L2"));
-    BOOST_TEST(said("theta_L2L2_sq").find("is 0.8 times as large before squaring at") !=
+    BOOST_TEST(said("theta_L2L2_sq").find("is 0.80 times as large before squaring at") !=
                    std::string::npos,
                said("theta_L2L2_sq"));
 }
