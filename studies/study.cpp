@@ -251,7 +251,7 @@ StudyResult on_beam(const Scene& scene, const ProblemData& data, const Defects& 
     if (scene.poses_problem())
         result.remarks = phase_remarks(scene, data);
     if (!result.remarks.empty() && solver.roughness.empty())
-        solver.roughness = "rates jump in time, or have an infinite slope, as is said of the time";
+        solver.roughness = "rates jump in time, or have an infinite slope, as is said below";
     if (result.reference && !result.reference->failure.empty())
         solver.rounding = {}; // runs of an earlier start have errors, and nothing says of what size
     if (scene.poses_problem()) {

@@ -43,7 +43,7 @@ Json::array_t list_in(const Json& json, const char* key) {
     return has ? json[key].get<Json::array_t>() : Json::array_t();
 }
 
-/// The same, for what it does to each element.
+/// Changes each element of such a list.
 void for_each_in(Json& json, const char* key, const std::function<void(Json&)>& change) {
     if (json.is_object() && json.contains(key) && json[key].is_array())
         for (auto& element : json[key])
@@ -79,8 +79,8 @@ void name_elements(Json& json) {
     });
     if (json.contains("stress"))
         for_each_in(json["stress"], "cases", [](Json& one) {
-            if (const Json parameters = one.value("parameters", Json()); parameters.is_object())
-                name_by(one, parameters, keys_of(parameters));
+            if (one.is_object() && one.contains("parameters") && one["parameters"].is_object())
+                name_by(one, one["parameters"], keys_of(one["parameters"]));
         });
     if (!json.contains("evolution"))
         return;
@@ -92,6 +92,8 @@ void name_elements(Json& json) {
     for (const char* series : {"probes", "exact"})
         if (evolution.contains(series))
             for (auto& values : evolution[series]) {
+                if (!values.is_array())
+                    continue;
                 Json by_time = Json::object();
                 for (std::size_t i = 0; i < times.size() && i < values.size(); ++i)
                     by_time["t = " + times[i].dump()] = values[i];

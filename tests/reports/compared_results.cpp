@@ -84,7 +84,13 @@ BOOST_AUTO_TEST_CASE(rows_are_compared_by_widths_cases_by_parameters_and_evoluti
     BOOST_TEST(compare_results(directory.write("a.json", evolution("0, 0.1, 0.2", "1, 2, 3")),
                                directory.write("b.json", evolution("0, 0.2", "1, 3")))
                    .results.size() == 1U);
-    // What is no list is none of its own.
+    // What is no list is none of its own, nor what holds nothing by a name.
+    const std::string damaged =
+        R"({"schema": "tvbeam-result/1", "stress": {"cases": [1, {"parameters": 2}]},
+        "evolution": {"t": [0, 1], "probes": {"u@1": 3, "energy": [1]}, "exact": 4}})";
+    BOOST_TEST(
+        compare_results(directory.write("a.json", damaged), directory.write("b.json", damaged))
+            .results.empty());
     BOOST_TEST(compare_results(directory.write("a.json", table("1")),
                                directory.write("b.json", R"({"schema": "tvbeam-result/1",
                                    "sizes": 1, "columns": {}, "stress": 1, "evolution": 2})"))
