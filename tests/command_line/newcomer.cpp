@@ -221,8 +221,11 @@ BOOST_AUTO_TEST_CASE(what_an_earlier_sweep_has_left_goes_and_what_is_not_ours_st
     BOOST_TEST((fs::exists(out / "10" / "result.json") && fs::exists(out / "100" / "table.md")));
     BOOST_TEST(directory.read("out/1/mine.txt") == "mine");
     BOOST_TEST(!fs::exists(out / "1" / "result.json"));
+    fs::rename(out / "100", directory.path() / "moved"); // and what a link leads to
+    fs::create_directory_symlink("../moved", out / "100");
     BOOST_TEST(call(directory, run).exit == 0);
-    for (const std::string gone : {"10", "100", "sweep.csv", "plots/sweep.svg"})
+    BOOST_TEST(fs::exists(directory.path() / "moved" / "result.json"));
+    for (const std::string gone : {"10", "sweep.csv", "plots/sweep.svg"})
         BOOST_TEST(!fs::exists(out / gone), gone);
     for (const std::string kept : {"11/result.json", "1/mine.txt", "result.json", "ladder.csv"})
         BOOST_TEST(fs::exists(out / kept), kept);
